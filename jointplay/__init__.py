@@ -1,0 +1,1 @@
+"""What users import and type: client, figures, command line."""

@@ -1,0 +1,1 @@
+"""Preset mechanisms, one JSON document each."""

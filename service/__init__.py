@@ -1,0 +1,1 @@
+"""HTTP: the REST API over the catalogue and the results store."""

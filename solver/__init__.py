@@ -1,0 +1,1 @@
+"""Physics of planar mechanisms: scenes, their equations, the kernels compiled from them."""

@@ -1,0 +1,1 @@
+"""Records: the catalogue of jobs and the store of their results."""

@@ -1,0 +1,1 @@
+"""Execution: joins the solver and the store, woken by Celery."""
