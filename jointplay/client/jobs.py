@@ -1,0 +1,74 @@
+"""A job as the service describes it."""
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any, Self
+
+TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a job is: simulated ``time`` in s, and ``fraction`` of the whole from 0 to 1."""
+
+    time: float
+    fraction: float
+
+
+@dataclass(frozen=True)
+class JobError:
+    """Why a job failed.
+
+    ``kind`` is "user", "solver", "platform" or "limit" (``error.class`` of the service).
+    """
+
+    kind: str
+    detail: str
+
+
+@dataclass(frozen=True)
+class Job:
+    """One job; ``job`` is its document with every default filled in."""
+
+    id: str
+    kind: str
+    label: str | None
+    state: str
+    progress: Progress
+    attempt: int
+    created: datetime
+    started: datetime | None
+    finished: datetime | None
+    error: JobError | None
+    links: dict[str, str]
+    job: dict[str, Any]
+    solver_version: str | None
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether the state will not change any more."""
+        return self.state in TERMINAL_STATES
+
+    @classmethod
+    def from_document(cls, document: dict[str, Any]) -> Self:
+        """Read the service's JSON."""
+        error = document["error"]
+        return cls(
+            id=document["id"],
+            kind=document["kind"],
+            label=document["label"],
+            state=document["state"],
+            progress=Progress(**document["progress"]),
+            attempt=document["attempt"],
+            created=datetime.fromisoformat(document["created"]),
+            started=_moment(document["started"]),
+            finished=_moment(document["finished"]),
+            error=None if error is None else JobError(error["class"], error["detail"]),
+            links=document["links"],
+            job=document["job"],
+            solver_version=document["solver_version"],
+        )
+
+
+def _moment(text: str | None) -> datetime | None:
+    return None if text is None else datetime.fromisoformat(text)
