@@ -1,5 +1,9 @@
-# make demo   the press end to end: install, start a service, simulate, fetch, draw, stop
-# make test   everything that continuous integration checks
+# make demo       a service, the press at the paper's clearances over HTTP, figures in demo/, stop
+# make test       everything that continuous integration checks
+# make test-long  the tests that take longer
+# make bench      measure speed on this machine
+# make install    only .venv with the dependencies
+# make clean      remove what the others made
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
 VENV := .venv
@@ -9,22 +13,38 @@ STAMP := $(VENV)/.installed
 help:
 	@grep -E '^# make' Makefile | cut -c3-
 
-# the newest Python of 3.11 and up that can make a virtual environment
+# The newest Python of 3.11 and up that really runs (a pyenv shim may not) and can make a
+# virtual environment (Debian's python3 without python3-venv cannot).
 $(STAMP): pyproject.toml
-	@set -e; if [ ! -x $(BIN)/python ]; then \
-	  for version in 3.14 3.13 3.12 3.11; do \
-	    python=$$(command -v python$$version || true); \
-	    if [ -n "$$python" ] && $$python -c 'import venv, ensurepip' 2>/dev/null; then chosen=$$python; break; fi; \
+	@set -e; if ! $(BIN)/python -m pip --version >/dev/null 2>&1; then \
+	  for candidate in python3.15 python3.14 python3.13 python3.12 python3.11 python3; do \
+	    if $$candidate -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; \
+	    then chosen=$$candidate; break; fi; \
 	  done; \
-	  if [ -z "$$chosen" ]; then echo "jointplay needs Python 3.11 or newer with venv: install the package python3-venv (or python3.11-venv)."; exit 2; fi; \
-	  echo "using $$($$chosen --version)"; $$chosen -m venv $(VENV); \
+	  if [ -z "$$chosen" ]; then \
+	    echo "jointplay needs Python 3.11 or newer with venv: install python3-venv (or python3.11-venv)."; exit 2; \
+	  fi; \
+	  echo "$$($$chosen --version) makes $(VENV)"; $$chosen -m venv --clear $(VENV); \
 	fi; \
+	echo "installing the dependencies into $(VENV) (a minute or two)"; \
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'; \
 	touch $(STAMP)
 
 install: $(STAMP)
 
-clean:
-	rm -rf $(VENV) demo build *.egg-info
+demo: $(STAMP)
+	@$(BIN)/jointplay demo
 
-.PHONY: help install clean
+test: $(STAMP)
+	@$(BIN)/python -m tests.everything
+
+test-long: $(STAMP)
+	@$(BIN)/python -m pytest -m long --timeout 3600
+
+bench: $(STAMP)
+	@$(BIN)/python -m benchmarks
+
+clean:
+	rm -rf $(VENV) demo build *.egg-info .jointplay .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
+
+.PHONY: help install demo test test-long bench clean

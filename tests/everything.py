@@ -1,0 +1,86 @@
+"""Everything that `make test` checks, one step after the other, with the time of each.
+
+Run as ``python -m tests.everything [STEP ...]``; without a step, all of them.
+"""
+
+import re
+import subprocess
+import sys
+import time
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+_COUNTS = re.compile(r"(\d+) (passed|failed|errors?|skipped)\b")
+
+
+@dataclass
+class Step:
+    """One command and how it ended."""
+
+    name: str
+    command: list[str]
+    counts: Counter[str] = field(default_factory=Counter)
+    seconds: float = 0.0
+    failed: bool = False
+
+    def run(self) -> None:
+        """Run the command, show its output, and remember time, outcome and pytest's counts."""
+        print(f"\n== {self.name}", flush=True)
+        start = time.monotonic()
+        with subprocess.Popen(
+            self.command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        ) as process:
+            assert process.stdout is not None
+            last = ""
+            for line in process.stdout:
+                print(line, end="", flush=True)
+                last = line if line.strip() else last
+        self.seconds = time.monotonic() - start
+        self.failed = process.returncode != 0
+        for number, outcome in _COUNTS.findall(last):
+            self.counts["failed" if outcome.startswith("error") else outcome] += int(number)
+        if self.failed and not self.counts["failed"]:
+            self.counts["failed"] = 1  # a check, or a pytest that broke off
+
+
+def steps() -> list[Step]:
+    """Return the checks of the code, then the tests, a group for each folder of tests."""
+    bin_folder = Path(sys.executable).parent
+    pytest = [sys.executable, "-m", "pytest", "-m", "not long"]
+    tests = ROOT / "tests"
+    groups = sorted(folder for folder in tests.iterdir() if any(folder.rglob("test_*.py")))
+    alone = [str(path) for path in sorted(tests.glob("test_*.py"))]
+    return [
+        Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
+        Step("lint", [str(bin_folder / "ruff"), "check", "."]),
+        Step("types", [str(bin_folder / "mypy")]),
+        Step("imports", [str(bin_folder / "lint-imports")]),
+        Step("tests", [*pytest, *alone]),
+        *(Step(f"tests/{group.name}", [*pytest, str(group)]) for group in groups),
+    ]
+
+
+def main() -> int:
+    """Run the steps and close with one line of counts."""
+    chosen = sys.argv[1:]
+    run = [step for step in steps() if not chosen or step.name in chosen]
+    if not run:
+        print("there are these steps: " + ", ".join(step.name for step in steps()))
+        return 2
+    for step in run:
+        step.run()
+    print("\nstep                     seconds")
+    for step in run:
+        print(f"{step.name:24} {step.seconds:7.1f}  {'FAILED' if step.failed else 'ok'}")
+    counts: Counter[str] = sum((step.counts for step in run), Counter())
+    print(
+        f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped "
+        f"in {sum(step.seconds for step in run):.0f} s"
+    )
+    return int(any(step.failed for step in run))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
