@@ -1,0 +1,239 @@
+"""The catalogue: which jobs there are, who computes them, what became of them.
+
+It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
+"""
+
+import time
+from collections.abc import Callable
+
+from sqlalchemy import text
+
+from storage.catalogue import holding, listing, schema, submission, upkeep
+from storage.catalogue.connections import Connections
+from storage.catalogue.identifiers import Identifiers
+from storage.catalogue.records import (
+    Attempt,
+    Block,
+    BlockState,
+    Claim,
+    Event,
+    Job,
+    JobError,
+    JobPage,
+    JobState,
+    NewJob,
+    Reaped,
+    SubmissionKey,
+    Submitted,
+    Verdict,
+    WakeUp,
+)
+from storage.catalogue.rows import find_job
+
+
+class Catalogue:
+    """One process's access to the catalogue; safe to share between threads, not across a fork.
+
+    Each method is one unit of reading or writing and is committed when it returns. Times are
+    epoch seconds (UTC).
+
+    Parameters
+    ----------
+    url
+        SQLAlchemy URL, `sqlite:///file` or `postgresql+…`.
+    clock
+        Returns the present time.
+    """
+
+    def __init__(self, url: str, *, clock: Callable[[], float] = time.time) -> None:
+        self._connections = Connections(url)
+        self._clock = clock
+        self._identifiers = Identifiers()
+
+    def migrate(self) -> None:
+        """Create the tables or bring them up to date; several processes may do it at once."""
+        with self._connections.reading() as connection:
+            if schema.present_revision(connection) == schema.REVISION:
+                return
+        with self._connections.migrating() as connection:
+            schema.upgrade(connection)
+
+    def close(self) -> None:
+        """Close every connection."""
+        self._connections.close()
+
+    def ping(self) -> None:
+        """Raise if the database does not answer or its schema is not the present one."""
+        with self._connections.reading() as connection:
+            found = connection.execute(text("SELECT version_num FROM alembic_version")).scalar()
+        if found != schema.REVISION:
+            raise RuntimeError(
+                f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
+            )
+
+    # What users ask for
+
+    def submit(self, new: NewJob, key: SubmissionKey | None = None) -> Submitted:
+        """Accept a job; it survives a power cut once this returns.
+
+        With a key that was used before the earlier job is returned, and `created` is false.
+
+        Raises
+        ------
+        KeyReused
+            The key was used before with another fingerprint.
+        """
+        now = self._clock()
+        identifier = self._identifiers.next(now)
+        with self._connections.writing(durable=True) as connection:
+            return submission.submit(connection, identifier, new, key, now)
+
+    def request_cancel(self, job: str) -> Job:
+        """Cancel a queued job at once, ask a running one to stop, leave a finished one alone.
+
+        Raises
+        ------
+        JobNotFound
+        """
+        with self._connections.writing(durable=True) as connection:
+            return submission.request_cancel(connection, job, self._clock())
+
+    def get(self, job: str) -> Job:
+        """Return a job.
+
+        Raises
+        ------
+        JobNotFound
+        """
+        with self._connections.reading() as connection:
+            return find_job(connection, job)
+
+    def jobs(
+        self,
+        *,
+        limit: int = 50,
+        after: str | None = None,
+        state: JobState | None = None,
+        kind: str | None = None,
+        label: str | None = None,
+        owner: str | None = None,
+        batch: str | None = None,
+    ) -> JobPage:
+        """Return one page of jobs, newest first; `after` is the `next` of the page before.
+
+        Raises
+        ------
+        ValueError
+            The limit is not between 1 and 1000.
+        """
+        with self._connections.reading() as connection:
+            return listing.page_of_jobs(
+                connection,
+                limit=limit,
+                after=after,
+                state=state,
+                kind=kind,
+                label=label,
+                owner=owner,
+                batch=batch,
+            )
+
+    def blocks(self, job: str) -> tuple[Block, ...]:
+        """Return a job's blocks by index."""
+        with self._connections.reading() as connection:
+            return listing.blocks_of(connection, job)
+
+    def attempts(self, job: str) -> tuple[Attempt, ...]:
+        """Return every attempt at a job's blocks."""
+        with self._connections.reading() as connection:
+            return listing.attempts_of(connection, job)
+
+    def events(self, job: str, *, after: int = 0, limit: int = 1000) -> tuple[Event, ...]:
+        """Return what happened to a job after event number `after`, in order."""
+        with self._connections.reading() as connection:
+            return listing.events_of(connection, job, after=after, limit=limit)
+
+    def same_digest(self, digest: str, owner: str = "") -> Job | None:
+        """Return the newest succeeded, unexpired job with this digest, if there is one."""
+        with self._connections.reading() as connection:
+            return listing.same_digest(connection, digest, owner, self._clock())
+
+    # What workers do
+
+    def claim_block(self, block: str, worker: str, lease: float) -> Claim | None:
+        """Take a queued block for `lease` seconds; none if there is nothing (left) to do."""
+        with self._connections.writing() as connection:
+            return holding.claim(connection, block, worker, lease, self._clock())
+
+    def verdict(self, block: str, attempt: int) -> Verdict:
+        """Return whether to go on, reading only; Fenced if the block is held no more."""
+        with self._connections.reading() as connection:
+            return holding.verdict(connection, block, attempt)
+
+    def heartbeat(self, block: str, attempt: int, lease: float) -> Verdict:
+        """Hold a block `lease` seconds longer; Fenced if it is held no more."""
+        with self._connections.writing() as connection:
+            return holding.heartbeat(connection, block, attempt, lease, self._clock())
+
+    def record_progress(
+        self, block: str, attempt: int, lease: float, *, time: float, fraction: float
+    ) -> Verdict:
+        """Heartbeat that also stores simulated time [s] and fraction (0..1); or Fenced."""
+        with self._connections.writing() as connection:
+            return holding.record_progress(
+                connection, block, attempt, lease, self._clock(), time=time, fraction=fraction
+            )
+
+    def record_checkpoint(
+        self, block: str, attempt: int, *, watermark: int, checkpoint: str
+    ) -> None:
+        """Store a checkpoint that is durable on disk; Fenced if the block is held no more."""
+        with self._connections.writing() as connection:
+            holding.record_checkpoint(
+                connection, block, attempt, watermark=watermark, checkpoint=checkpoint
+            )
+
+    def finish(
+        self, block: str, attempt: int, outcome: BlockState, error: JobError | None = None
+    ) -> JobState:
+        """End a held block (done, failed with an error, cancelled); return the job's state.
+
+        Raises
+        ------
+        Fenced
+            The block is held no more; nothing was changed.
+        """
+        with self._connections.writing(durable=True) as connection:
+            return holding.finish(connection, block, attempt, outcome, error, self._clock())
+
+    def release(self, block: str, attempt: int) -> None:
+        """Give a held block back unfinished, to be resumed; Fenced if it is held no more."""
+        with self._connections.writing() as connection:
+            holding.release(connection, block, attempt, self._clock())
+
+    # What relay and reaper do
+
+    def due_wake_ups(self, outstanding: int) -> tuple[WakeUp, ...]:
+        """Return the wake-ups to publish now; at most `outstanding` are then on their way."""
+        with self._connections.reading() as connection:
+            return upkeep.due_wake_ups(connection, outstanding, self._clock())
+
+    def mark_published(self, blocks: tuple[str, ...], republish_after: float) -> None:
+        """Remember that workers were told of these blocks."""
+        with self._connections.writing() as connection:
+            upkeep.mark_published(connection, blocks, republish_after, self._clock())
+
+    def reap(self, max_attempts: int) -> Reaped:
+        """Take blocks from workers whose lease ran out; fail what lost too many workers."""
+        with self._connections.writing(durable=True) as connection:
+            return upkeep.reap(connection, max_attempts, self._clock())
+
+    def hold_duty(self, name: str, holder: str, seconds: float) -> bool:
+        """Take or keep a duty for so many seconds; false while somebody else has it."""
+        with self._connections.writing() as connection:
+            return upkeep.hold_duty(connection, name, holder, seconds, self._clock())
+
+    def lay_down_duty(self, name: str, holder: str) -> None:
+        """Give a duty up at once."""
+        with self._connections.writing() as connection:
+            upkeep.lay_down_duty(connection, name, holder, self._clock())

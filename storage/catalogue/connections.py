@@ -1,0 +1,92 @@
+"""Connections to the catalogue's database, and how a unit of reading or writing begins.
+
+SQLite: one write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A deferred BEGIN
+that reads first and writes later fails at once under contention, whatever the busy timeout says.
+"""
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
+
+_BUSY_TIMEOUT_MS = 30_000
+
+
+class Connections:
+    """The engines of one process. Writing units of one process take turns, without the lock.
+
+    Parameters
+    ----------
+    url
+        SQLAlchemy URL. For SQLite a file, whose folder is created.
+    """
+
+    def __init__(self, url: str) -> None:
+        parsed = make_url(url)
+        self._sqlite = parsed.get_backend_name() == "sqlite"
+        if self._sqlite:
+            if not parsed.database or parsed.database == ":memory:":
+                raise ValueError(
+                    f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}"
+                )
+            Path(parsed.database).parent.mkdir(parents=True, exist_ok=True)
+        self._readers = self._engine(url, "NORMAL", "BEGIN")
+        self._writer = self._engine(url, "NORMAL", "BEGIN IMMEDIATE")
+        # what a submission answers with 202 must survive a power cut; progress need not
+        self._durable_writer = self._engine(url, "FULL", "BEGIN IMMEDIATE")
+        self._turn = threading.Lock()
+
+    def _engine(
+        self, url: str, synchronous: Literal["NORMAL", "FULL"], begin_statement: str
+    ) -> Engine:
+        if not self._sqlite:
+            return create_engine(url, pool_pre_ping=True)
+        engine = create_engine(url)
+
+        @event.listens_for(engine, "connect")
+        def _configure(dbapi_connection: Any, _record: object) -> None:
+            dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
+            cursor = dbapi_connection.cursor()
+            for pragma in (
+                f"busy_timeout={_BUSY_TIMEOUT_MS}",
+                "journal_mode=WAL",
+                f"synchronous={synchronous}",
+                "foreign_keys=ON",
+            ):
+                cursor.execute(f"PRAGMA {pragma}")
+            cursor.close()
+
+        @event.listens_for(engine, "begin")
+        def _begin(connection: Connection) -> None:
+            connection.exec_driver_sql(begin_statement)
+
+        return engine
+
+    @contextmanager
+    def reading(self) -> Iterator[Connection]:
+        """Open a consistent view of the database."""
+        with self._readers.begin() as connection:
+            yield connection
+
+    @contextmanager
+    def writing(self, *, durable: bool = False) -> Iterator[Connection]:
+        """Begin a writing unit, committed at the end; `durable`: it survives a power cut."""
+        engine = self._durable_writer if durable else self._writer
+        with self._turn, engine.begin() as connection:
+            yield connection
+
+    @contextmanager
+    def migrating(self) -> Iterator[Connection]:
+        """Begin a writing unit that no other process can enter while it lasts."""
+        with self.writing(durable=True) as connection:
+            if not self._sqlite:
+                connection.execute(text("SELECT pg_advisory_xact_lock(7411)"))
+            yield connection
+
+    def close(self) -> None:
+        """Close every connection of this process."""
+        for engine in (self._readers, self._writer, self._durable_writer):
+            engine.dispose()

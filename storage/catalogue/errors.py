@@ -1,0 +1,30 @@
+"""What can go wrong with a request to the catalogue; nothing here knows HTTP."""
+
+
+class CatalogueError(Exception):
+    """Base of the catalogue's own errors."""
+
+
+class JobNotFound(CatalogueError):
+    """No job has this id."""
+
+    def __init__(self, job: str) -> None:
+        super().__init__(f"there is no job {job!r}")
+        self.job = job
+
+
+class KeyReused(CatalogueError):
+    """An idempotency key came back with a different request."""
+
+    def __init__(self, key: str) -> None:
+        super().__init__(
+            f"the idempotency key {key!r} was used for a different request; use a new key"
+        )
+        self.key = key
+
+
+class Fenced(CatalogueError):
+    """The block is no longer this attempt's: stop, write nothing, report nothing."""
+
+    def __init__(self, block: str, attempt: int) -> None:
+        super().__init__(f"attempt {attempt} does not hold block {block} (any more)")

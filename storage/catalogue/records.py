@@ -1,0 +1,197 @@
+"""The catalogue's records as its callers see them. All times are epoch seconds, UTC."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Literal
+
+ErrorClass = Literal["user", "solver", "platform", "limit"]
+
+
+class JobState(StrEnum):
+    """What a job is doing. Legal steps are listed in `LEGAL_STEPS`."""
+
+    queued = "queued"
+    running = "running"
+    cancelling = "cancelling"
+    succeeded = "succeeded"
+    failed = "failed"
+    cancelled = "cancelled"
+
+    @property
+    def terminal(self) -> bool:
+        """Whether the job will never change again."""
+        return self in (JobState.succeeded, JobState.failed, JobState.cancelled)
+
+
+# A cancelling job may still succeed: its last block may be done before it sees the request.
+LEGAL_STEPS: Mapping[JobState, frozenset[JobState]] = {
+    JobState.queued: frozenset({JobState.running, JobState.cancelled}),
+    JobState.running: frozenset({JobState.cancelling, JobState.succeeded, JobState.failed}),
+    JobState.cancelling: frozenset({JobState.cancelled, JobState.succeeded, JobState.failed}),
+    JobState.succeeded: frozenset(),
+    JobState.failed: frozenset(),
+    JobState.cancelled: frozenset(),
+}
+
+
+class BlockState(StrEnum):
+    """What a block is doing; a lost or released one goes from running back to queued."""
+
+    queued = "queued"
+    running = "running"
+    done = "done"
+    failed = "failed"
+    cancelled = "cancelled"
+
+
+class Verdict(StrEnum):
+    """What a worker is told when it reports."""
+
+    go_on = "continue"
+    cancel = "cancel"
+
+
+@dataclass(frozen=True)
+class JobError:
+    """Why a job failed: who can do something about it, a code for programs, a sentence."""
+
+    error_class: ErrorClass
+    code: str
+    detail: str
+    time: float | None = (
+        None  # simulated time [s] at which it happened, if that means something
+    )
+
+
+@dataclass(frozen=True)
+class NewJob:
+    """A checked job about to be submitted; `blocks` are (first, count) of its units of work."""
+
+    kind: str
+    spec: dict[str, Any]
+    digest: str
+    solver_version: str
+    result_schema: int = 1
+    owner: str = ""
+    label: str | None = None
+    batch: str | None = None
+    expires: float | None = None
+    blocks: tuple[tuple[int, int], ...] = ((0, 1),)
+
+
+@dataclass(frozen=True)
+class SubmissionKey:
+    """An idempotency key: the same key and fingerprint return the job of the first request."""
+
+    owner: str
+    key: str
+    fingerprint: str
+    seconds: float = 86_400.0  # how long the key is remembered
+
+
+@dataclass(frozen=True)
+class Job:
+    """One job. `attempt` counts from 1 and names its results folder; 0: never started."""
+
+    id: str
+    kind: str
+    owner: str
+    label: str | None
+    batch: str | None
+    spec: dict[str, Any]
+    digest: str
+    solver_version: str
+    result_schema: int
+    state: JobState
+    progress_time: float  # simulated seconds
+    progress_fraction: float  # 0..1
+    attempt: int
+    error: JobError | None
+    created: float
+    started: float | None
+    finished: float | None
+    expires: float | None
+
+
+@dataclass(frozen=True)
+class Submitted:
+    """Answer to a submission; `created` is false if an idempotency key found an earlier job."""
+
+    job: Job
+    created: bool
+
+
+@dataclass(frozen=True)
+class JobPage:
+    """One page of jobs, newest first; `next` is the `after` of the following page, if any."""
+
+    jobs: tuple[Job, ...]
+    next: str | None
+
+
+@dataclass(frozen=True)
+class Block:
+    """What is claimed, leased, fenced and resumed: values `first` .. `first + count - 1`."""
+
+    id: str
+    job: str
+    index: int
+    first: int
+    count: int
+    state: BlockState
+    attempt: int
+    losses: int  # attempts whose worker was lost, which is what max_attempts limits
+    lease_until: float | None
+    worker: str | None
+    watermark: int  # samples (or values) that are durable in the results store
+    checkpoint: str | None  # path of the checkpoint below the job's results folder
+    progress_time: float
+    progress_fraction: float
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One try at a block; `outcome` is none while it runs, later a word."""
+
+    block: str
+    number: int
+    worker: str
+    started: float
+    ended: float | None
+    outcome: str | None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A block this worker holds now, with its job."""
+
+    block: Block
+    job: Job
+
+
+@dataclass(frozen=True)
+class Event:
+    """One thing that happened to a job; `seq` counts from 1 without gaps."""
+
+    job: str
+    seq: int
+    time: float
+    type: str
+    data: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class WakeUp:
+    """A queued block of which a worker has to be told, on which Celery queue."""
+
+    block: str
+    queue: str
+
+
+@dataclass(frozen=True)
+class Reaped:
+    """What the reaper did: blocks queued again, and jobs it ended."""
+
+    requeued: tuple[str, ...]
+    ended: tuple[str, ...]

@@ -1,0 +1,134 @@
+"""The catalogue's tables. The migrations build them; a test keeps the two identical."""
+
+from sqlalchemy import (
+    JSON,
+    BigInteger,
+    Column,
+    Float,
+    ForeignKey,
+    Index,
+    Integer,
+    MetaData,
+    PrimaryKeyConstraint,
+    String,
+    Table,
+    Text,
+    UniqueConstraint,
+)
+
+metadata = MetaData(
+    naming_convention={
+        "pk": "pk_%(table_name)s",
+        "fk": "fk_%(table_name)s_%(column_0_name)s",
+        "uq": "uq_%(table_name)s_%(column_0_name)s",
+        "ix": "ix_%(table_name)s_%(column_0_name)s",
+    }
+)
+
+job = Table(
+    "job",
+    metadata,
+    Column("id", String(26), primary_key=True),
+    Column("kind", String(32), nullable=False),
+    Column("owner", String(64), nullable=False),
+    Column("label", Text),
+    Column("batch", String(26)),
+    Column("spec", JSON, nullable=False),
+    Column("digest", String(64), nullable=False),
+    Column("solver_version", String(64), nullable=False),
+    Column("result_schema", Integer, nullable=False),
+    Column("state", String(10), nullable=False),
+    Column("progress_time", Float(53), nullable=False),
+    Column("progress_fraction", Float(53), nullable=False),
+    Column("attempt", Integer, nullable=False),
+    Column("error", JSON(none_as_null=True)),
+    Column("created", Float(53), nullable=False),
+    Column("started", Float(53)),
+    Column("finished", Float(53)),
+    Column("expires", Float(53)),
+    # each list filter with the paging key behind it
+    Index("ix_job_state_id", "state", "id"),
+    Index("ix_job_owner_id", "owner", "id"),
+    Index("ix_job_batch_id", "batch", "id"),
+    Index("ix_job_digest_id", "digest", "id"),
+    Index("ix_job_expires", "expires"),
+)
+
+block = Table(
+    "block",
+    metadata,
+    Column("id", String(40), primary_key=True),
+    Column("job", ForeignKey("job.id", ondelete="CASCADE"), nullable=False),
+    Column("index", Integer, nullable=False),
+    Column("first", BigInteger, nullable=False),
+    Column("count", BigInteger, nullable=False),
+    Column("state", String(10), nullable=False),
+    Column("attempt", Integer, nullable=False),
+    Column("losses", Integer, nullable=False),
+    Column("lease_until", Float(53)),
+    Column("worker", String(200)),
+    Column("watermark", BigInteger, nullable=False),
+    Column("checkpoint", Text),
+    Column("progress_time", Float(53), nullable=False),
+    Column("progress_fraction", Float(53), nullable=False),
+    UniqueConstraint("job", "index"),
+    Index("ix_block_state_lease_until", "state", "lease_until"),
+)
+
+attempt = Table(
+    "attempt",
+    metadata,
+    Column("block", ForeignKey("block.id", ondelete="CASCADE"), nullable=False),
+    Column("number", Integer, nullable=False),
+    Column("worker", String(200), nullable=False),
+    Column("started", Float(53), nullable=False),
+    Column("ended", Float(53)),
+    Column("outcome", String(16)),
+    PrimaryKeyConstraint("block", "number"),
+)
+
+event = Table(
+    "event",
+    metadata,
+    Column("job", ForeignKey("job.id", ondelete="CASCADE"), nullable=False),
+    Column("seq", Integer, nullable=False),
+    Column("time", Float(53), nullable=False),
+    Column("type", String(32), nullable=False),
+    Column("data", JSON, nullable=False),
+    PrimaryKeyConstraint("job", "seq"),
+)
+
+# One row for each queued block, until it is claimed: what workers still have to be told.
+outbox = Table(
+    "outbox",
+    metadata,
+    Column("block", ForeignKey("block.id", ondelete="CASCADE"), primary_key=True),
+    Column("queue", String(32), nullable=False),
+    Column("created", Float(53), nullable=False),
+    Column("due", Float(53), nullable=False),
+    Column("tries", Integer, nullable=False),
+    Index("ix_outbox_due", "due"),
+)
+
+idempotency = Table(
+    "idempotency",
+    metadata,
+    Column("owner", String(64), nullable=False),
+    Column("key", String(255), nullable=False),
+    Column("fingerprint", String(64), nullable=False),
+    Column("job", ForeignKey("job.id", ondelete="CASCADE")),
+    Column("batch", String(26)),
+    Column("created", Float(53), nullable=False),
+    Column("expires", Float(53), nullable=False),
+    PrimaryKeyConstraint("owner", "key"),
+    Index("ix_idempotency_expires", "expires"),
+)
+
+# Who does a duty that only one process should do at a time; the migration inserts the duties.
+duty = Table(
+    "duty",
+    metadata,
+    Column("name", String(32), primary_key=True),
+    Column("holder", String(200), nullable=False),
+    Column("until", Float(53), nullable=False),
+)

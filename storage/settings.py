@@ -1,0 +1,103 @@
+"""Settings all processes of the service share, read from ``JOINTPLAY_*`` in the environment."""
+
+from pathlib import Path
+from typing import Self
+
+from pydantic import Field, model_validator
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+
+class Settings(BaseSettings):
+    """Where things are, and how patient the platform is; all durations are in seconds.
+
+    A lease must outlive several heartbeats, otherwise one slow disk write looks like a death.
+    """
+
+    model_config = SettingsConfigDict(
+        env_prefix="JOINTPLAY_", frozen=True, extra="forbid", allow_inf_nan=False
+    )
+
+    data: Path = Field(
+        default=Path(".jointplay"),
+        description="Folder of the catalogue, the results, the logs.",
+    )
+    catalogue_url: str = Field(
+        default="",
+        description="SQLAlchemy URL of the catalogue; empty: SQLite inside the data folder.",
+    )
+    redis_url: str | None = Field(
+        default=None,
+        description="redis://host:port/0 or unix:///path; none: `jointplay serve` starts one.",
+    )
+    lease: float = Field(
+        default=30.0,
+        gt=0,
+        le=3600,
+        description="A block whose worker is silent this long is lost.",
+    )
+    heartbeat: float = Field(
+        default=5.0, gt=0, le=600, description="A worker extends its lease this often."
+    )
+    progress_period: float = Field(
+        default=1.0,
+        gt=0,
+        le=600,
+        description="Progress and checkpoints are recorded this often.",
+    )
+    reaper_period: float = Field(
+        default=1.0, gt=0, le=600, description="Expired leases are looked for this often."
+    )
+    relay_period: float = Field(
+        default=0.5,
+        gt=0,
+        le=600,
+        description="The relay looks for work this often if not woken.",
+    )
+    republish_after: float = Field(
+        default=20.0,
+        gt=0,
+        le=3600,
+        description="A wake-up nobody acted on is sent again after this long.",
+    )
+    relay_outstanding: int = Field(
+        default=256,
+        ge=1,
+        le=100_000,
+        description="Wake-ups that may wait in Redis at one time.",
+    )
+    max_attempts: int = Field(
+        default=3,
+        ge=1,
+        le=100,
+        description="A block that lost its worker this often has failed.",
+    )
+    stall: float = Field(
+        default=600.0,
+        gt=0,
+        le=86_400,
+        description="A worker process that advances nothing for this long kills itself.",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _catalogue_beside_the_data(cls, values: dict[str, object]) -> dict[str, object]:
+        data = Path(str(values.get("data") or cls.model_fields["data"].default)).absolute()
+        url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
+        return values | {"data": data, "catalogue_url": url}
+
+    @model_validator(mode="after")
+    def _lease_outlives_heartbeats(self) -> Self:
+        if self.lease < 2 * self.heartbeat:
+            raise ValueError(
+                f"JOINTPLAY_LEASE is {self.lease:g} s; it must be at least twice"
+                f" JOINTPLAY_HEARTBEAT ({self.heartbeat:g} s)"
+            )
+        return self
+
+    def result_folder(self, job: str, attempt: int) -> Path:
+        """Folder of one attempt's results store.
+
+        Grouped by the last two characters of the job's id: the first ones are its date, and
+        would put every job of a year into one folder.
+        """
+        return self.data / "results" / job[-2:] / job / f"a{attempt}"
