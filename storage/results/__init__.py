@@ -1,0 +1,38 @@
+"""Results of one attempt of a job: a Zarr v3 store that is written shard by shard.
+
+`ResultWriter` fills a store, `ResultReader` reads it, also while it grows; `ResultLayout` says
+what it holds. The package stores named columns over time and knows nothing of their meaning.
+"""
+
+from storage.results.errors import (
+    CheckpointMismatch,
+    CorruptStore,
+    InvalidAppend,
+    InvalidLayout,
+    NotAStore,
+    ResultsError,
+    StoreExists,
+    StoreSealed,
+    UnknownChannel,
+)
+from storage.results.layout import IMPACT, ArraySpec, Peak, ResultLayout
+from storage.results.reader import ResultReader
+from storage.results.writer import ResultWriter
+
+__all__ = [
+    "IMPACT",
+    "ArraySpec",
+    "CheckpointMismatch",
+    "CorruptStore",
+    "InvalidAppend",
+    "InvalidLayout",
+    "NotAStore",
+    "Peak",
+    "ResultLayout",
+    "ResultReader",
+    "ResultWriter",
+    "ResultsError",
+    "StoreExists",
+    "StoreSealed",
+    "UnknownChannel",
+]

@@ -1,0 +1,41 @@
+"""What can go wrong with a results store."""
+
+
+class ResultsError(Exception):
+    """Base of every error of this package; its text is a full sentence."""
+
+
+class InvalidLayout(ResultsError):
+    """The layout names something that a store cannot hold."""
+
+
+class InvalidAppend(ResultsError):
+    """Rows do not continue where the last ones ended, or do not fit the layout."""
+
+
+class StoreExists(ResultsError):
+    """The folder already holds a store; a store is written once."""
+
+
+class StoreSealed(ResultsError):
+    """The store has been sealed and takes no more rows."""
+
+
+class NotAStore(ResultsError):
+    """The folder holds no results store that this version can read."""
+
+
+class CorruptStore(ResultsError):
+    """The files are not those that the manifest or the checkpoint speaks of."""
+
+
+class CheckpointMismatch(ResultsError):
+    """The checkpoint belongs to another layout, or to a folder that lacks its rows."""
+
+
+class UnknownChannel(ResultsError):
+    """A channel was asked for that the store does not have."""
+
+    def __init__(self, name: str, known: tuple[str, ...]) -> None:
+        super().__init__(f"there is no channel {name!r}; the channels are {', '.join(known)}")
+        self.name = name

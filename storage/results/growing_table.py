@@ -1,0 +1,115 @@
+"""Rows of one table on their way to the disk: buffered until a whole shard of them is there."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results import shards
+from storage.results.durable import DurableFolder
+from storage.results.errors import CheckpointMismatch, InvalidAppend
+from storage.results.tables import Table
+
+Columns = Sequence[NDArray[Any]]
+
+
+class GrowingTable:
+    """One table being written: `rows` were appended, `durable` of them are in shards.
+
+    What is on the disk depends on the rows alone, never on how appending was sliced.
+
+    Parameters
+    ----------
+    table
+        Columns and shard size.
+    folder
+        Where shards are written.
+    """
+
+    def __init__(self, table: Table, folder: DurableFolder) -> None:
+        self.table = table
+        self.durable = 0
+        self.rows = 0
+        self._folder = folder
+        self._shard_rows = table.shard_rows
+        self._buffers = [np.empty(self._shard_rows, column.dtype) for column in table.columns]
+
+    def append(self, columns: Columns) -> None:
+        """Add rows, writing every shard that fills up.
+
+        Parameters
+        ----------
+        columns
+            One (k,) array a column, in the order of the table.
+        """
+        count = len(columns[0])
+        taken = 0
+        while taken < count:
+            start = self.rows - self.durable
+            step = min(self._shard_rows - start, count - taken)
+            for buffer, column in zip(self._buffers, columns, strict=True):
+                buffer[start : start + step] = column[taken : taken + step]
+            taken += step
+            self.rows += step
+            if self.rows - self.durable == self._shard_rows:
+                self._write_shard()
+
+    def check_capacity(self, count: int) -> None:
+        """Raise `InvalidAppend` if that many more rows are more than the layout has."""
+        capacity = self.table.capacity
+        if capacity is not None and self.rows + count > capacity:
+            raise InvalidAppend(
+                f"{self.rows} + {count} {self.table.dimension}s are more than the {capacity} "
+                "of the layout"
+            )
+
+    def pending(self, first: int | None = None) -> list[NDArray[Any]]:
+        """Give views of the rows not yet in a shard, from row `first` (default: all)."""
+        start = 0 if first is None else max(first - self.durable, 0)
+        stop = self.rows - self.durable
+        return [buffer[start:stop] for buffer in self._buffers]
+
+    def take_over(self, source: Path, durable: int) -> None:
+        """Begin with the first `durable` rows of the same table of another store.
+
+        Raises
+        ------
+        CheckpointMismatch
+            A shard of these rows is not there.
+        """
+        for key in self.shard_keys(0, durable // self._shard_rows):
+            try:
+                self._folder.adopt(key, source / key)
+            except FileNotFoundError as error:
+                raise CheckpointMismatch(
+                    f"{source / key} is gone, which the checkpoint builds on"
+                ) from error
+        self._folder.commit()
+        self.rows = self.durable = durable
+
+    def finish(self) -> None:
+        """Write the rows of a shard that will not fill any more."""
+        if self.rows > self.durable:
+            self._write_shard()
+
+    def shard_keys(self, first: int, stop: int) -> list[str]:
+        """Name the files that hold shards `first` to `stop` - 1 of every column."""
+        return [
+            f"{self.table.key(column.name)}/c/{index}"
+            for index in range(first, stop)
+            for column in self.table.columns
+        ]
+
+    def _write_shard(self) -> None:
+        index = self.durable // self._shard_rows
+        keys = self.shard_keys(index, index + 1)
+        for key, column, rows in zip(keys, self.table.columns, self.pending(), strict=True):
+            if key == keys[-1]:
+                # readers take the last column's shard for the sign that all others are there
+                self._folder.commit()
+            content = shards.encode(rows, self.table.chunk_rows, self._shard_rows, column.fill)
+            self._folder.write(key, content)
+        self._folder.commit()
+        self.durable = self.rows

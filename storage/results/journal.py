@@ -1,0 +1,172 @@
+"""Rows that wait for their shard, kept on the disk so that a checkpoint stays small.
+
+One file per generation below `.journal`; a generation begins with all rows that wait at its
+first checkpoint and grows by what is appended between checkpoints; a written shard starts the
+next one. So no generation holds more than the buffers of the tables.
+"""
+
+import hashlib
+import json
+import os
+import struct
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from storage.results.errors import CheckpointMismatch, CorruptStore
+from storage.results.growing_table import GrowingTable
+
+FOLDER: Final = ".journal"
+_KEPT_GENERATIONS: Final = 3
+_ROWS: Final = struct.Struct("<Q")
+_FORMAT: Final = 1
+
+
+class Journal:
+    """Makes checkpoints of growing tables.
+
+    Parameters
+    ----------
+    root
+        Folder of the store.
+    layout_digest
+        Goes into every checkpoint, to be compared when one is resumed.
+    generation
+        Number of the last generation that exists.
+    """
+
+    def __init__(self, root: Path, layout_digest: str, generation: int = 0) -> None:
+        self._folder = root / FOLDER
+        self._layout_digest = layout_digest
+        self._generation = generation
+        self._size = 0
+        self._hash = hashlib.sha256()
+        self._durable: list[int] | None = None
+        self._journalled: list[int] = []
+
+    def checkpoint(self, tables: Sequence[GrowingTable]) -> bytes:
+        """Bring the waiting rows to the disk and return what finds them again."""
+        durable = [table.durable for table in tables]
+        if durable != self._durable:
+            self._begin(durable)
+        frame = b"".join(
+            part
+            for table, first in zip(tables, self._journalled, strict=True)
+            for part in _frame(table, first)
+        )
+        path = self._path(self._generation)
+        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
+        try:
+            view = memoryview(frame)
+            offset = self._size
+            while view:
+                written = os.pwrite(descriptor, view, offset)
+                view, offset = view[written:], offset + written
+            os.ftruncate(descriptor, offset)
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+        if self._size == 0:
+            _sync_folders(self._folder)
+        self._size += len(frame)
+        self._hash.update(frame)
+        self._journalled = [table.rows for table in tables]
+        token = {
+            "format": _FORMAT,
+            "layout": self._layout_digest,
+            "generation": self._generation,
+            "size": self._size,
+            "sha256": self._hash.hexdigest(),
+            "durable": durable,
+        }
+        return json.dumps(token).encode()
+
+    def _begin(self, durable: list[int]) -> None:
+        self._folder.mkdir(exist_ok=True)
+        self._generation += 1
+        self._size = 0
+        self._hash = hashlib.sha256()
+        self._durable = durable
+        self._journalled = list(durable)
+        self._path(self._generation - _KEPT_GENERATIONS).unlink(missing_ok=True)
+
+    def _path(self, generation: int) -> Path:
+        return self._folder / f"{generation:08d}"
+
+
+class Checkpoint:
+    """A checkpoint read back.
+
+    Raises
+    ------
+    CheckpointMismatch
+        The bytes are no checkpoint of a store with this layout.
+    """
+
+    def __init__(self, content: bytes, layout_digest: str) -> None:
+        try:
+            token: dict[str, Any] = json.loads(content)
+            known = token["format"] == _FORMAT
+            self.generation = int(token["generation"])
+            self.durable = [int(rows) for rows in token["durable"]]
+            self._size = int(token["size"])
+            self._sha256 = str(token["sha256"])
+        except (ValueError, KeyError, TypeError) as error:
+            raise CheckpointMismatch(
+                "these bytes are no checkpoint of a results store"
+            ) from error
+        if not known or token["layout"] != layout_digest:
+            raise CheckpointMismatch(
+                "the checkpoint belongs to a store with other channels, counts or joints"
+            )
+
+    def replay(self, root: Path, tables: Sequence[GrowingTable]) -> None:
+        """Append the rows that waited at the checkpoint, from the journal below `root`.
+
+        Raises
+        ------
+        CheckpointMismatch
+            The journal is not there.
+        CorruptStore
+            It is not the one that the checkpoint describes.
+        """
+        path = root / FOLDER / f"{self.generation:08d}"
+        try:
+            with path.open("rb") as file:
+                content = file.read(self._size)
+        except FileNotFoundError as error:
+            raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
+        if hashlib.sha256(content).hexdigest() != self._sha256:
+            raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
+        view = memoryview(content)
+        while view:
+            for table in tables:
+                view = _replay_frame(view, table)
+
+
+def _frame(table: GrowingTable, first: int) -> list[bytes]:
+    columns = [column.tobytes() for column in table.pending(first)]
+    return [_ROWS.pack(table.rows - first), *columns]
+
+
+def _replay_frame(view: memoryview, table: GrowingTable) -> memoryview:
+    (rows,) = _ROWS.unpack_from(view)
+    view = view[_ROWS.size :]
+    columns = []
+    for column in table.table.columns:
+        size = rows * column.dtype.itemsize
+        columns.append(np.frombuffer(view[:size], column.dtype))
+        view = view[size:]
+    table.append(columns)
+    return view
+
+
+def _sync_folders(folder: Path) -> None:
+    for path in (folder, folder.parent):
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)

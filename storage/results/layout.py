@@ -1,0 +1,118 @@
+"""What a results store holds: named columns with units, and how many rows of each."""
+
+import json
+import re
+from dataclasses import dataclass, field
+from hashlib import sha256
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from storage.results.errors import InvalidLayout
+
+TIME: Final = "time"
+GROUPS: Final = ("poincare", "peaks", "impacts")
+MANIFEST: Final = "MANIFEST.json"
+SCHEMA_VERSION: Final = 1
+
+_RESERVED: Final = frozenset({TIME, "c", *GROUPS})
+# also what a key of the store may look like when it is served
+_NAME: Final = re.compile(r"(?!\.)[A-Za-z0-9_.-]{1,64}")
+
+IMPACT: Final = np.dtype(
+    [
+        ("joint", "<i4"),
+        ("onset", "<f8"),
+        ("release", "<f8"),
+        ("approach_rate", "<f8"),
+        ("peak_force", "<f8"),
+        ("impulse", "<f8"),
+    ]
+)
+"""One contact: joint (index into `ResultLayout.joints`), onset and release [s] (NaN where it
+had not ended), approach rate [m/s], peak force [N], impulse [N s]."""
+
+
+class Peak(NamedTuple):
+    """Signed extremes of one channel, in its unit, each with its time [s]."""
+
+    minimum: float
+    minimum_time: float
+    maximum: float
+    maximum_time: float
+
+
+@dataclass(frozen=True)
+class ArraySpec:
+    """One channel: its name, its SI unit ("1" for a pure number) and a few words of meaning."""
+
+    name: str
+    unit: str
+    long_name: str
+
+
+@dataclass(frozen=True)
+class ResultLayout:
+    """Everything that fixes the shape of a store before the first row is known.
+
+    Parameters
+    ----------
+    channels
+        Columns of the history and of the Poincare sections, in this order.
+    samples
+        Rows of a history that runs to its end.
+    sections
+        Poincare sections of a run that comes to its end; 0 where there are none.
+    joints
+        Names of the joints that impacts refer to by index.
+    attributes
+        JSON document for the root group: the filled-in job, versions, the digest.
+
+    Raises
+    ------
+    InvalidLayout
+        A name that a store cannot hold or that occurs twice, a negative count, or attributes
+        that JSON cannot carry.
+    """
+
+    channels: tuple[ArraySpec, ...]
+    samples: int
+    sections: int
+    joints: tuple[str, ...]
+    attributes: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        seen: set[str] = set()
+        for channel in self.channels:
+            if not _NAME.fullmatch(channel.name) or channel.name.endswith(
+                (".json", ".partial")
+            ):
+                raise InvalidLayout(
+                    f"{channel.name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
+                    "'.' and '-', not starting with '.' and not ending in .json or .partial"
+                )
+            if channel.name in _RESERVED:
+                raise InvalidLayout(
+                    f"{channel.name!r} cannot name a channel: the store uses that name itself"
+                )
+            if channel.name in seen:
+                raise InvalidLayout(f"channel {channel.name!r} occurs twice; names are unique")
+            seen.add(channel.name)
+        if self.samples < 0 or self.sections < 0:
+            raise InvalidLayout("samples and sections are counts and cannot be negative")
+        try:
+            json.dumps(self.attributes, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise InvalidLayout(f"attributes must be finite JSON values: {error}") from error
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 over the arrays (not the attributes): two runs with it can share shards."""
+        shape = [
+            SCHEMA_VERSION,
+            [[channel.name, channel.unit, channel.long_name] for channel in self.channels],
+            self.samples,
+            self.sections,
+            list(self.joints),
+        ]
+        return sha256(json.dumps(shape).encode()).hexdigest()

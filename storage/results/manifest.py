@@ -1,0 +1,76 @@
+"""The list of a sealed store's files, written last: a store that has it is all on the disk."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+from storage.results.durable import DurableFolder, Record, measure
+from storage.results.errors import CorruptStore, NotAStore
+from storage.results.layout import MANIFEST, SCHEMA_VERSION
+
+_MOST_NAMED = 5
+
+
+def seal(folder: DurableFolder) -> None:
+    """Write the manifest of everything below the folder and make it durable."""
+    files = {
+        key: {"bytes": record.size, "sha256": record.digest}
+        for key, record in ((key, folder.record(key)) for key in sorted(keys(folder.root)))
+    }
+    document = {"result_schema": SCHEMA_VERSION, "files": files}
+    folder.write(MANIFEST, json.dumps(document, indent=0).encode())
+    folder.commit()
+
+
+def keys(root: Path) -> Iterator[str]:
+    """List every file below the folder but the manifest itself, as path with slashes."""
+    for path in root.rglob("*"):
+        if path.is_file() and path != root / MANIFEST:
+            yield path.relative_to(root).as_posix()
+
+
+def read(root: Path) -> dict[str, Record]:
+    """Read which files a sealed store has.
+
+    Raises
+    ------
+    NotAStore
+        There is no manifest, or none that can be read.
+    """
+    try:
+        document = json.loads((root / MANIFEST).read_bytes())
+        return {
+            key: Record(entry["bytes"], entry["sha256"])
+            for key, entry in document["files"].items()
+        }
+    except FileNotFoundError as error:
+        raise NotAStore(f"{root} has no {MANIFEST}: it was never sealed") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise NotAStore(f"{root / MANIFEST} cannot be read: {error}") from error
+
+
+def verify(root: Path) -> None:
+    """Compare every file with the manifest.
+
+    Raises
+    ------
+    NotAStore
+        The store was never sealed.
+    CorruptStore
+        Files are missing, differ, or have been added; the sentence names the first of them.
+    """
+    expected = read(root)
+    present = set(keys(root))
+    findings = [f"{key} is missing" for key in expected if key not in present]
+    findings += [f"{key} was added" for key in sorted(present - expected.keys())]
+    findings += [
+        f"{key} has other bytes"
+        for key, record in expected.items()
+        if key in present and measure(root / key) != record
+    ]
+    if findings:
+        rest = len(findings) - _MOST_NAMED
+        more = f" and {rest} more" if rest > 0 else ""
+        raise CorruptStore(
+            f"{root} is not what was sealed: {'; '.join(findings[:_MOST_NAMED])}{more}"
+        )

@@ -1,0 +1,211 @@
+"""Read a results store with stock zarr, also while it is being written."""
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import zarr
+from numpy.typing import NDArray
+
+from storage.results import manifest
+from storage.results.errors import NotAStore, UnknownChannel
+from storage.results.layout import (
+    IMPACT,
+    MANIFEST,
+    SCHEMA_VERSION,
+    TIME,
+    ArraySpec,
+    Peak,
+)
+
+Floats = NDArray[np.float64]
+
+
+class ResultReader:
+    """One store, sealed or growing.
+
+    Parameters
+    ----------
+    path
+        Folder of the store.
+    watermark
+        Samples that may be read while the store grows; by default those that are on the disk.
+        A sealed store shows all it has.
+
+    Raises
+    ------
+    NotAStore
+        There is no store, or one of a schema that this version does not know.
+    """
+
+    def __init__(self, path: Path, watermark: int | None = None) -> None:
+        self.path = Path(path)
+        try:
+            self._root = zarr.open_group(self.path, mode="r", zarr_format=3)
+        except (FileNotFoundError, ValueError, KeyError, TypeError) as error:
+            raise NotAStore(f"{self.path} holds no results store") from error
+        self.attributes: dict[str, Any] = dict(self._root.attrs)
+        schema = self.attributes.get("result_schema")
+        if schema != SCHEMA_VERSION:
+            raise NotAStore(
+                f"{self.path} has result schema {schema}; this version reads {SCHEMA_VERSION}"
+            )
+        self.sealed = (self.path / MANIFEST).exists()
+        """Nothing will be added any more."""
+        self.complete = bool(self.attributes["complete"])
+        """The run came to its end; False while it runs and when it failed or was cancelled."""
+        self.joints: tuple[str, ...] = tuple(self.attributes["joints"])
+        """Names that the `joint` of an impact points to."""
+        self.samples = self._rows("", watermark)
+        """Samples that can be read."""
+
+    @cached_property
+    def channels(self) -> tuple[ArraySpec, ...]:
+        """Channels in the order of the layout, with units and long names."""
+        names = self.attributes["channels"]
+        attributes = {name: self._array(name).attrs for name in names}
+        return tuple(
+            ArraySpec(name, str(found["units"]), str(found["long_name"]))
+            for name, found in attributes.items()
+        )
+
+    def history(
+        self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
+    ) -> tuple[Floats, dict[str, Floats]]:
+        """Read samples `start` to `stop` - 1 of some channels (default: all, to the end).
+
+        Returns
+        -------
+        tuple
+            (k,) times [s] and by channel (k,) values in its unit; k = 0 for an empty window.
+
+        Raises
+        ------
+        UnknownChannel
+            The store has no such channel.
+        """
+        return self._read("", channels, *self._window(start, stop))
+
+    def blocks(
+        self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
+    ) -> Iterator[tuple[Floats, dict[str, Floats]]]:
+        """As `history`, in consecutive pieces of at most one chunk, in bounded memory."""
+        names = self._names(channels)
+        start, stop = self._window(start, stop)
+        time = self._array(TIME)
+        rows = time.chunks[0]
+        while start < stop:
+            end = min(start - start % rows + rows, stop)
+            yield self._read("", names, start, end)
+            start = end
+
+    def between(self, start: float | None, stop: float | None) -> tuple[int, int]:
+        """Find the samples [first, last) of start <= time <= stop [s]; None is unbounded.
+
+        Times must ascend, as those of a simulation do.
+        """
+        first = 0 if start is None else self._first_sample_from(start, after=False)
+        last = self.samples if stop is None else self._first_sample_from(stop, after=True)
+        return first, max(first, last)
+
+    def sections(
+        self, channels: Sequence[str] | None = None
+    ) -> tuple[Floats, dict[str, Floats]]:
+        """Read the Poincare sections: (m,) times [s] and by channel (m,) values."""
+        return self._read("poincare", channels, 0, self._rows("poincare", None))
+
+    def impacts(self, start: int = 0, stop: int | None = None) -> NDArray[Any]:
+        """Read impacts, in order of release, as (j,) structured array of dtype `IMPACT`."""
+        group = {name: self._array(f"impacts/{name}") for name in IMPACT.names or ()}
+        window = slice(start, stop)
+        columns = {name: np.asarray(array[window]) for name, array in group.items()}
+        rows = np.empty(len(columns["joint"]), IMPACT)
+        for name, column in columns.items():
+            rows[name] = column
+        return rows
+
+    def peaks(self) -> dict[str, Peak]:
+        """Read the signed extremes by channel; none before the store is sealed."""
+        if not self.sealed:
+            return {}
+        columns = [
+            np.asarray(self._array(f"peaks/{name}")[:]).tolist() for name in Peak._fields
+        ]
+        return {
+            name: Peak(*values)
+            for name, *values in zip(self.attributes["channels"], *columns, strict=True)
+        }
+
+    def verify(self) -> None:
+        """Compare every file with the manifest.
+
+        Raises
+        ------
+        NotAStore
+            The store is not sealed.
+        CorruptStore
+            A file is missing, differs or was added.
+        """
+        manifest.verify(self.path)
+
+    def _rows(self, group: str, watermark: int | None) -> int:
+        """Rows of a table that are there: all once sealed, else those in shards."""
+        time = self._array(f"{group}/{TIME}" if group else TIME)
+        rows = int(time.shape[0])
+        if self.sealed:
+            return rows
+        if watermark is None:
+            shard_rows = (time.shards or time.chunks)[0]
+            folder = self.path / group / TIME / "c"
+            shards = 0
+            while (folder / str(shards)).exists():
+                shards += 1
+            watermark = shards * shard_rows
+        return min(watermark, rows)
+
+    def _window(self, start: int, stop: int | None) -> tuple[int, int]:
+        stop = self.samples if stop is None else min(stop, self.samples)
+        return max(start, 0), max(stop, 0)
+
+    def _first_sample_from(self, time: float, *, after: bool) -> int:
+        """First sample whose time is not below (`after`: above) the given one [s]."""
+        array = self._array(TIME)
+        rows = array.chunks[0]
+        low, high = 0, -(-self.samples // rows)  # chunks
+        while low < high:
+            middle = (low + high) // 2
+            last = float(cast(Any, array[min((middle + 1) * rows, self.samples) - 1]))
+            if last < time or (after and last == time):
+                low = middle + 1
+            else:
+                high = middle
+        first = low * rows
+        chunk = np.asarray(array[first : min(first + rows, self.samples)])
+        return first + int(np.searchsorted(chunk, time, side="right" if after else "left"))
+
+    def _read(
+        self, group: str, channels: Sequence[str] | None, start: int, stop: int
+    ) -> tuple[Floats, dict[str, Floats]]:
+        prefix = f"{group}/" if group else ""
+        names = self._names(channels)
+        window = slice(start, max(start, stop))
+        time = np.asarray(self._array(prefix + TIME)[window], dtype=np.float64)
+        return time, {
+            name: np.asarray(self._array(prefix + name)[window], dtype=np.float64)
+            for name in names
+        }
+
+    def _names(self, channels: Sequence[str] | None) -> tuple[str, ...]:
+        known = tuple(self.attributes["channels"])
+        for name in channels or ():
+            if name not in known:
+                raise UnknownChannel(name, known)
+        return known if channels is None else tuple(channels)
+
+    def _array(self, key: str) -> zarr.Array[Any]:
+        found = self._root[key]
+        if not isinstance(found, zarr.Array):
+            raise NotAStore(f"{self.path} has no array {key!r}")
+        return found

@@ -1,0 +1,279 @@
+"""Write the results of one attempt, from empty store to sealed store."""
+
+import os
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results import manifest, metadata
+from storage.results.durable import PARTIAL, DurableFolder
+from storage.results.errors import InvalidAppend, StoreExists, StoreSealed
+from storage.results.growing_table import GrowingTable
+from storage.results.journal import FOLDER as JOURNAL
+from storage.results.journal import Checkpoint, Journal
+from storage.results.layout import IMPACT, Peak, ResultLayout
+from storage.results.tables import tables
+
+_NO_PEAK: Final = Peak(*[float("nan")] * 4)
+
+
+class ResultWriter:
+    """One store being written by one process; make it with `create` or `resume`.
+
+    The files of a sealed store depend on the layout, the rows and the summary alone: not on how
+    the rows were sliced into `append` calls, nor on whether and where the run was interrupted
+    and resumed.
+    """
+
+    def __init__(self, path: Path, layout: ResultLayout) -> None:
+        self._path = path
+        self._layout = layout
+        self._folder = DurableFolder(path)
+        self._journal = Journal(path, layout.digest)
+        self._tables = [GrowingTable(table, self._folder) for table in tables(layout)]
+        self._history, self._sections, self._impacts, self._peaks = self._tables
+        self._sealed = False
+
+    @classmethod
+    def create(cls, path: Path, layout: ResultLayout) -> Self:
+        """Begin an empty store in a folder, which is made if it does not exist.
+
+        The folder may hold other files (they join the manifest), but no store.
+
+        Raises
+        ------
+        StoreExists
+            There is a store in it already.
+        """
+        path = Path(path)
+        if (path / metadata.FILE).exists():
+            raise StoreExists(f"{path} holds results already; choose another folder")
+        path.mkdir(parents=True, exist_ok=True)
+        writer = cls(path, layout)
+        writer._write_documents()
+        return writer
+
+    @classmethod
+    def resume(
+        cls,
+        path: Path,
+        layout: ResultLayout,
+        checkpoint: bytes,
+        *,
+        taken_over_from: Path,
+    ) -> Self:
+        """Begin a store that continues another one from its checkpoint.
+
+        Shards below the checkpoint's watermark get a second name in the new folder (or are
+        copied where the file system cannot link). The old folder is only read: whoever still
+        writes there disturbs nothing, and it may be deleted once this returns and the new
+        writer's next checkpoint is stored.
+
+        Parameters
+        ----------
+        path
+            Folder of the new store, as for `create`.
+        layout
+            That of the old store; attributes may differ.
+        checkpoint
+            What `checkpoint` of the old store's writer returned.
+        taken_over_from
+            Folder of the old store, the one whose writer made the checkpoint.
+
+        Raises
+        ------
+        StoreExists
+            There is a store in `path` already.
+        CheckpointMismatch
+            The checkpoint is of another layout, or the old folder lacks shards or journal.
+        CorruptStore
+            The journal does not have the bytes that the checkpoint describes.
+        """
+        path = Path(path)
+        taken_over_from = Path(taken_over_from)
+        state = Checkpoint(checkpoint, layout.digest)
+        writer = cls.create(path, layout)
+        for table, durable in zip(writer._tables, state.durable, strict=True):
+            table.take_over(taken_over_from, durable)
+        state.replay(taken_over_from, writer._tables)
+        if writer._impacts.durable:
+            writer._show_impacts()
+        return writer
+
+    @property
+    def watermark(self) -> int:
+        """Samples that are durable: readers may see these and no others."""
+        return self._history.durable
+
+    @property
+    def samples(self) -> int:
+        """Samples appended so far, durable or waiting."""
+        return self._history.rows
+
+    @property
+    def sections(self) -> int:
+        """Poincare sections appended so far."""
+        return self._sections.rows
+
+    @property
+    def impacts(self) -> int:
+        """Impacts appended so far."""
+        return self._impacts.rows
+
+    def append(
+        self,
+        first_sample: int,
+        sample_time: NDArray[np.float64],
+        samples: NDArray[np.float64],
+        first_section: int,
+        section_time: NDArray[np.float64],
+        sections: NDArray[np.float64],
+        impacts: NDArray[Any],
+    ) -> None:
+        """Add rows; whole shards go to the disk, the rest waits in memory.
+
+        Parameters
+        ----------
+        first_sample
+            Index of the first row; must be `samples` of this writer.
+        sample_time, samples
+            (k,) s and (k, channels) in the units of the layout.
+        first_section, section_time, sections
+            The same for m Poincare sections.
+        impacts
+            (j,) structured, with the fields of `IMPACT`.
+
+        Raises
+        ------
+        StoreSealed
+            After `seal`.
+        InvalidAppend
+            Rows out of turn, more of them than the layout has, or of another shape. Nothing has
+            been taken then.
+        """
+        self._refuse_when_sealed()
+        if first_sample != self.samples or first_section != self.sections:
+            raise InvalidAppend(
+                f"the next rows are sample {self.samples} and section {self.sections}, "
+                f"not sample {first_sample} and section {first_section}"
+            )
+        self._check_shape("samples", sample_time, samples)
+        self._check_shape("sections", section_time, sections)
+        if impacts.size and set(impacts.dtype.names or ()) != set(IMPACT.names or ()):
+            raise InvalidAppend(f"impacts need the fields {IMPACT.names}")
+        self._history.check_capacity(len(sample_time))
+        self._sections.check_capacity(len(section_time))
+        self._history.append([*samples.T, sample_time])
+        self._sections.append([*sections.T, section_time])
+        if impacts.size:
+            durable = self._impacts.durable
+            self._impacts.append([impacts[str(name)] for name in IMPACT.names or ()])
+            if self._impacts.durable != durable:
+                self._show_impacts()
+
+    def checkpoint(self) -> bytes:
+        """Bring everything appended so far to the disk and return a restart point.
+
+        A few hundred bytes; the waiting rows themselves go to a journal in the folder. Valid
+        for `resume` as long as the folder is there and no more than two later checkpoints have
+        been made, so store one before asking for the next.
+        """
+        self._refuse_when_sealed()
+        return self._journal.checkpoint(self._tables)
+
+    def seal(
+        self,
+        *,
+        peaks: Mapping[str, Peak],
+        summary: Mapping[str, Any],
+        complete: bool = True,
+    ) -> None:
+        """Finish the store: it is durable, and never changes, when this returns.
+
+        Parameters
+        ----------
+        peaks
+            Signed extremes by channel; a channel without them gets NaN.
+        summary
+            JSON document for the root attribute `summary`; numbers must be finite.
+        complete
+            False for a run that failed or was cancelled; what was appended is kept.
+
+        Raises
+        ------
+        StoreSealed
+            When called twice.
+        InvalidAppend
+            `complete` although samples or sections are missing, a peak of an unknown channel,
+            or a summary that JSON cannot carry.
+        """
+        self._refuse_when_sealed()
+        if complete and (self.samples, self.sections) != (
+            self._layout.samples,
+            self._layout.sections,
+        ):
+            raise InvalidAppend(
+                f"{self.samples} of {self._layout.samples} samples and {self.sections} of "
+                f"{self._layout.sections} sections were appended: seal with complete=False"
+            )
+        attributes = {
+            "complete": complete,
+            "samples": self.samples,
+            "sections": self.sections,
+            "impacts": self.impacts,
+            "summary": dict(summary),
+        }
+        try:
+            metadata.serialise(attributes)
+        except (TypeError, ValueError) as error:
+            raise InvalidAppend(f"the summary must be finite JSON values: {error}") from error
+        names = [channel.name for channel in self._layout.channels]
+        if unknown := peaks.keys() - set(names):
+            raise InvalidAppend(f"peaks of channels that the layout lacks: {sorted(unknown)}")
+        rows = np.array([peaks.get(name, _NO_PEAK) for name in names]).reshape(-1, 4)
+        self._peaks.append(list(rows.T))
+        for table in self._tables:
+            table.finish()
+        shown = [table.rows for table in self._tables]
+        for key, document in metadata.documents(self._layout, shown, attributes).items():
+            self._folder.write(key, metadata.serialise(document))
+        self._remove_scaffolding()
+        self._folder.commit()
+        manifest.seal(self._folder)
+        self._sealed = True
+
+    def _write_documents(self) -> None:
+        """Write all metadata of an empty store, the root's last; made durable by `seal`."""
+        layout = self._layout
+        shown = [layout.samples, layout.sections, 0, len(layout.channels)]
+        for key, document in metadata.documents(layout, shown, {}).items():
+            path = f"{self._path}/{key}"
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "wb", buffering=0) as file:
+                file.write(metadata.serialise(document))
+
+    def _show_impacts(self) -> None:
+        """Let readers of the growing store see the impacts that are in shards by now."""
+        layout = self._layout
+        shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
+        for key, document in metadata.documents(layout, shown, {}).items():
+            if key.startswith("impacts/") or key == metadata.FILE:
+                self._folder.write(key, metadata.serialise(document))
+
+    def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:
+        expected = (len(time), len(self._layout.channels))
+        if time.ndim != 1 or rows.shape != expected:
+            raise InvalidAppend(f"{what} must have shape {expected}, not {rows.shape}")
+
+    def _refuse_when_sealed(self) -> None:
+        if self._sealed:
+            raise StoreSealed(f"{self._path} is sealed and takes no more rows")
+
+    def _remove_scaffolding(self) -> None:
+        shutil.rmtree(self._path / JOURNAL, ignore_errors=True)
+        for litter in self._path.rglob(f"*{PARTIAL}"):
+            litter.unlink()
