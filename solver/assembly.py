@@ -1,0 +1,154 @@
+"""Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.mechanics.absolute import AbsoluteMechanism, Row
+from solver.mechanics.view import view
+from solver.scene.document import Scene
+
+Floats = NDArray[np.float64]
+
+RANK_TOLERANCE = 1e-9
+"""Singular values below this share of the largest count as zero (rows scaled by length)."""
+ASSEMBLED = 1e-11
+"""Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A mechanism put together at t = 0, journals concentric.
+
+    Attributes
+    ----------
+    pose, velocity : (3 bodies,) float
+        x, y (m) and theta (rad) of each body, and their rates.
+    residual : float
+        Largest constraint residual, m or rad.
+    constraints, rank : int
+        Number of constraint rows and of independent ones, journals concentric.
+    freedom : int
+        Degrees of freedom of the ideal mechanism.
+    freedom_with_play : int
+        Degrees of freedom once joints with clearance are let go.
+    redundant_with_play : int
+        Dependent rows that remain then.
+    """
+
+    pose: Floats
+    velocity: Floats
+    residual: float
+    constraints: int
+    rank: int
+    freedom: int
+    freedom_with_play: int
+    redundant_with_play: int
+
+    @property
+    def redundant(self) -> int:
+        """Dependent constraint rows of the ideal mechanism."""
+        return self.constraints - self.rank
+
+
+def shortest_link(scene: Scene) -> float:
+    """Return the shortest distance between two points of one body, m; the scene's length scale.
+
+    Without any: the largest bearing radius, else 1 m.
+    """
+    distances = [
+        math.dist(a, b)
+        for body in scene.bodies.values()
+        for a, b in combinations(body.points.values(), 2)
+    ]
+    distances = [d for d in distances if d > 0.0]
+    if distances:
+        return min(distances)
+    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
+    radii = [c.bearing_radius for c in clearances if c is not None]
+    return max(radii, default=1.0)
+
+
+def driver_positions(scene: Scene) -> dict[str, float]:
+    """Return each driver's position at t = 0, rad or m."""
+    return {name: driver.position for name, driver in scene.drivers.items()}
+
+
+def assemble(scene: Scene) -> Assembly:
+    """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
+
+    Never raises for a mechanism that cannot close: the residual tells.
+    """
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    length = shortest_link(scene)
+    driven = driver_positions(scene)
+    count = 3 * len(ideal.bodies)
+    scale = np.tile([length, length, 1.0], len(ideal.bodies))
+    still = np.zeros(count)
+
+    pose = still.copy()
+    for i, body in enumerate(ideal.bodies):
+        pose[3 * i + 2] = scene.start.angles.get(body, 0.0)
+    positions = np.arange(count) % 3 != 2
+    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+    if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles
+        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
+        pose[positions] += step
+    for _ in range(60):
+        residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+        if not len(residual) or not np.isfinite(residual).all():
+            break
+        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
+        largest = float(np.abs(step).max())
+        pose += scale * step * min(1.0, 0.5 / largest if largest > 0.5 else 1.0)
+        if largest < 1e-15:
+            break
+    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+
+    velocity = still.copy()
+    for i, body in enumerate(ideal.bodies):
+        velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
+        velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
+    for columns in (positions, np.full(count, True), np.full(count, True)):
+        # given angular velocities first carry the centres of mass along; the last pass removes
+        # the rounding of the one before
+        rates = np.array([row.rate for row in ideal.rows(pose, velocity, driven)], dtype=float)
+        if len(rates):
+            scaled = (jacobian * scale)[:, columns]
+            step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
+            velocity[columns] += scale[columns] * step
+
+    loose = AbsoluteMechanism(scene, view(scene), close_play=False)
+    _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
+    rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
+    return Assembly(
+        pose=pose,
+        velocity=velocity,
+        residual=float(np.abs(residual).max(initial=0.0)),
+        constraints=len(residual),
+        rank=rank,
+        freedom=count - rank,
+        freedom_with_play=count - open_rank,
+        redundant_with_play=len(open_jacobian) - open_rank,
+    )
+
+
+def _arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
+    jacobian = np.zeros((len(rows), count))
+    for i, row in enumerate(rows):
+        for k, entry in row.jacobian.items():
+            jacobian[i, k] = entry
+    return np.array([row.value for row in rows], dtype=float), jacobian
+
+
+def _rank(scaled_jacobian: Floats) -> int:
+    if not scaled_jacobian.size:
+        return 0
+    rows = np.linalg.norm(scaled_jacobian, axis=1, keepdims=True)
+    values = np.linalg.svd(scaled_jacobian / np.maximum(rows, 1e-300), compute_uv=False)
+    return int((values > RANK_TOLERANCE * values[0]).sum())

@@ -1,0 +1,45 @@
+"""What the solver refuses, and how it says so; it knows nothing of HTTP or storage."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+
+class Problem(NamedTuple):
+    """One thing wrong with an input document."""
+
+    pointer: str
+    """RFC 6901 pointer into the document, e.g. ``/scene/parameters/clearance``."""
+    detail: str
+    """One sentence: what is wrong and what would be right."""
+
+
+class InvalidInput(Exception):
+    """A document that cannot be run, with every problem that was found."""
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("; ".join(f"{p.pointer}: {p.detail}" for p in self.problems))
+
+
+class LimitExceeded(InvalidInput):
+    """A document that asks for more than is allowed; the sentence gives the estimate."""
+
+
+class SimulationFailed(Exception):
+    """A run that ended early; what was computed until `time` stands.
+
+    Attributes
+    ----------
+    code : str
+        ``step-size-underflow``, ``step-limit``, ``onset-not-located`` or ``assembly-lost``.
+    detail : str
+        When, where and what to try.
+    time : float
+        Simulated time reached, s.
+    """
+
+    def __init__(self, code: str, detail: str, time: float) -> None:
+        self.code = code
+        self.detail = detail
+        self.time = time
+        super().__init__(detail)

@@ -1,0 +1,1 @@
+"""The mechanics, written once on abstract scalars: geometry, contact, equations of motion."""

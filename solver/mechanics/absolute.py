@@ -1,0 +1,248 @@
+"""Constraint equations in absolute coordinates: the paper's eqs 18-22 for any scene.
+
+Every body has x, y (centre of mass, m) and theta (rad) in the world frame; joints and drivers
+give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded expressions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import NamedTuple
+
+from solver.mechanics.frames import Pair
+from solver.mechanics.scalars import Scalar, sine_cosine, sqrt
+from solver.scene.document import Scene
+from solver.scene.references import has_play
+
+
+class Marker(NamedTuple):
+    """A named point on a moving body, or on the ground (body index -1), in world axes.
+
+    `arm` reaches from the centre of mass to the point; `position`, `velocity` are the point's.
+    """
+
+    body: int
+    arm: Pair
+    position: Pair
+    velocity: Pair
+
+
+@dataclass(frozen=True)
+class Row:
+    """One constraint: its value, its Jacobian entries by coordinate index, and γ (eq. 22).
+
+    `rate` is dΦ/dt; the acceleration level reads Φ_q q̈ = `gamma`.
+    """
+
+    joint: str
+    part: str
+    value: Scalar
+    jacobian: dict[int, Scalar]
+    rate: Scalar
+    gamma: Scalar
+
+
+class AbsoluteMechanism:
+    """A scene's constraint rows as functions of q, q̇ and t."""
+
+    def __init__(self, scene: Scene, numbers: SimpleNamespace, *, close_play: bool) -> None:
+        """`close_play` treats joints with play as ideal ones (start and ideal mechanism)."""
+        self.scene = scene
+        self.numbers = numbers
+        self.bodies = tuple(scene.bodies)
+        self.drivers = {driver.joint: name for name, driver in scene.drivers.items()}
+        self.joints = tuple(
+            name for name, joint in scene.joints.items() if close_play or not has_play(joint)
+        )
+
+    def marker(self, reference: str, q: Sequence[Scalar], v: Sequence[Scalar]) -> Marker:
+        """Return a point's arm, position and velocity; q, v : (3 bodies,) m, m, rad and rates."""
+        body, point = reference.split(".")
+        if body == "ground":
+            x, y = self.numbers.ground.points[point]
+            return Marker(-1, (0.0, 0.0), (x, y), (0.0, 0.0))
+        i = self.bodies.index(body)
+        x, y = self.numbers.bodies[body].points[point]
+        sine, cosine = sine_cosine(q[3 * i + 2])
+        arm = (cosine * x - sine * y, sine * x + cosine * y)
+        spin = v[3 * i + 2]
+        return Marker(
+            i,
+            arm,
+            (q[3 * i] + arm[0], q[3 * i + 1] + arm[1]),
+            (v[3 * i] - spin * arm[1], v[3 * i + 1] + spin * arm[0]),
+        )
+
+    def rows(
+        self, q: Sequence[Scalar], v: Sequence[Scalar], driven: Mapping[str, Scalar]
+    ) -> list[Row]:
+        """Return every constraint row.
+
+        q, v : (3 bodies,), m, m, rad and their rates. `driven` gives each driver's position at
+        this instant (rad or m).
+        """
+        rows: list[Row] = []
+        writers: dict[str, Callable[..., list[Row]]] = {
+            "revolute": self._revolute,
+            "prismatic": self._prismatic,
+            "fixed": self._fixed,
+        }
+        for name in self.joints:
+            joint = self.numbers.joints[name]
+            rows += writers[joint.type](name, joint, q, v, driven)
+        return rows
+
+    def _coincidence(
+        self, name: str, first: Marker, second: Marker, v: Sequence[Scalar]
+    ) -> list[Row]:
+        rows = []
+        for axis, part in ((0, "x"), (1, "y")):
+            jacobian: dict[int, Scalar] = {}
+            gamma: Scalar = 0.0
+            for sign, marker in ((1.0, second), (-1.0, first)):
+                if marker.body < 0:
+                    continue
+                spin = v[3 * marker.body + 2]
+                jacobian[3 * marker.body + axis] = sign
+                turn = -marker.arm[1] if axis == 0 else marker.arm[0]
+                jacobian[3 * marker.body + 2] = sign * turn
+                gamma = gamma + sign * (spin * spin) * marker.arm[axis]
+            rows.append(
+                Row(
+                    name,
+                    part,
+                    second.position[axis] - first.position[axis],
+                    jacobian,
+                    second.velocity[axis] - first.velocity[axis],
+                    gamma,
+                )
+            )
+        return rows
+
+    def _angle(
+        self,
+        name: str,
+        bodies: tuple[int, int],
+        offset: Scalar,
+        speed: Scalar,
+        q: Sequence[Scalar],
+        v: Sequence[Scalar],
+    ) -> Row:
+        """θ_second - θ_first - offset = 0."""
+        jacobian: dict[int, Scalar] = {}
+        value: Scalar = -offset
+        rate: Scalar = -speed
+        for sign, body in ((1.0, bodies[1]), (-1.0, bodies[0])):
+            if body >= 0:
+                jacobian[3 * body + 2] = sign
+                value = value + sign * q[3 * body + 2]
+                rate = rate + sign * v[3 * body + 2]
+        return Row(name, "angle", value, jacobian, rate, 0.0)
+
+    def _driver(self, name: str, driven: Mapping[str, Scalar]) -> tuple[Scalar, Scalar] | None:
+        driver = self.drivers.get(name)
+        if driver is None:
+            return None
+        return driven[driver], self.numbers.drivers[driver].speed
+
+    def _revolute(
+        self,
+        name: str,
+        joint: SimpleNamespace,
+        q: Sequence[Scalar],
+        v: Sequence[Scalar],
+        driven: Mapping[str, Scalar],
+    ) -> list[Row]:
+        first, second = self.marker(joint.bearing, q, v), self.marker(joint.journal, q, v)
+        rows = self._coincidence(name, first, second, v)
+        motion = self._driver(name, driven)
+        if motion is not None:
+            rows.append(self._angle(name, (first.body, second.body), *motion, q, v))
+        return rows
+
+    def _fixed(
+        self,
+        name: str,
+        joint: SimpleNamespace,
+        q: Sequence[Scalar],
+        v: Sequence[Scalar],
+        _driven: Mapping[str, Scalar],
+    ) -> list[Row]:
+        first, second = self.marker(joint.base, q, v), self.marker(joint.part, q, v)
+        rows = self._coincidence(name, first, second, v)
+        rows.append(self._angle(name, (first.body, second.body), joint.angle, 0.0, q, v))
+        return rows
+
+    def _prismatic(
+        self,
+        name: str,
+        joint: SimpleNamespace,
+        q: Sequence[Scalar],
+        v: Sequence[Scalar],
+        driven: Mapping[str, Scalar],
+    ) -> list[Row]:
+        first, second = self.marker(joint.guide, q, v), self.marker(joint.slider, q, v)
+        axis = self.axis(joint, first.body, q)
+        normal = (-axis[1], axis[0])
+        rows = [self._projection(name, "normal", normal, 0.0, 0.0, first, second, v)]
+        rows.append(self._angle(name, (first.body, second.body), joint.angle, 0.0, q, v))
+        motion = self._driver(name, driven)
+        if motion is not None:
+            rows.append(self._projection(name, "along", axis, *motion, first, second, v))
+        return rows
+
+    def axis(self, joint: SimpleNamespace, guide: int, q: Sequence[Scalar]) -> Pair:
+        """Return the guide's unit axis in world components."""
+        x, y = unit(joint.axis)
+        if guide < 0:
+            return x, y
+        sine, cosine = sine_cosine(q[3 * guide + 2])
+        return cosine * x - sine * y, sine * x + cosine * y
+
+    def _projection(
+        self,
+        name: str,
+        part: str,
+        direction: Pair,
+        offset: Scalar,
+        speed: Scalar,
+        first: Marker,
+        second: Marker,
+        v: Sequence[Scalar],
+    ) -> Row:
+        """(r_second - r_first) · u - offset = 0, u fixed in the first body."""
+        (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
+        gap = (second.position[0] - first.position[0], second.position[1] - first.position[1])
+        gap_rate = (
+            second.velocity[0] - first.velocity[0],
+            second.velocity[1] - first.velocity[1],
+        )
+        jacobian: dict[int, Scalar] = {}
+        rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - speed
+        gamma: Scalar = 0.0
+        for sign, marker in ((1.0, second), (-1.0, first)):
+            if marker.body < 0:
+                continue
+            k, (ax, ay) = 3 * marker.body, marker.arm
+            spin = v[k + 2]
+            jacobian[k], jacobian[k + 1] = sign * ux, sign * uy
+            jacobian[k + 2] = sign * (uy * ax - ux * ay)
+            gamma = gamma + sign * (spin * spin) * (ux * ax + uy * ay)
+        if first.body >= 0:
+            k = 3 * first.body + 2
+            spin = v[k]
+            jacobian[k] = jacobian[k] + (tx * gap[0] + ty * gap[1])
+            rate = rate + spin * (tx * gap[0] + ty * gap[1])
+            gamma = gamma + (spin * spin) * (ux * gap[0] + uy * gap[1])
+            gamma = gamma - 2.0 * spin * (tx * gap_rate[0] + ty * gap_rate[1])
+        value = ux * gap[0] + uy * gap[1] - offset
+        return Row(name, part, value, jacobian, rate, gamma)
+
+
+def unit(axis: Sequence[Scalar]) -> Pair:
+    """Return a direction of unit length."""
+    x, y = axis
+    length = sqrt(x * x + y * y)
+    return x / length, y / length

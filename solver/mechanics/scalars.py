@@ -1,0 +1,72 @@
+"""The arithmetic that the mechanics are written in.
+
+The same functions run on floats (the readable reference), on NumPy arrays (many instants at once)
+and on recorded expressions (`solver.compiler.recorder`), which become kernels.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+type_of_array = np.ndarray
+
+Scalar = Any
+"""A float, a NumPy array or a recorded expression."""
+
+
+def sqrt(x: Scalar) -> Scalar:
+    """Square root."""
+    if isinstance(x, float | int):
+        return math.sqrt(x)
+    return np.sqrt(x) if isinstance(x, type_of_array) else x.sqrt()
+
+
+def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
+    """Sine and cosine of an angle in rad."""
+    if isinstance(x, float | int):
+        return math.sin(x), math.cos(x)
+    return (np.sin(x), np.cos(x)) if isinstance(x, type_of_array) else x.sine_cosine()
+
+
+def select_positive(x: Scalar, if_positive: Scalar, otherwise: Scalar) -> Scalar:
+    """`if_positive` where x > 0, else `otherwise` (also where x is not a number)."""
+    if isinstance(x, float | int):
+        return if_positive if x > 0.0 else otherwise
+    if isinstance(x, type_of_array):
+        return np.where(x > 0.0, if_positive, otherwise)
+    return x.select_positive(if_positive, otherwise)
+
+
+def positive_part(x: Scalar) -> Scalar:
+    """The larger of x and 0."""
+    return select_positive(x, x, 0.0)
+
+
+def absolute(x: Scalar) -> Scalar:
+    """The magnitude of x."""
+    return abs(x)
+
+
+def sign(x: Scalar) -> Scalar:
+    """1 where x > 0, else -1."""
+    return select_positive(x, 1.0, -1.0)
+
+
+def minimum(x: Scalar, y: Scalar) -> Scalar:
+    """The smaller of x and y."""
+    return select_positive(x - y, y, x)
+
+
+def clamp_to_unit(x: Scalar) -> Scalar:
+    """X limited to 0..1."""
+    return minimum(positive_part(x), 1.0)
+
+
+def power(x: Scalar, exponent: Scalar) -> Scalar:
+    """x ** exponent for x >= 0 and exponent > 0; the Hertz exponent 1.5 costs one square root."""
+    if isinstance(exponent, float) and exponent == 1.5:
+        return x * sqrt(x)
+    if isinstance(x, float | int | type_of_array):
+        return x**exponent
+    return x.power(exponent)

@@ -1,0 +1,112 @@
+"""The spanning tree of a scene: which joint carries which body, and what moves freely.
+
+Pure structure: no number of the scene is used but whether a clearance is zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from solver.scene.references import ends, has_play
+
+Kind = Literal["revolute", "prismatic", "fixed", "free"]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A body, the joint that carries it, and the coordinates that this joint frees.
+
+    `outward` tells whether the body is the joint's second one (journal, slider, part).
+    `coordinates` are names of generalised coordinates, ``body.theta``, ``body.s``, ``body.x`` or
+    ``body.y``; `driver` names the driver that prescribes the joint's motion instead.
+    """
+
+    body: str
+    parent: str
+    joint: str
+    kind: Kind
+    parent_point: str
+    body_point: str
+    outward: bool
+    coordinates: tuple[str, ...]
+    driver: str | None
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Branches from the ground outwards, joints that close loops, joints with play."""
+
+    branches: tuple[Branch, ...]
+    closing: tuple[str, ...]
+    play: tuple[str, ...]
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the generalised coordinates, in the order of the state."""
+        return tuple(c for branch in self.branches for c in branch.coordinates)
+
+    def branch(self, body: str) -> Branch:
+        """Return the branch that ends in a body."""
+        return next(b for b in self.branches if b.body == body)
+
+
+def spanning_tree(scene: Scene) -> Tree:
+    """Walk the ideal joints from the ground, breadth first, in the order of the document.
+
+    A body that ideal joints do not connect to the ground floats: it gets x, y and theta.
+    """
+    drivers = {driver.joint: name for name, driver in scene.drivers.items()}
+    ideal = {name: joint for name, joint in scene.joints.items() if not has_play(joint)}
+    branches: list[Branch] = []
+    used: set[str] = set()
+    reached = ["ground"]
+    waiting = list(scene.bodies)
+    position = 0
+    while True:
+        while position < len(reached):
+            parent = reached[position]
+            position += 1
+            for name, joint in ideal.items():
+                (_, first), (_, second) = ends(joint)
+                sides = [first.split("."), second.split(".")]
+                if name in used or parent not in (sides[0][0], sides[1][0]):
+                    continue
+                outward = sides[0][0] == parent
+                here, there = sides if outward else sides[::-1]
+                if there[0] in reached:
+                    continue
+                used.add(name)
+                reached.append(there[0])
+                branches.append(
+                    Branch(
+                        body=there[0],
+                        parent=parent,
+                        joint=name,
+                        kind=joint.type,
+                        parent_point=here[1],
+                        body_point=there[1],
+                        outward=outward,
+                        coordinates=_coordinates(there[0], joint, drivers.get(name)),
+                        driver=drivers.get(name),
+                    )
+                )
+        waiting = [body for body in waiting if body not in reached]
+        if not waiting:
+            break
+        root = waiting[0]
+        reached.append(root)
+        freedom = (f"{root}.x", f"{root}.y", f"{root}.theta")
+        branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None))
+    closing = tuple(name for name in ideal if name not in used)
+    play = tuple(name for name, joint in scene.joints.items() if has_play(joint))
+    return Tree(tuple(branches), closing, play)
+
+
+def _coordinates(
+    body: str, joint: Revolute | Prismatic | Fixed, driver: str | None
+) -> tuple[str, ...]:
+    if driver is not None or isinstance(joint, Fixed):
+        return ()
+    return (f"{body}.theta",) if isinstance(joint, Revolute) else (f"{body}.s",)

@@ -1,0 +1,66 @@
+"""A scene seen through abstract scalars: the same names, every number replaced by a scalar."""
+
+from collections.abc import Callable, Collection
+from types import SimpleNamespace
+from typing import Any
+
+from pydantic import BaseModel
+
+from solver.mechanics.scalars import Scalar
+from solver.scene.document import Scene
+from solver.scene.parameters import targeted_paths
+
+NumberOf = Callable[[str, float], Scalar]
+"""Turns the number at a JSON pointer of the scene into a scalar."""
+
+LEFT_OUT = frozenset({"start", "parameters", "reported"})
+FOLDED = {"points": (0.0,), "axis": None}
+"""Geometry that shapes the equations unless a declared parameter may change it: exact zeros among
+the coordinates of points, any component of an axis."""
+
+
+def plain_number(_path: str, value: float) -> float:
+    """Return the number itself: the view on which the readable reference runs."""
+    return value
+
+
+def view(scene: Scene, number: NumberOf = plain_number) -> SimpleNamespace:
+    """Return a scene's content as nested namespaces whose numbers went through `number`.
+
+    Values that decide the form of the equations (an exactly zero coordinate, friction switched
+    off, the exponent 1.5) stay plain floats, so that they are folded away.
+    """
+    return _View(number, targeted_paths(scene)).of_model(scene, "", LEFT_OUT)
+
+
+class _View:
+    def __init__(self, number: NumberOf, targeted: Collection[str]) -> None:
+        self.number = number
+        self.targeted = targeted
+
+    def of_model(
+        self, model: BaseModel, path: str, without: Collection[str] = ()
+    ) -> SimpleNamespace:
+        fields = {}
+        for name, field in type(model).model_fields.items():
+            if name in without:
+                continue
+            extra = field.json_schema_extra
+            structural = extra.get("structural", ()) if isinstance(extra, dict) else ()
+            fields[name] = self.of(getattr(model, name), f"{path}/{name}", structural, name)
+        return SimpleNamespace(**fields)
+
+    def of(self, value: Any, path: str, structural: Any, field: str) -> Any:
+        if isinstance(value, BaseModel):
+            return self.of_model(value, path)
+        if isinstance(value, dict):
+            return {k: self.of(v, f"{path}/{k}", (), field) for k, v in value.items()}
+        if isinstance(value, list):
+            return [self.of(v, f"{path}/{i}", (), field) for i, v in enumerate(value)]
+        if not isinstance(value, float | int) or isinstance(value, bool):
+            return value
+        folded = value in structural
+        if field in FOLDED and path not in self.targeted:
+            values = FOLDED[field]
+            folded = values is None or value in values
+        return float(value) if folded else self.number(path, float(value))

@@ -1,0 +1,1 @@
+"""The scene: a mechanism as a document, its checks, parameters and structure."""

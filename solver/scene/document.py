@@ -1,0 +1,178 @@
+"""The scene: a planar mechanism as a JSON document, in SI units.
+
+Bodies carry named points in body coordinates (origin at the centre of mass). Joints hold two
+points together; a reference ``body.point`` names one, ``ground.point`` a point that never moves.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from solver.contact import ContactLaw
+from solver.friction import FrictionLaw
+from solver.scene.quantities import (
+    Acceleration,
+    Angle,
+    AngularVelocity,
+    Direction,
+    Inertia,
+    Mass,
+    Name,
+    Point,
+    PointReference,
+    RadialClearance,
+    Radius,
+    Strict,
+    Velocity,
+)
+
+
+class Body(Strict):
+    """A rigid body: mass, moment of inertia about the centre of mass, named points."""
+
+    mass: Mass
+    inertia: Inertia
+    points: Annotated[dict[Name, Point], Field(max_length=64)] = {}
+
+
+class Ground(Strict):
+    """The frame: named points in world coordinates."""
+
+    points: Annotated[dict[Name, Point], Field(max_length=256)] = {}
+
+
+class Clearance(Strict):
+    """Play of a revolute joint: the journal moves inside the bearing and touches its wall.
+
+    The journal's radius is the bearing's less the radial clearance. A radial clearance of zero is
+    an ideal joint.
+    """
+
+    radial_clearance: RadialClearance
+    bearing_radius: Radius
+    contact: ContactLaw
+    friction: FrictionLaw | None = None
+
+
+class Revolute(Strict):
+    """A pin joint between a point of the bearing body and a point of the journal body."""
+
+    type: Literal["revolute"]
+    bearing: PointReference
+    journal: PointReference
+    clearance: Clearance | None = None
+
+
+class Prismatic(Strict):
+    """A slider: its point moves along the axis through the guide's point, without turning.
+
+    `axis` is a direction in the guide body's coordinates; `angle` is the slider body's angle less
+    the guide body's.
+    """
+
+    type: Literal["prismatic"]
+    guide: PointReference
+    slider: PointReference
+    axis: Direction
+    angle: Angle = 0.0
+
+
+class Fixed(Strict):
+    """Two bodies welded at a point; `angle` is the part's angle less the base's."""
+
+    type: Literal["fixed"]
+    base: PointReference
+    part: PointReference
+    angle: Angle = 0.0
+
+
+Joint = Annotated[Revolute | Prismatic | Fixed, Field(discriminator="type")]
+
+
+class Driver(Strict):
+    """Prescribed motion of an ideal joint at constant speed: position + speed * t.
+
+    For a revolute joint the position is the journal body's angle less the bearing body's (rad,
+    rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s).
+    """
+
+    joint: Name
+    position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
+    speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
+
+
+class Start(Strict):
+    """Where Newton's iteration on the geometry begins, and what the constraints leave free.
+
+    Journals start concentric; positions and velocities are those of the ideal mechanism. Angles
+    choose between the assemblies that a mechanism allows.
+    """
+
+    angles: Annotated[dict[Name, Angle], Field(max_length=64)] = {}
+    angular_velocities: Annotated[dict[Name, AngularVelocity], Field(max_length=64)] = {}
+    velocities: Annotated[
+        dict[Name, Annotated[list[Velocity], Field(min_length=2, max_length=2)]],
+        Field(max_length=64),
+    ] = {}
+
+
+class Target(Strict):
+    """Where a parameter goes: a JSON pointer into this document, times a factor."""
+
+    path: Annotated[str, Field(pattern=r"^(/[A-Za-z0-9_-]{1,40}){1,8}$")]
+    factor: float = 1.0
+
+
+class Parameter(Strict):
+    """A declared knob of a scene; a default of none leaves the document's own values alone."""
+
+    help: Annotated[str, Field(max_length=300)]
+    unit: Annotated[str, Field(max_length=20)] = "1"
+    default: float | str | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: Annotated[list[str], Field(max_length=16)] | None = None
+    inferred: Annotated[
+        bool, Field(description="the source does not print this default; it was inferred")
+    ] = False
+    targets: Annotated[list[Target], Field(min_length=1, max_length=64)]
+
+
+class Output(Strict):
+    """A declared output: factor * channel + offset, under a name of its own."""
+
+    name: Name
+    channel: Annotated[str, Field(max_length=64)]
+    factor: float = 1.0
+    offset: float = 0.0
+    help: Annotated[str, Field(max_length=300)] = ""
+
+
+class Reported(Strict):
+    """A number that the scene's source printed, to be set beside ours."""
+
+    where: Annotated[str, Field(max_length=120)]
+    parameters: Annotated[dict[Name, float | str], Field(max_length=32)] = {}
+    duration: Annotated[float, Field(gt=0.0, json_schema_extra={"unit": "s"})]
+    channel: Annotated[str, Field(max_length=64)]
+    statistic: Literal["maximum", "minimum"]
+    value: float
+    unit: Annotated[str, Field(max_length=20)]
+    note: Annotated[str, Field(max_length=300)] = ""
+
+
+class Scene(Strict):
+    """A planar mechanism, its drivers and gravity, its knobs and its outputs."""
+
+    name: Name
+    description: Annotated[str, Field(max_length=2000)] = ""
+    source: Annotated[str, Field(max_length=500)] = ""
+    gravity: Annotated[list[Acceleration], Field(min_length=2, max_length=2)] = [0.0, 0.0]
+    ground: Ground = Ground()
+    bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
+    joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
+    drivers: Annotated[dict[Name, Driver], Field(max_length=64)] = {}
+    start: Start = Start()
+    parameters: Annotated[dict[Name, Parameter], Field(max_length=64)] = {}
+    outputs: Annotated[list[Output], Field(max_length=64)] = []
+    reported: Annotated[list[Reported], Field(max_length=256)] = []

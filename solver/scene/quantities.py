@@ -1,0 +1,42 @@
+"""Numbers of a scene: their units and bounds, once, for schemas, checks and documentation.
+
+``structural`` lists the values that change the equations themselves (friction switched off, the
+Hertz exponent): the compiler writes these into a kernel. Every other number is run-time data.
+"""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class Strict(BaseModel):
+    """A frozen part of a document: unknown fields, wrong types, NaN and infinity are refused."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}$")]
+PointReference = Annotated[
+    str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}\.[A-Za-z][A-Za-z0-9_-]{0,31}$")
+]
+
+Coordinate = Annotated[
+    float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m", "structural": [0.0]})
+]
+Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
+Direction = Annotated[
+    list[
+        Annotated[
+            float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1", "structural": [0.0]})
+        ]
+    ],
+    Field(min_length=2, max_length=2),
+]
+Acceleration = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m/s^2"})]
+Angle = Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad"})]
+AngularVelocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s"})]
+Velocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "m/s"})]
+Mass = Annotated[float, Field(gt=0.0, le=1e9, json_schema_extra={"unit": "kg"})]
+Inertia = Annotated[float, Field(gt=0.0, le=1e12, json_schema_extra={"unit": "kg m^2"})]
+RadialClearance = Annotated[float, Field(ge=0.0, le=1.0, json_schema_extra={"unit": "m"})]
+Radius = Annotated[float, Field(gt=0.0, le=1e3, json_schema_extra={"unit": "m"})]
