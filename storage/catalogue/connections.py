@@ -1,7 +1,7 @@
 """Connections to the catalogue's database, and how a unit of reading or writing begins.
 
 SQLite: one write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A deferred BEGIN
-that reads first and writes later fails at once under contention, whatever the busy timeout says.
+that reads first and writes later fails at once under contention, whatever the busy timeout.
 """
 
 import threading

@@ -188,22 +188,16 @@ def finish(
     return _settle(connection, job_id, error, now)
 
 
-def _settle(
-    connection: Connection, job_id: str, error: JobError | None, now: float
-) -> JobState:
+def _settle(connection: Connection, job_id: str, error: JobError | None, now: float) -> JobState:
     """End the job if nothing of it is left to do, or at once if a block failed."""
     if error is not None:
         drop_untouched_blocks(connection, job_id)
         step_job(connection, job_id, JobState.failed, now, error=error)
         return lock_job(connection, job_id).state
-    states = set(
-        connection.execute(select(_block.c.state).where(_block.c.job == job_id)).scalars()
-    )
+    states = set(connection.execute(select(_block.c.state).where(_block.c.job == job_id)).scalars())
     if not states & {BlockState.queued.value, BlockState.running.value}:
         all_done = states == {BlockState.done.value}
-        step_job(
-            connection, job_id, JobState.succeeded if all_done else JobState.cancelled, now
-        )
+        step_job(connection, job_id, JobState.succeeded if all_done else JobState.cancelled, now)
     return lock_job(connection, job_id).state
 
 
@@ -245,16 +239,12 @@ def lose(
     job = lock_job(connection, job_id)
     _end_attempt(connection, block_id, attempt, "lost", now)
     record_event(connection, job_id, now, "lost", {"block": block_id, "attempt": attempt})
-    losses = connection.execute(
-        select(_block.c.losses).where(_block.c.id == block_id)
-    ).scalar_one()
+    losses = connection.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
     if losses < max_attempts and not job.state.terminal:
         queue_again(connection, block_id, now)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
-    connection.execute(
-        update(_block).where(_block.c.id == block_id).values(state=given_up.value)
-    )
+    connection.execute(update(_block).where(_block.c.id == block_id).values(state=given_up.value))
     error = JobError(
         "platform",
         "worker-lost",

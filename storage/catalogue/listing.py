@@ -45,9 +45,7 @@ def page_of_jobs(
 def blocks_of(connection: Connection, job_id: str) -> tuple[Block, ...]:
     """Return a job's blocks by index."""
     table = tables.block
-    rows = connection.execute(
-        select(table).where(table.c.job == job_id).order_by(table.c.index)
-    )
+    rows = connection.execute(select(table).where(table.c.job == job_id).order_by(table.c.index))
     return tuple(block_record(row) for row in rows)
 
 
@@ -63,9 +61,7 @@ def attempts_of(connection: Connection, job_id: str) -> tuple[Attempt, ...]:
     return tuple(attempt_record(row) for row in rows)
 
 
-def events_of(
-    connection: Connection, job_id: str, *, after: int, limit: int
-) -> tuple[Event, ...]:
+def events_of(connection: Connection, job_id: str, *, after: int, limit: int) -> tuple[Event, ...]:
     """Return what happened to a job after event number `after`, in order."""
     table = tables.event
     rows = connection.execute(

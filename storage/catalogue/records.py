@@ -59,9 +59,7 @@ class JobError:
     error_class: ErrorClass
     code: str
     detail: str
-    time: float | None = (
-        None  # simulated time [s] at which it happened, if that means something
-    )
+    time: float | None = None  # simulated time [s] at which it happened, if that means something
 
 
 @dataclass(frozen=True)

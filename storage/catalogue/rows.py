@@ -103,6 +103,4 @@ def record_event(
     table = tables.event
     last = select(func.coalesce(func.max(table.c.seq), 0)).where(table.c.job == job)
     seq = connection.execute(last).scalar_one() + 1
-    connection.execute(
-        insert(table).values(job=job, seq=seq, time=now, type=kind, data=dict(data))
-    )
+    connection.execute(insert(table).values(job=job, seq=seq, time=now, type=kind, data=dict(data)))

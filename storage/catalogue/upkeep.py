@@ -63,9 +63,7 @@ def reap(connection: Connection, max_attempts: int, now: float) -> Reaped:
     return Reaped(tuple(requeued), tuple(ended))
 
 
-def hold_duty(
-    connection: Connection, name: str, holder: str, seconds: float, now: float
-) -> bool:
+def hold_duty(connection: Connection, name: str, holder: str, seconds: float, now: float) -> bool:
     """Take or keep a duty; false while somebody else has it."""
     duty = tables.duty
     taken = connection.execute(

@@ -1,0 +1,66 @@
+"""The Celery application: how workers hear of blocks. Imports no task code.
+
+Celery only wakes workers; a message carries a block's id and may be lost or come twice. Hence
+messages are acknowledged before the work starts, nothing is prefetched, and there is no result
+backend: the catalogue's leases say who works on what. With late acknowledgement a worker can
+stop listening for good after Redis was silent; `socket_timeout` is safe only with early one.
+"""
+
+from celery import Celery
+from kombu.entity import Queue
+
+from storage.settings import Settings
+from worker.bell import wake_relay
+
+__all__ = ["QUEUES", "RUN_BLOCK", "app", "wake_relay"]
+
+RUN_BLOCK = "worker.run_block"
+QUEUES = ("recovered", "jobs")  # in the order in which workers look at them
+
+
+def broker_url(redis_url: str | None) -> str:
+    """Return Celery's form of a Redis URL."""
+    if redis_url is None:
+        return "redis://"
+    return redis_url.replace("unix://", "redis+socket://", 1)
+
+
+app = Celery("jointplay")
+app.conf.update(
+    broker_url=broker_url(Settings().redis_url),
+    result_backend=None,
+    task_ignore_result=True,
+    task_store_errors_even_if_ignored=False,
+    task_acks_late=False,
+    task_reject_on_worker_lost=False,
+    worker_prefetch_multiplier=1,
+    worker_disable_prefetch=True,
+    worker_cancel_long_running_tasks_on_connection_loss=False,
+    broker_connection_retry_on_startup=True,
+    broker_connection_max_retries=None,
+    broker_transport_options={
+        "visibility_timeout": 3600,
+        "unacked_restore_interval": 10,
+        "unacked_restore_throttle": 1,
+        "socket_connect_timeout": 5,
+        "socket_keepalive": True,
+        "health_check_interval": 10,
+        "socket_timeout": 5,
+        "global_keyprefix": "jointplay:",
+        "client_name": "jointplay-worker",
+        "queue_order_strategy": "priority",
+    },
+    task_queues=[Queue(name) for name in QUEUES],  # type: ignore[no-untyped-call]
+    task_default_queue=QUEUES[-1],
+    task_serializer="json",
+    accept_content=["json"],
+    task_create_missing_queues=False,
+    task_publish_retry=False,
+    task_time_limit=None,
+    task_soft_time_limit=None,
+    worker_max_tasks_per_child=200,
+    worker_max_memory_per_child=1_500_000,
+    worker_soft_shutdown_timeout=20,
+    worker_send_task_events=False,
+    worker_hijack_root_logger=False,
+)

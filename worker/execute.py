@@ -1,0 +1,186 @@
+"""The one loop that turns a checked job into a results store, for workers and local runs."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Literal
+
+from solver.admission import Admission
+from solver.errors import InvalidInput, SimulationFailed
+from solver.simulate import Simulation, Summary
+from solver.version import SOLVER_VERSION
+from storage.catalogue import JobError
+from storage.results import ArraySpec, Peak, ResultLayout, ResultWriter
+
+EndState = Literal["succeeded", "failed", "cancelled", "left"]
+JOB_FILE = "job.json"
+_LIMIT_CODES = frozenset({"step-limit"})
+
+
+class Answer(StrEnum):
+    """What the loop is told when it reports."""
+
+    go_on = "continue"
+    cancel = "cancel"  # close the store with what there is
+    leave = "leave"  # touch the store no more: somebody continues it, or it is not ours
+
+
+@dataclass(frozen=True)
+class RestartPoint:
+    """Simulation and results store at one instant; both are needed to go on from it."""
+
+    simulation: bytes
+    results: bytes
+    folder: Path  # of the store that `results` belongs to
+    watermark: int  # samples readers may see
+    time: float  # simulated time [s]
+    fraction: float  # 0..1
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run is. `restart_point()` may be called until the report returns."""
+
+    time: float  # simulated time [s]
+    fraction: float  # 0..1
+    restart_point: Callable[[], RestartPoint]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended; `left` means that it did not, and its store is open."""
+
+    state: EndState
+    error: JobError | None = None
+    statistics: Mapping[str, Any] | None = None
+
+
+def execute(
+    admission: Admission,
+    folder: Path,
+    *,
+    report: Callable[[Progress], Answer | str],
+    restart: RestartPoint | None = None,
+) -> Outcome:
+    """Simulate a checked job and write its results store.
+
+    Parameters
+    ----------
+    admission
+        The job as `solver.admission.admit` filled it in.
+    folder
+        Where the store and `job.json` go; made here, and must not hold a store.
+    report
+        Called before each slice of at most about 0.25 s of computing, hence several times a
+        second; answers "continue", "cancel" or "leave".
+    restart
+        Where an earlier run of the same job left off; its folder is only read.
+
+    Returns
+    -------
+    Outcome
+        The store is sealed and durable, unless the state is "left".
+
+    Raises
+    ------
+    StoreExists
+        The folder holds results already.
+    OSError
+        The store cannot be written, for example because the disk is full.
+    """
+    layout = _layout(admission)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
+    if restart is None:
+        writer = ResultWriter.create(folder, layout)
+    else:
+        writer = ResultWriter.resume(
+            folder, layout, restart.results, taken_over_from=restart.folder
+        )
+    try:
+        simulation = Simulation(admission, restart.simulation if restart else None)
+    except InvalidInput as refused:
+        writer.seal(peaks={}, summary={}, complete=False)
+        return Outcome("failed", JobError("user", "invalid-input", str(refused)))
+    begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
+    state, error = _advance(simulation, writer, folder, report, begin)
+    if state == "left":
+        return Outcome("left")
+    summary = simulation.summary()
+    _seal(writer, summary, complete=state == "succeeded")
+    return Outcome(state, error, summary.statistics)
+
+
+def _advance(
+    simulation: Simulation,
+    writer: ResultWriter,
+    folder: Path,
+    report: Callable[[Progress], Answer | str],
+    begin: tuple[float, float],
+) -> tuple[EndState, JobError | None]:
+    """Run to the end, to an error, or to an answer other than to go on."""
+    time, fraction = begin
+
+    def restart_point() -> RestartPoint:
+        return RestartPoint(
+            simulation.checkpoint(),
+            writer.checkpoint(),
+            folder,
+            writer.watermark,
+            time,
+            fraction,
+        )
+
+    slices = simulation.slices()
+    while True:
+        answer = Answer(report(Progress(time, fraction, restart_point)))
+        if answer is Answer.leave:
+            return "left", None
+        if answer is Answer.cancel:
+            return "cancelled", None
+        try:
+            piece = next(slices, None)
+        except SimulationFailed as failure:
+            error_class: Literal["limit", "solver"] = (
+                "limit" if failure.code in _LIMIT_CODES else "solver"
+            )
+            error = JobError(error_class, failure.code, failure.detail, failure.time)
+            return "failed", error
+        if piece is None:
+            return "succeeded", None
+        writer.append(
+            piece.first_sample,
+            piece.sample_time,
+            piece.samples,
+            piece.first_section,
+            piece.section_time,
+            piece.sections,
+            piece.impacts,
+        )
+        time, fraction = piece.time, piece.fraction
+
+
+def _layout(admission: Admission) -> ResultLayout:
+    return ResultLayout(
+        channels=tuple(
+            ArraySpec(channel.name, channel.unit, channel.long_name)
+            for channel in admission.channels
+        ),
+        samples=admission.samples,
+        sections=admission.sections,
+        joints=admission.joints,
+        attributes={
+            "job": admission.job,
+            "digest": admission.digest,
+            "solver_version": SOLVER_VERSION,
+            "period": admission.period,
+            "section_note": admission.section_note,
+        },
+    )
+
+
+def _seal(writer: ResultWriter, summary: Summary, *, complete: bool) -> None:
+    peaks = {name: Peak(**asdict(peak)) for name, peak in summary.peaks.items()}
+    writer.seal(peaks=peaks, summary=summary.statistics, complete=complete)

@@ -1,0 +1,74 @@
+"""Holding a claimed block: heartbeats from a thread, also while kernels are being compiled."""
+
+import logging
+import os
+import signal
+import threading
+import time
+from typing import Self
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from storage.catalogue import Catalogue, Claim, Fenced, Verdict
+from storage.settings import Settings
+
+_log = logging.getLogger(__name__)
+
+
+class Lease:
+    """Keeps a claimed block's lease alive while it is entered.
+
+    If nothing advances for `settings.stall` seconds the process kills itself: a computation
+    that does not return cannot be ended in any other way, and its block is then taken over.
+    """
+
+    def __init__(self, catalogue: Catalogue, claim: Claim, settings: Settings) -> None:
+        self._catalogue = catalogue
+        self._block, self._attempt = claim.block.id, claim.block.attempt
+        self._settings = settings
+        self._ended = threading.Event()
+        self._fenced = threading.Event()
+        self._advanced = time.monotonic()
+        self._thread = threading.Thread(target=self._beat, name="heartbeat", daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        self._thread.join()
+
+    def advanced(self) -> None:
+        """Note that the computation moved on."""
+        self._advanced = time.monotonic()
+
+    def verdict(self) -> Verdict:
+        """Return whether to go on, reading only; Fenced if the block is somebody else's."""
+        self._refuse_when_fenced()
+        return self._catalogue.verdict(self._block, self._attempt)
+
+    def record_progress(self, simulated: float, fraction: float) -> Verdict:
+        """Store progress and extend the lease; Fenced if the block is somebody else's."""
+        self._refuse_when_fenced()
+        return self._catalogue.record_progress(
+            self._block, self._attempt, self._settings.lease, time=simulated, fraction=fraction
+        )
+
+    def _refuse_when_fenced(self) -> None:
+        if self._fenced.is_set():
+            raise Fenced(self._block, self._attempt)
+
+    def _beat(self) -> None:
+        while not self._ended.wait(self._settings.heartbeat):
+            if time.monotonic() - self._advanced > self._settings.stall:
+                _log.critical("block %s has not advanced; ending this process", self._block)
+                os.kill(os.getpid(), signal.SIGKILL)
+            try:
+                self._catalogue.heartbeat(self._block, self._attempt, self._settings.lease)
+            except Fenced:
+                self._fenced.set()
+                return
+            except SQLAlchemyError as error:
+                # a busy or absent database may be back before the lease runs out
+                _log.warning("heartbeat of block %s failed: %s", self._block, error)

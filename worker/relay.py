@@ -1,0 +1,95 @@
+"""Relay and reaper: `python -m worker.relay` tells workers of queued blocks and ends leases.
+
+Several may run; a duty in the catalogue lets one at a time do the work. If two ever overlap
+nothing breaks: a wake-up too many finds nothing to claim.
+"""
+
+import logging
+import os
+import signal
+import socket
+import threading
+import time
+
+from kombu.exceptions import OperationalError
+from sqlalchemy.exc import SQLAlchemyError
+
+from storage.catalogue import Catalogue
+from storage.settings import Settings
+from worker.app import RUN_BLOCK, app
+from worker.bell import Doorman
+
+_DUTY = "relay"
+_DUTY_SECONDS = 5.0
+_log = logging.getLogger(__name__)
+
+
+class Relay:
+    """Publishes wake-ups from the outbox and takes blocks back from lost workers."""
+
+    def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
+        self._catalogue = catalogue
+        self._settings = settings
+        self._name = f"{socket.gethostname()}:{os.getpid()}"
+        self._reaped = 0.0
+        self._duty_until = 0.0
+
+    def turn(self) -> None:
+        """Do what is due now, if it is this process's duty."""
+        now = time.monotonic()
+        if now > self._duty_until - _DUTY_SECONDS / 2:
+            if not self._catalogue.hold_duty(_DUTY, self._name, _DUTY_SECONDS):
+                return
+            self._duty_until = now + _DUTY_SECONDS
+        if now - self._reaped >= self._settings.reaper_period:
+            self._reaped = now
+            reaped = self._catalogue.reap(self._settings.max_attempts)
+            for block in reaped.requeued:
+                _log.warning("block %s lost its worker and is queued again", block)
+            for job in reaped.ended:
+                _log.error("job %s lost too many workers", job)
+        self.publish()
+
+    def publish(self) -> None:
+        """Send every due wake-up to Redis; what cannot be sent stays due."""
+        due = self._catalogue.due_wake_ups(self._settings.relay_outstanding)
+        sent = []
+        try:
+            for wake_up in due:
+                app.send_task(RUN_BLOCK, args=[wake_up.block], queue=wake_up.queue)
+                sent.append(wake_up.block)
+        except OperationalError as error:
+            _log.warning("Redis does not answer, trying again: %s", error)
+        if sent:
+            self._catalogue.mark_published(tuple(sent), self._settings.republish_after)
+
+    def lay_down(self) -> None:
+        """Let another relay take over at once."""
+        self._catalogue.lay_down_duty(_DUTY, self._name)
+
+
+def main() -> None:
+    """Relay and reap until SIGTERM or SIGINT."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stop.set())
+    settings = Settings()
+    if settings.redis_url is None:
+        raise SystemExit("set JOINTPLAY_REDIS_URL, such as redis://localhost:6379/0")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    relay = Relay(catalogue, settings)
+    with Doorman(settings.redis_url) as doorman:
+        while not stop.is_set():
+            try:
+                relay.turn()
+            except SQLAlchemyError as error:
+                _log.warning("the catalogue does not answer, trying again: %s", error)
+            doorman.wait(settings.relay_period)
+    relay.lay_down()
+    catalogue.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+"""The task a worker runs, and what its processes do when they start and stop."""
+
+import logging
+import os
+import signal
+import socket
+import threading
+from functools import lru_cache
+from typing import Any
+
+from billiard.process import active_children
+from celery.signals import worker_init, worker_process_init, worker_shutting_down
+
+from storage.catalogue import Catalogue
+from storage.settings import Settings
+from worker.app import RUN_BLOCK, app
+
+_draining = threading.Event()
+_DRAIN_SIGNAL = signal.SIGUSR2
+
+
+@lru_cache(maxsize=1)
+def _platform() -> tuple[Settings, Catalogue]:
+    """Return this process's settings and catalogue; never made before the fork."""
+    settings = Settings()
+    return settings, Catalogue(settings.catalogue_url)
+
+
+@app.task(name=RUN_BLOCK)  # type: ignore[untyped-decorator]
+def run_block(block: str) -> None:
+    """Compute a block if it is still to be had; a message too many does nothing."""
+    from worker.block_run import BlockRun  # imported before the fork already
+
+    settings, catalogue = _platform()
+    if _draining.is_set():
+        return
+    worker = f"{socket.gethostname()}:{os.getpid()}"
+    claim = catalogue.claim_block(block, worker, settings.lease)
+    if claim is not None:
+        BlockRun(catalogue, settings, claim, _draining).run()
+
+
+@worker_init.connect  # type: ignore[untyped-decorator]
+def _prepare(**_: Any) -> None:
+    """Before the fork: bring the schema up to date and load what every child will need."""
+    import worker.block_run  # noqa: F401 - numba and the solver, shared by all children
+
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
+    settings = Settings()
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    catalogue.close()
+
+
+@worker_process_init.connect  # type: ignore[untyped-decorator]
+def _listen_for_drain(**_: Any) -> None:
+    signal.signal(_DRAIN_SIGNAL, lambda *_: _draining.set())
+
+
+@worker_shutting_down.connect  # type: ignore[untyped-decorator]
+def _drain(**_: Any) -> None:
+    """On SIGTERM: have every child give its block back at the end of the present slice."""
+    for child in active_children():
+        os.kill(child.pid, _DRAIN_SIGNAL)
