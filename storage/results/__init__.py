@@ -16,6 +16,7 @@ from storage.results.errors import (
     UnknownChannel,
 )
 from storage.results.layout import IMPACT, ArraySpec, Peak, ResultLayout
+from storage.results.partition import Partition
 from storage.results.reader import ResultReader
 from storage.results.writer import ResultWriter
 
@@ -27,6 +28,7 @@ __all__ = [
     "InvalidAppend",
     "InvalidLayout",
     "NotAStore",
+    "Partition",
     "Peak",
     "ResultLayout",
     "ResultReader",

@@ -3,7 +3,6 @@
 import errno
 import os
 import shutil
-from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -55,18 +54,15 @@ class DurableFolder:
         path = self.root / key
         self._note_folders(key)
         path.parent.mkdir(parents=True, exist_ok=True)
-        partial = f"{path}{PARTIAL}"
-        with suppress(FileNotFoundError):
-            os.unlink(partial)
         try:
-            os.link(source, partial)
+            os.link(source, path)
         except OSError as error:
             if error.errno not in _NOT_LINKABLE:
                 raise
+            partial = f"{path}{PARTIAL}"
             shutil.copyfile(source, partial)
             _sync(partial)
-        os.replace(partial, path)
-        self.records.pop(key, None)
+            os.replace(partial, path)
 
     def commit(self) -> None:
         """Make the names of everything written since the last commit durable."""

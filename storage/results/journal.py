@@ -114,9 +114,7 @@ class Checkpoint:
             self._size = int(token["size"])
             self._sha256 = str(token["sha256"])
         except (ValueError, KeyError, TypeError) as error:
-            raise CheckpointMismatch(
-                "these bytes are no checkpoint of a results store"
-            ) from error
+            raise CheckpointMismatch("these bytes are no checkpoint of a results store") from error
         if not known or token["layout"] != layout_digest:
             raise CheckpointMismatch(
                 "the checkpoint belongs to a store with other channels, counts or joints"

@@ -2,13 +2,14 @@
 
 import json
 import re
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from hashlib import sha256
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from storage.results.errors import InvalidLayout
+from storage.results.partition import Partition
 
 TIME: Final = "time"
 GROUPS: Final = ("poincare", "peaks", "impacts")
@@ -67,6 +68,8 @@ class ResultLayout:
         Names of the joints that impacts refer to by index.
     attributes
         JSON document for the root group: the filled-in job, versions, the digest.
+    partition
+        How rows are cut into files.
 
     Raises
     ------
@@ -80,13 +83,12 @@ class ResultLayout:
     sections: int
     joints: tuple[str, ...]
     attributes: dict[str, Any] = field(default_factory=dict)
+    partition: Partition = field(default_factory=Partition)
 
     def __post_init__(self) -> None:
         seen: set[str] = set()
         for channel in self.channels:
-            if not _NAME.fullmatch(channel.name) or channel.name.endswith(
-                (".json", ".partial")
-            ):
+            if not _NAME.fullmatch(channel.name) or channel.name.endswith((".json", ".partial")):
                 raise InvalidLayout(
                     f"{channel.name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
                     "'.' and '-', not starting with '.' and not ending in .json or .partial"
@@ -114,5 +116,6 @@ class ResultLayout:
             self.samples,
             self.sections,
             list(self.joints),
+            astuple(self.partition),
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()

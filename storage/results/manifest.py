@@ -40,8 +40,7 @@ def read(root: Path) -> dict[str, Record]:
     try:
         document = json.loads((root / MANIFEST).read_bytes())
         return {
-            key: Record(entry["bytes"], entry["sha256"])
-            for key, entry in document["files"].items()
+            key: Record(entry["bytes"], entry["sha256"]) for key, entry in document["files"].items()
         }
     except FileNotFoundError as error:
         raise NotAStore(f"{root} has no {MANIFEST}: it was never sealed") from error

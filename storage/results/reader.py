@@ -110,9 +110,7 @@ class ResultReader:
         last = self.samples if stop is None else self._first_sample_from(stop, after=True)
         return first, max(first, last)
 
-    def sections(
-        self, channels: Sequence[str] | None = None
-    ) -> tuple[Floats, dict[str, Floats]]:
+    def sections(self, channels: Sequence[str] | None = None) -> tuple[Floats, dict[str, Floats]]:
         """Read the Poincare sections: (m,) times [s] and by channel (m,) values."""
         return self._read("poincare", channels, 0, self._rows("poincare", None))
 
@@ -130,9 +128,7 @@ class ResultReader:
         """Read the signed extremes by channel; none before the store is sealed."""
         if not self.sealed:
             return {}
-        columns = [
-            np.asarray(self._array(f"peaks/{name}")[:]).tolist() for name in Peak._fields
-        ]
+        columns = [np.asarray(self._array(f"peaks/{name}")[:]).tolist() for name in Peak._fields]
         return {
             name: Peak(*values)
             for name, *values in zip(self.attributes["channels"], *columns, strict=True)
@@ -181,7 +177,7 @@ class ResultReader:
                 low = middle + 1
             else:
                 high = middle
-        first = low * rows
+        first = min(low * rows, self.samples)
         chunk = np.asarray(array[first : min(first + rows, self.samples)])
         return first + int(np.searchsorted(chunk, time, side="right" if after else "left"))
 
@@ -193,8 +189,7 @@ class ResultReader:
         window = slice(start, max(start, stop))
         time = np.asarray(self._array(prefix + TIME)[window], dtype=np.float64)
         return time, {
-            name: np.asarray(self._array(prefix + name)[window], dtype=np.float64)
-            for name in names
+            name: np.asarray(self._array(prefix + name)[window], dtype=np.float64) for name in names
         }
 
     def _names(self, channels: Sequence[str] | None) -> tuple[str, ...]:

@@ -4,21 +4,12 @@ A table is a Zarr group whose arrays all have one dimension of the same length. 
 written in shards; a shard is one file an array, and is written once.
 """
 
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 
 from storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
-
-CHUNK_ROWS: Final = 16_384
-"""Rows that are compressed together: 128 KiB, one block for the compressor, so that its output
-does not depend on how many threads it has."""
-_MOST_SHARD_ROWS: Final = 32 * CHUNK_ROWS
-_FEWEST_SHARD_ROWS: Final = 1024
-_BUFFER_BYTES: Final = 32 * 2**20
-"""Bound on the rows of one table that wait for their shard to fill."""
 
 _DOUBLE: Final = np.dtype("<f8")
 _IMPACT_MEANING: Final = {
@@ -55,41 +46,28 @@ class Table:
     """Columns that grow together.
 
     `group` is the path of the Zarr group ("" for the root), `capacity` the number of rows of a
-    complete run, or None where it is not known beforehand.
+    complete run, or None where it is not known beforehand. `chunk_rows` are compressed
+    together; `shard_rows`, a multiple of them, are in one file.
     """
 
     group: str
     dimension: str
     columns: tuple[Column, ...]
     capacity: int | None
-    attributes: dict[str, Any] = field(default_factory=dict)
+    chunk_rows: int
+    shard_rows: int
+    attributes: dict[str, Any]
 
     def key(self, name: str) -> str:
         """Path of an array inside the store."""
         return f"{self.group}/{name}" if self.group else name
-
-    @cached_property
-    def shard_rows(self) -> int:
-        """Rows in one file: the most that keeps the buffer of the whole table within bounds."""
-        if self.capacity is not None and self.capacity <= CHUNK_ROWS:
-            return max(self.capacity, 1)
-        row_bytes = sum(column.dtype.itemsize for column in self.columns)
-        fitting = 1 << (_BUFFER_BYTES // row_bytes).bit_length() - 1
-        return min(max(fitting, _FEWEST_SHARD_ROWS), _MOST_SHARD_ROWS)
-
-    @cached_property
-    def chunk_rows(self) -> int:
-        """Rows in one compressed chunk; divides `shard_rows`."""
-        return min(self.shard_rows, CHUNK_ROWS)
 
 
 def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
     """History, sections, impacts and peaks of a layout."""
     sampled = (
         *(
-            Column(
-                channel.name, _DOUBLE, {"units": channel.unit, "long_name": channel.long_name}
-            )
+            Column(channel.name, _DOUBLE, {"units": channel.unit, "long_name": channel.long_name})
             for channel in layout.channels
         ),
         # last, because readers take its shard for the sign that all others are there
@@ -107,11 +85,24 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
         "channels": [channel.name for channel in layout.channels],
         "channel_units": [channel.unit for channel in layout.channels],
     }
+    impacts = _impact_columns(layout.joints)
+
+    def table(
+        group: str,
+        dimension: str,
+        columns: tuple[Column, ...],
+        capacity: int | None,
+        attributes: dict[str, Any],
+    ) -> Table:
+        row_bytes = sum(column.dtype.itemsize for column in columns)
+        cut = layout.partition.cut(capacity, row_bytes)
+        return Table(group, dimension, columns, capacity, *cut, attributes)
+
     return (
-        Table("", "sample", sampled, layout.samples, in_time | about),
-        Table("poincare", "section", sampled, layout.sections, in_time),
-        Table("impacts", "impact", _impact_columns(layout.joints), None),
-        Table("peaks", "channel", peaks, len(layout.channels), channels),
+        table("", "sample", sampled, layout.samples, in_time | about),
+        table("poincare", "section", sampled, layout.sections, in_time),
+        table("impacts", "impact", impacts, None, {}),
+        table("peaks", "channel", peaks, len(layout.channels), channels),
     )
 
 

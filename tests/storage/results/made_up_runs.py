@@ -1,0 +1,89 @@
+"""Rows to be stored: noise, because any bit may matter, with every kind of row."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from storage.results import IMPACT, ArraySpec, Partition, Peak, ResultLayout, ResultWriter
+
+SMALL_FILES = Partition(chunk_rows=4, shard_chunks=3, buffer_bytes=2**20)
+PLAIN_FILES = Partition(chunk_rows=4, shard_chunks=1, buffer_bytes=2**20)
+
+
+def made_up_layout(samples, sections, channels=2, partition=SMALL_FILES, attributes=None):
+    return ResultLayout(
+        channels=tuple(
+            ArraySpec(f"slider7.q{index}", "m", f"coordinate {index}") for index in range(channels)
+        ),
+        samples=samples,
+        sections=sections,
+        joints=("A", "B"),
+        attributes={"job": {"kind": "simulate"}} if attributes is None else attributes,
+        partition=partition,
+    )
+
+
+@dataclass
+class MadeUpRun:
+    """Everything that a run would hand over, to be appended in slices."""
+
+    layout: ResultLayout
+    impacts: np.ndarray
+    seed: int = 0
+
+    def __post_init__(self):
+        random = np.random.default_rng(self.seed)
+        width = len(self.layout.channels)
+        self.time = np.linspace(0.0, 2.0, self.layout.samples)
+        self.samples = random.normal(size=(self.layout.samples, width))
+        self.section_time = np.arange(float(self.layout.sections))
+        self.sections = random.normal(size=(self.layout.sections, width))
+        self.peaks = {
+            channel.name: Peak(*random.normal(size=4)) for channel in self.layout.channels
+        }
+
+    def append(self, writer, start, stop):
+        """Append the part from one fraction of the run to another."""
+        rows = slice(cut(start, len(self.time)), cut(stop, len(self.time)))
+        sections = slice(cut(start, len(self.section_time)), cut(stop, len(self.section_time)))
+        impacts = slice(cut(start, len(self.impacts)), cut(stop, len(self.impacts)))
+        writer.append(
+            rows.start,
+            self.time[rows],
+            self.samples[rows],
+            sections.start,
+            self.section_time[sections],
+            self.sections[sections],
+            self.impacts[impacts],
+        )
+
+    def write(self, path, fractions=(0.0, 1.0)):
+        """Store the whole run, sliced at the given fractions, and seal it."""
+        writer = ResultWriter.create(path, self.layout)
+        for start, stop in pairwise(fractions):
+            self.append(writer, start, stop)
+        writer.seal(peaks=self.peaks, summary={"steps": 3})
+        return path
+
+
+def made_up_impacts(count, seed=1):
+    random = np.random.default_rng(seed)
+    impacts = np.empty(count, IMPACT)
+    impacts["joint"] = random.integers(0, 2, count)
+    for name in IMPACT.names[1:]:
+        impacts[name] = random.normal(size=count)
+    return impacts
+
+
+def cut(fraction, rows):
+    return round(fraction * rows)
+
+
+def files(folder):
+    """Every file below a folder with its bytes."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }

@@ -1,0 +1,175 @@
+"""A store that is being written shows what is durable and nothing else."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+import zarr
+from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+
+from storage.results import (
+    ArraySpec,
+    InvalidAppend,
+    InvalidLayout,
+    Peak,
+    ResultLayout,
+    ResultReader,
+    ResultWriter,
+    StoreExists,
+    StoreSealed,
+)
+
+
+@pytest.fixture
+def run():
+    return MadeUpRun(made_up_layout(samples=40, sections=5), made_up_impacts(30))
+
+
+@pytest.fixture
+def writer(tmp_path, run):
+    return ResultWriter.create(tmp_path / "store", run.layout)
+
+
+def test_the_watermark_is_whole_shards_and_readers_stop_there(tmp_path, run, writer):
+    run.append(writer, 0.0, 0.7)
+    assert (writer.samples, writer.watermark) == (28, 24)
+    reader = ResultReader(tmp_path / "store")
+    time, channels = reader.history()
+    np.testing.assert_array_equal(time, run.time[:24])
+    np.testing.assert_array_equal(channels["slider7.q0"], run.samples[:24, 0])
+    assert not reader.sealed
+    assert not reader.complete
+    assert reader.peaks() == {}
+    np.testing.assert_array_equal(reader.impacts(), run.impacts[:12])
+    assert len(reader.sections()[0]) == 0
+
+
+def test_a_given_watermark_hides_what_lies_above_it(tmp_path, run, writer):
+    run.append(writer, 0.0, 0.7)
+    assert len(ResultReader(tmp_path / "store", watermark=10).history()[0]) == 10
+
+
+def test_stock_zarr_sees_nan_where_nothing_is_yet(tmp_path, run, writer):
+    run.append(writer, 0.0, 0.7)
+    values = zarr.open_group(tmp_path / "store", mode="r")["slider7.q0"][:]
+    assert np.isfinite(values[:24]).all()
+    assert np.isnan(values[24:]).all()
+
+
+def test_a_run_that_ended_early_keeps_what_it_computed(tmp_path, run, writer):
+    run.append(writer, 0.0, 0.7)
+    writer.seal(peaks={"slider7.q0": Peak(1.0, 2.0, 3.0, 4.0)}, summary={}, complete=False)
+    reader = ResultReader(tmp_path / "store")
+    assert (reader.sealed, reader.complete, reader.samples) == (True, False, 28)
+    assert (reader.attributes["samples"], reader.attributes["sections"]) == (28, 4)
+    np.testing.assert_array_equal(reader.history()[1]["slider7.q1"], run.samples[:28, 1])
+    assert np.isnan(reader.peaks()["slider7.q1"].minimum)
+    stock = zarr.open_group(tmp_path / "store", mode="r")
+    assert stock["time"].shape == (28,)
+    reader.verify()
+
+
+def test_a_run_without_rows_seals(tmp_path, writer):
+    writer.seal(peaks={}, summary={}, complete=False)
+    reader = ResultReader(tmp_path / "store")
+    assert len(reader.history()[0]) == len(reader.sections()[0]) == len(reader.impacts()) == 0
+
+
+def test_an_incomplete_run_is_not_sealed_as_complete(run, writer):
+    run.append(writer, 0.0, 0.7)
+    with pytest.raises(InvalidAppend, match="28 of 40 samples and 4 of 5 sections"):
+        writer.seal(peaks=run.peaks, summary={})
+
+
+def test_scaffolding_is_gone_after_sealing(tmp_path, run, writer):
+    run.append(writer, 0.0, 1.0)
+    writer.checkpoint()
+    (tmp_path / "store/time/c/9.partial").write_bytes(b"litter of a killed writer")
+    writer.seal(peaks=run.peaks, summary={})
+    names = {path.name for path in (tmp_path / "store").rglob("*")}
+    assert ".journal" not in names
+    assert not any(name.endswith(".partial") for name in names)
+
+
+def test_a_sealed_store_takes_nothing_more(run, writer):
+    run.append(writer, 0.0, 1.0)
+    writer.seal(peaks=run.peaks, summary={})
+    with pytest.raises(StoreSealed):
+        run.append(writer, 1.0, 1.0)
+    with pytest.raises(StoreSealed):
+        writer.checkpoint()
+    with pytest.raises(StoreSealed):
+        writer.seal(peaks=run.peaks, summary={})
+
+
+def test_a_store_is_written_once(tmp_path, run, writer):
+    with pytest.raises(StoreExists, match="choose another folder"):
+        ResultWriter.create(tmp_path / "store", run.layout)
+
+
+def nothing(channels=2):
+    return np.empty(0), np.empty((0, channels)), made_up_impacts(0)
+
+
+@pytest.mark.parametrize(
+    ("first", "rows", "width", "complaint"),
+    [
+        (1, 3, 2, "the next rows are sample 0"),
+        (0, 3, 1, r"samples must have shape \(3, 2\)"),
+        (0, 41, 2, "more than the 40"),
+    ],
+)
+def test_rows_that_do_not_fit_are_refused_and_not_taken(writer, first, rows, width, complaint):
+    time, empty, impacts = nothing()
+    with pytest.raises(InvalidAppend, match=complaint):
+        writer.append(first, np.zeros(rows), np.zeros((rows, width)), 0, time, empty, impacts)
+    assert writer.samples == 0
+
+
+def test_impacts_need_their_fields(writer):
+    time, empty, _ = nothing()
+    with pytest.raises(InvalidAppend, match="approach_rate"):
+        writer.append(0, time, empty, 0, time, empty, np.zeros(2, [("joint", "i4")]))
+
+
+@pytest.mark.parametrize("summary", [{"seconds": float("nan")}, {"seconds": {1, 2}}])
+def test_a_summary_that_json_cannot_carry_is_refused(run, writer, summary):
+    run.append(writer, 0.0, 1.0)
+    with pytest.raises(InvalidAppend, match="finite JSON"):
+        writer.seal(peaks=run.peaks, summary=summary)
+
+
+def test_peaks_of_unknown_channels_are_refused(run, writer):
+    run.append(writer, 0.0, 1.0)
+    with pytest.raises(InvalidAppend, match=r"slider8\.x"):
+        writer.seal(peaks={"slider8.x": Peak(0.0, 0.0, 0.0, 0.0)}, summary={})
+
+
+@pytest.mark.parametrize(
+    "name", ["", ".hidden", "..", "a/b", "a b", "time", "peaks", "x" * 65, "ä", "zarr.json", "a\n"]
+)
+def test_names_that_would_leave_their_place_are_refused(name):
+    with pytest.raises(InvalidLayout, match="cannot name"):
+        ResultLayout((ArraySpec(name, "m", ""),), 1, 0, ())
+
+
+def test_a_name_occurs_once():
+    with pytest.raises(InvalidLayout, match="occurs twice"):
+        ResultLayout((ArraySpec("x", "m", ""), ArraySpec("x", "s", "")), 1, 0, ())
+
+
+def test_a_million_impacts_stay_flat_in_memory(tmp_path):
+    layout = made_up_layout(samples=0, sections=0, partition=ResultLayout((), 0, 0, ()).partition)
+    slice_of_impacts = made_up_impacts(10_000)
+    time, empty, _ = nothing()
+    tracemalloc.start()
+    try:
+        writer = ResultWriter.create(tmp_path / "store", layout)
+        for _ in range(100):
+            writer.append(0, time, empty, 0, time, empty, slice_of_impacts)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert writer.impacts == 1_000_000
+    # the bound on one table's buffer, and as much again for a shard on its way to the disk
+    assert peak < 2 * layout.partition.buffer_bytes

@@ -1,0 +1,202 @@
+"""What is on the disk depends on the rows alone: not on slices, kills or resumptions."""
+
+import os
+import shutil
+import tempfile
+from itertools import count, pairwise
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from made_up_runs import (
+    PLAIN_FILES,
+    SMALL_FILES,
+    MadeUpRun,
+    files,
+    made_up_impacts,
+    made_up_layout,
+)
+
+from storage.results import (
+    CheckpointMismatch,
+    CorruptStore,
+    ResultReader,
+    ResultWriter,
+    StoreExists,
+)
+
+# where a part of the run ends, and what happens there: nothing, a checkpoint, or a checkpoint and
+# later a kill that loses what was appended since
+event = st.tuples(st.floats(0.0, 1.0), st.sampled_from(["on", "checkpoint", "kill"]))
+
+runs = st.builds(
+    lambda samples, sections, impacts, partition: MadeUpRun(
+        made_up_layout(samples, sections, partition=partition), made_up_impacts(impacts)
+    ),
+    samples=st.integers(0, 40),
+    sections=st.integers(0, 20),
+    impacts=st.integers(0, 40),
+    partition=st.sampled_from([SMALL_FILES, PLAIN_FILES]),
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(run=runs, events=st.lists(event, max_size=8))
+def test_any_slicing_and_any_kill_gives_the_files_of_an_undisturbed_run(run, events):
+    with tempfile.TemporaryDirectory() as folder:
+        undisturbed = run.write(Path(folder, "undisturbed"))
+        attempts = [Path(folder, "a1")]
+        writer = ResultWriter.create(attempts[-1], run.layout)
+        reached = 0.0
+        for stop, happening in sorted(events):
+            run.append(writer, reached, stop)
+            reached = stop
+            if happening == "on":
+                continue
+            checkpoint = writer.checkpoint()
+            if happening == "kill":
+                run.append(writer, reached, (1.0 + reached) / 2)  # these rows are lost
+                attempts.append(Path(folder, f"a{len(attempts) + 1}"))
+                writer = ResultWriter.resume(
+                    attempts[-1], run.layout, checkpoint, taken_over_from=attempts[-2]
+                )
+        run.append(writer, reached, 1.0)
+        for attempt in attempts[:-1]:
+            shutil.rmtree(attempt)
+        writer.seal(peaks=run.peaks, summary={"steps": 3})
+        assert files(attempts[-1]) == files(undisturbed)
+        ResultReader(attempts[-1]).verify()
+
+
+class Killed(Exception):
+    """Stands for the end of the process."""
+
+
+@pytest.mark.parametrize("survived", range(9))
+def test_a_kill_amid_the_files_of_a_shard_leaves_the_checkpoint_valid(
+    tmp_path, monkeypatch, survived
+):
+    run = MadeUpRun(made_up_layout(samples=40, sections=2), made_up_impacts(40))
+    writer = ResultWriter.create(tmp_path / "a1", run.layout)
+    run.append(writer, 0.0, 0.4)
+    checkpoint = writer.checkpoint()
+    replace, calls = os.replace, count()
+
+    def replace_until_killed(source, target):
+        if next(calls) == survived:
+            raise Killed
+        replace(source, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", replace_until_killed)
+        with pytest.raises(Killed):
+            run.append(writer, 0.4, 1.0)
+    resumed = ResultWriter.resume(
+        tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+    )
+    run.append(resumed, 0.4, 1.0)
+    resumed.seal(peaks=run.peaks, summary={"steps": 3})
+    assert files(tmp_path / "a2") == files(run.write(tmp_path / "undisturbed"))
+
+
+def test_a_checkpoint_survives_the_two_that_follow_it(tmp_path):
+    run = MadeUpRun(made_up_layout(samples=100, sections=4), made_up_impacts(30))
+    writer = ResultWriter.create(tmp_path / "a1", run.layout)
+    run.append(writer, 0.0, 0.2)
+    checkpoint = writer.checkpoint()
+    for start, stop in pairwise([0.2, 0.5, 0.9]):  # each writes shards and so begins a journal
+        run.append(writer, start, stop)
+        writer.checkpoint()
+    resumed = ResultWriter.resume(
+        tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+    )
+    assert (resumed.samples, resumed.sections, resumed.impacts) == (20, 1, 6)
+
+
+def test_a_checkpoint_is_small_whatever_waits(tmp_path):
+    run = MadeUpRun(
+        made_up_layout(samples=10_000, sections=0, partition=SMALL_FILES), made_up_impacts(0)
+    )
+    writer = ResultWriter.create(tmp_path / "store", run.layout)
+    run.append(writer, 0.0, 0.5)
+    assert len(writer.checkpoint()) < 1000
+
+
+def test_taking_over_copies_where_it_cannot_link(tmp_path):
+    other_file_system = Path("/dev/shm")
+    if not other_file_system.is_dir() or os.stat("/dev/shm").st_dev == os.stat(tmp_path).st_dev:
+        pytest.skip("needs a second file system to copy to")
+    run = MadeUpRun(made_up_layout(samples=30, sections=2), made_up_impacts(5))
+    writer = ResultWriter.create(tmp_path / "a1", run.layout)
+    run.append(writer, 0.0, 0.8)
+    with tempfile.TemporaryDirectory(dir=other_file_system) as folder:
+        resumed = ResultWriter.resume(
+            Path(folder, "a2"), run.layout, writer.checkpoint(), taken_over_from=tmp_path / "a1"
+        )
+        run.append(resumed, 0.8, 1.0)
+        resumed.seal(peaks=run.peaks, summary={"steps": 3})
+        assert files(Path(folder, "a2")) == files(run.write(tmp_path / "undisturbed"))
+
+
+def started(folder, run, reached=0.5):
+    writer = ResultWriter.create(folder, run.layout)
+    run.append(writer, 0.0, reached)
+    return writer.checkpoint()
+
+
+@pytest.fixture
+def run():
+    return MadeUpRun(made_up_layout(samples=50, sections=2), made_up_impacts(5))
+
+
+def test_a_checkpoint_of_another_layout_is_refused(tmp_path, run):
+    checkpoint = started(tmp_path / "a1", run)
+    other = made_up_layout(samples=51, sections=2)
+    with pytest.raises(CheckpointMismatch, match="other channels, counts or joints"):
+        ResultWriter.resume(tmp_path / "a2", other, checkpoint, taken_over_from=tmp_path / "a1")
+
+
+@pytest.mark.parametrize("nonsense", [b"", b"{}", b"[1]", b"\xff\x00", b'{"format": 1}'])
+def test_bytes_that_are_no_checkpoint_are_refused(tmp_path, run, nonsense):
+    started(tmp_path / "a1", run)
+    with pytest.raises(CheckpointMismatch, match="no checkpoint"):
+        ResultWriter.resume(tmp_path / "a2", run.layout, nonsense, taken_over_from=tmp_path / "a1")
+
+
+def test_a_shard_that_is_gone_is_named(tmp_path, run):
+    checkpoint = started(tmp_path / "a1", run)
+    (tmp_path / "a1/slider7.q1/c/1").unlink()
+    with pytest.raises(CheckpointMismatch, match=r"slider7\.q1/c/1 is gone"):
+        ResultWriter.resume(
+            tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+        )
+
+
+def test_a_damaged_journal_is_found_out(tmp_path, run):
+    checkpoint = started(tmp_path / "a1", run)
+    (journal,) = (tmp_path / "a1/.journal").iterdir()
+    content = bytearray(journal.read_bytes())
+    content[-1] ^= 1
+    journal.write_bytes(content)
+    with pytest.raises(CorruptStore, match="bytes that the checkpoint describes"):
+        ResultWriter.resume(
+            tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+        )
+
+
+def test_a_journal_that_is_gone_is_named(tmp_path, run):
+    checkpoint = started(tmp_path / "a1", run)
+    shutil.rmtree(tmp_path / "a1/.journal")
+    with pytest.raises(CheckpointMismatch, match="is gone"):
+        ResultWriter.resume(
+            tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+        )
+
+
+def test_a_store_is_never_resumed_over_another(tmp_path, run):
+    checkpoint = started(tmp_path / "a1", run)
+    with pytest.raises(StoreExists):
+        ResultWriter.resume(
+            tmp_path / "a1", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+        )
