@@ -1,0 +1,65 @@
+"""The application: `create_app` puts the resources together."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.metadata import version
+
+from fastapi import FastAPI
+
+import service.health.endpoints
+import service.jobs.endpoints
+import service.problems.endpoints
+import service.results.endpoints
+import service.scenes.endpoints
+from service import problems
+from storage.catalogue import Catalogue
+from storage.settings import Settings
+
+_DESCRIPTION = """
+Simulate planar mechanisms whose joints have play, and read the results.
+
+All values are in SI units; the schemas give the unit of every field.  Everything that goes wrong
+is an RFC 9457 problem document whose `errors` point at the fields.
+"""
+_RESOURCES = (
+    service.jobs.endpoints,
+    service.results.endpoints,
+    service.scenes.endpoints,
+    service.health.endpoints,
+    service.problems.endpoints,
+)
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """Return the application.
+
+    Parameters
+    ----------
+    settings
+        Where the catalogue and the results are; by default from the environment
+        (``JOINTPLAY_...``).
+    """
+    settings = settings or Settings()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        settings.data.mkdir(parents=True, exist_ok=True)
+        catalogue = Catalogue(settings.catalogue_url)
+        catalogue.migrate()
+        app.state.catalogue = catalogue
+        try:
+            yield
+        finally:
+            catalogue.close()
+
+    app = FastAPI(
+        title="jointplay",
+        version=version("jointplay"),
+        description=_DESCRIPTION,
+        lifespan=lifespan,
+    )
+    app.state.settings = settings
+    problems.install(app)
+    for resource in _RESOURCES:
+        app.include_router(resource.router)
+    return app

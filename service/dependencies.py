@@ -1,0 +1,51 @@
+"""What endpoints need from the application: the catalogue, the settings, a job of the path."""
+
+import re
+from typing import Annotated
+
+from fastapi import Depends, Path, Request
+
+from service.problems import ErrorDetail, RequestRefused, kinds
+from service.problems.document import clipped
+from storage.catalogue import Catalogue, Job, JobNotFound
+from storage.settings import Settings
+
+JOB_ID = re.compile("[0-9A-HJKMNP-TV-Z]{26}")
+
+
+def _catalogue(request: Request) -> Catalogue:
+    catalogue: Catalogue = request.app.state.catalogue
+    return catalogue
+
+
+def _settings(request: Request) -> Settings:
+    settings: Settings = request.app.state.settings
+    return settings
+
+
+CatalogueDependency = Annotated[Catalogue, Depends(_catalogue)]
+SettingsDependency = Annotated[Settings, Depends(_settings)]
+
+
+def found(catalogue: Catalogue, job_id: str) -> Job:
+    """Return the job, or refuse with 404; the id is matched before anything looks it up."""
+    if JOB_ID.fullmatch(job_id):
+        try:
+            return catalogue.get(job_id)
+        except JobNotFound:
+            pass
+    raise RequestRefused(
+        kinds.UNKNOWN_JOB,
+        f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs.",
+        [ErrorDetail(parameter="job_id", detail="Give the id of an existing job.")],
+    )
+
+
+JobId = Annotated[str, Path(description="Id of the job, as POST /v1/jobs returned it.")]
+
+
+def _job_of_the_path(catalogue: CatalogueDependency, job_id: JobId) -> Job:
+    return found(catalogue, job_id)
+
+
+JobOfThePath = Annotated[Job, Depends(_job_of_the_path)]

@@ -1,0 +1,1 @@
+"""``/healthz`` and ``/readyz``: for whoever supervises the service."""

@@ -1,0 +1,1 @@
+"""``/v1/jobs``: submit, list, look at and cancel jobs."""

@@ -1,0 +1,104 @@
+"""Jobs as the API shows them."""
+
+from datetime import UTC, datetime
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from storage.catalogue import Job, JobState
+
+SECONDS: dict[str, Any] = {"unit": "s"}
+
+
+class Progress(BaseModel):
+    """How far a job is."""
+
+    time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
+    fraction: float = Field(ge=0, le=1, description="Part of the whole job, 0 to 1.")
+
+
+class JobError(BaseModel):
+    """Why a job failed."""
+
+    model_config = ConfigDict(serialize_by_alias=True, validate_by_name=True)
+
+    error_class: Literal["user", "solver", "platform", "limit"] = Field(
+        alias="class",
+        description="Who can do something about it: the user (the job's document), nobody but "
+        "another tolerance (solver), the operator (platform), a smaller job (limit).",
+    )
+    code: str = Field(description="The reason for programs, for example step-size-underflow.")
+    detail: str = Field(description="The reason, and what to try.")
+    time: float | None = Field(
+        description="Simulated time at which it happened.", json_schema_extra=SECONDS
+    )
+
+
+class JobResource(BaseModel):
+    """One job; while it is not finished, its results answer 409."""
+
+    id: str
+    kind: str
+    label: str | None
+    state: JobState
+    progress: Progress
+    attempt: int = Field(description="Counts from 1; 0: never started.")
+    created: datetime
+    started: datetime | None
+    finished: datetime | None
+    error: JobError | None
+    links: dict[str, str] = Field(description="Addresses of the job and of what it computed.")
+    job: dict[str, Any] = Field(
+        description="The job's document with every default filled in: posting it repeats the job."
+    )
+    solver_version: str
+
+    @classmethod
+    def of(cls, job: Job) -> Self:
+        """Show the catalogue's record."""
+        error = job.error
+        return cls(
+            id=job.id,
+            kind=job.kind,
+            label=job.label,
+            state=job.state,
+            progress=Progress(time=job.progress_time, fraction=job.progress_fraction),
+            attempt=job.attempt,
+            created=_moment(job.created),
+            started=None if job.started is None else _moment(job.started),
+            finished=None if job.finished is None else _moment(job.finished),
+            error=error
+            and JobError(
+                error_class=error.error_class,
+                code=error.code,
+                detail=error.detail,
+                time=error.time,
+            ),
+            links=_links(job.id),
+            job=job.spec,
+            solver_version=job.solver_version,
+        )
+
+
+class JobPage(BaseModel):
+    """Jobs, newest first."""
+
+    jobs: list[JobResource]
+    next_page_token: str | None = Field(
+        description="Give it as page_token for the jobs after these; null: there are no more."
+    )
+
+
+def address(job_id: str) -> str:
+    """Return the path of a job."""
+    return f"/v1/jobs/{job_id}"
+
+
+def _links(job_id: str) -> dict[str, str]:
+    base = address(job_id)
+    results = ("history", "peaks", "poincare", "impacts", "figures")
+    return {"self": base, "cancel": f"{base}/cancel"} | {name: f"{base}/{name}" for name in results}
+
+
+def _moment(epoch_seconds: float) -> datetime:
+    return datetime.fromtimestamp(epoch_seconds, UTC)

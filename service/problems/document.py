@@ -1,0 +1,78 @@
+"""The shape of a problem document, and the exception that carries one."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from service.problems.kinds import Kind
+
+MEDIA_TYPE = "application/problem+json"
+_LONGEST_SENTENCE = 1000  # a client's own text may be quoted in it
+
+
+class ErrorDetail(BaseModel):
+    """One thing that is wrong: where, and what would be right."""
+
+    model_config = ConfigDict(frozen=True)
+
+    detail: str = Field(description="One sentence that says what is wrong and what is right.")
+    pointer: str | None = Field(
+        default=None, description="JSON pointer (RFC 6901) into the body that was sent."
+    )
+    parameter: str | None = Field(
+        default=None, description="Name of the path or query parameter that is meant."
+    )
+
+
+class ProblemDocument(BaseModel):
+    """An RFC 9457 problem document."""
+
+    model_config = ConfigDict(frozen=True)
+
+    type: str = Field(description="Identifies the kind of problem and explains it when fetched.")
+    title: str = Field(description="The kind of problem in a few words.")
+    status: int = Field(description="HTTP status.")
+    detail: str = Field(description="What happened this time.")
+    instance: str | None = Field(default=None, description="Path of the request.")
+    errors: tuple[ErrorDetail, ...] = Field(
+        default=(), description="Every field or parameter that is wrong."
+    )
+
+
+class RequestRefused(Exception):
+    """Raised where a request cannot be answered; becomes a problem document of ``kind``."""
+
+    def __init__(
+        self,
+        kind: Kind,
+        detail: str,
+        errors: Sequence[ErrorDetail] = (),
+        headers: Mapping[str, str] | None = None,
+    ) -> None:
+        super().__init__(detail)
+        self.kind = kind
+        self.detail = detail
+        self.errors = tuple(errors)
+        self.headers = dict(headers or {})
+
+
+def clipped(text: str) -> str:
+    """Return ``text``, shortened where a client's own text made it endless."""
+    if len(text) <= _LONGEST_SENTENCE:
+        return text
+    return text[: _LONGEST_SENTENCE - 1] + "…"
+
+
+def problems(*kinds: Kind) -> dict[int | str, dict[str, Any]]:
+    """Return the ``responses`` that an endpoint declares in the OpenAPI document."""
+    titles: dict[int, list[str]] = {}
+    for kind in kinds:
+        titles.setdefault(kind.status, []).append(kind.title)
+    return {
+        status: {
+            "description": "; ".join(lines),
+            "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}},
+        }
+        for status, lines in titles.items()
+    }

@@ -1,0 +1,115 @@
+"""From the exceptions of every layer to problem documents: the only place that knows both."""
+
+import logging
+from functools import singledispatch
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import Response
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+
+from jointplay.strict_json import MalformedJson
+from service.problems import kinds
+from service.problems.document import (
+    MEDIA_TYPE,
+    ErrorDetail,
+    ProblemDocument,
+    RequestRefused,
+    clipped,
+)
+from solver.errors import InvalidInput, LimitExceeded
+
+_log = logging.getLogger(__name__)
+_BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
+
+
+def install(app: FastAPI) -> None:
+    """Let ``app`` answer every exception with a problem document."""
+    for answered in (
+        RequestRefused,
+        RequestValidationError,
+        HTTPException,
+        MalformedJson,
+        InvalidInput,
+        OperationalError,
+        Exception,
+    ):
+        app.add_exception_handler(answered, _answer)
+
+
+async def _answer(request: Request, error: Exception) -> Response:
+    refused = refusal(error)
+    if refused.kind.status >= 500:
+        _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    document = ProblemDocument(
+        type=refused.kind.type,
+        title=refused.kind.title,
+        status=refused.kind.status,
+        detail=clipped(refused.detail),
+        instance=clipped(request.url.path),
+        errors=refused.errors,
+    )
+    return Response(
+        document.model_dump_json(exclude_none=True),
+        status_code=refused.kind.status,
+        headers=refused.headers,
+        media_type=MEDIA_TYPE,
+    )
+
+
+@singledispatch
+def refusal(error: Exception) -> RequestRefused:
+    """Return what a client is told about an exception; nobody foresaw this one."""
+    return RequestRefused(kinds.INTERNAL, "The service failed; its log says why.")
+
+
+@refusal.register
+def _(error: RequestRefused) -> RequestRefused:
+    return error
+
+
+@refusal.register
+def _(error: RequestValidationError) -> RequestRefused:
+    """Name the parameters; the input is not echoed, as JSON could not carry all of it."""
+    errors = [
+        ErrorDetail(parameter=clipped(str(one["loc"][-1])), detail=_sentence(one["msg"]))
+        for one in error.errors()
+    ]
+    names = ", ".join(str(one.parameter) for one in errors)
+    return RequestRefused(kinds.INVALID_REQUEST, f"Correct the parameters: {names}.", errors)
+
+
+@refusal.register
+def _(error: HTTPException) -> RequestRefused:
+    fallback = kinds.INVALID_REQUEST if error.status_code < 500 else kinds.INTERNAL
+    kind = _BY_STATUS.get(error.status_code, fallback)
+    return RequestRefused(kind, f"{kind.title}. {kind.help}", headers=error.headers)
+
+
+@refusal.register
+def _(error: MalformedJson) -> RequestRefused:
+    errors = [ErrorDetail(pointer=clipped(f.pointer), detail=f.detail) for f in error.flaws]
+    return RequestRefused(kinds.MALFORMED_JSON, errors[0].detail, errors)
+
+
+@refusal.register
+def _(error: InvalidInput) -> RequestRefused:
+    kind = kinds.LIMIT_EXCEEDED if isinstance(error, LimitExceeded) else kinds.INVALID_JOB
+    errors = [
+        ErrorDetail(pointer=clipped(one.pointer), detail=clipped(one.detail))
+        for one in error.problems
+    ]
+    detail = errors[0].detail if len(errors) == 1 else f"{len(errors)} fields are wrong."
+    return RequestRefused(kind, detail, errors)
+
+
+@refusal.register
+def _(error: OperationalError) -> RequestRefused:
+    detail = "The catalogue does not answer; nothing was recorded."
+    return RequestRefused(kinds.UNAVAILABLE, detail, headers={"Retry-After": "5"})
+
+
+def _sentence(message: str) -> str:
+    sentence = message.replace("Extra inputs are not permitted", "There is no such parameter")
+    return clipped(sentence.rstrip(".") + ".")

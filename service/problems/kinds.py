@@ -1,0 +1,147 @@
+"""The problems that exist, each with its status and what a client can do about it."""
+
+from typing import NamedTuple
+
+
+class Kind(NamedTuple):
+    """One kind of problem; its ``type`` is ``/problems/{name}``."""
+
+    name: str
+    status: int
+    title: str
+    help: str
+
+    @property
+    def type(self) -> str:
+        """The URI reference that identifies the kind, and where it is explained."""
+        return f"/problems/{self.name}"
+
+
+MALFORMED_JSON = Kind(
+    "malformed-json",
+    400,
+    "The body is not JSON",
+    "Send JSON as RFC 8259 defines it: UTF-8, finite numbers (no NaN, nothing beyond 1.7e308), "
+    "no key twice in one object, at most 64 levels. `errors` points at each place.",
+)
+INVALID_JOB = Kind(
+    "invalid-job",
+    422,
+    "The job cannot be run as it is described",
+    "Correct the fields that `errors` points at; each sentence says what would be right. "
+    "The job's schema is in /openapi.json.",
+)
+LIMIT_EXCEEDED = Kind(
+    "limit-exceeded",
+    422,
+    "The job is larger than this service takes",
+    "Each sentence of `errors` gives the estimate and the limit: shorten the duration, widen the "
+    "output step or select fewer channels.",
+)
+INVALID_REQUEST = Kind(
+    "invalid-request",
+    422,
+    "A parameter of the request is wrong",
+    "Correct the parameters that `errors` names.",
+)
+UNKNOWN_CHANNEL = Kind(
+    "unknown-channel",
+    422,
+    "The job has no such channel",
+    "Name channels as the job's `peaks` lists them, or by globs such as `slider7.*`.",
+)
+RESPONSE_TOO_LARGE = Kind(
+    "response-too-large",
+    422,
+    "The answer would be too large",
+    "Ask for fewer channels or a shorter window with `channels`, `start` and `stop`.",
+)
+UNKNOWN_JOB = Kind(
+    "unknown-job",
+    404,
+    "There is no such job",
+    "List the jobs with GET /v1/jobs.",
+)
+UNKNOWN_SCENE = Kind(
+    "unknown-scene",
+    404,
+    "There is no such scene",
+    "List the scenes with GET /v1/scenes.",
+)
+UNKNOWN_FIGURE = Kind(
+    "unknown-figure",
+    404,
+    "The job has no such figure",
+    "The problem's `detail` lists the figures that the job has.",
+)
+NO_RESULTS = Kind(
+    "no-results",
+    404,
+    "The job ended before anything was computed",
+    "Its `error` says why; correct the cause and submit it again.",
+)
+RESULTS_NOT_READY = Kind(
+    "results-not-ready",
+    409,
+    "The job is not finished",
+    "Ask GET /v1/jobs/{id} until its state is succeeded, failed or cancelled.",
+)
+BODY_TOO_LARGE = Kind(
+    "body-too-large",
+    413,
+    "The body is too large",
+    "A job is a few kilobytes; the limit is in the problem's `detail`.",
+)
+NOT_JSON = Kind(
+    "unsupported-media-type",
+    415,
+    "The body has another media type",
+    "Send the job with Content-Type: application/json, for example with `curl --json @job.json`.",
+)
+NOT_FOUND = Kind(
+    "not-found",
+    404,
+    "There is nothing at this address",
+    "The addresses are in /openapi.json, readable at /docs.",
+)
+METHOD_NOT_ALLOWED = Kind(
+    "method-not-allowed",
+    405,
+    "This address does not know the method",
+    "The header Allow lists the methods; /docs describes them.",
+)
+UNAVAILABLE = Kind(
+    "unavailable",
+    503,
+    "The service cannot do this at the moment",
+    "Try again after the seconds that Retry-After gives.",
+)
+INTERNAL = Kind(
+    "internal-error",
+    500,
+    "The service failed",
+    "This is a fault of the service: its log says more. Please report it with what you sent.",
+)
+
+ALL = {
+    kind.name: kind
+    for kind in (
+        MALFORMED_JSON,
+        INVALID_JOB,
+        LIMIT_EXCEEDED,
+        INVALID_REQUEST,
+        UNKNOWN_CHANNEL,
+        RESPONSE_TOO_LARGE,
+        UNKNOWN_JOB,
+        UNKNOWN_SCENE,
+        UNKNOWN_FIGURE,
+        NO_RESULTS,
+        RESULTS_NOT_READY,
+        BODY_TOO_LARGE,
+        NOT_JSON,
+        NOT_FOUND,
+        METHOD_NOT_ALLOWED,
+        UNAVAILABLE,
+        INTERNAL,
+    )
+}

@@ -1,0 +1,1 @@
+"""``/v1/jobs/{id}/...``: what a finished job computed."""

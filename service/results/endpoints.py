@@ -1,0 +1,125 @@
+"""``/v1/jobs/{id}/history`` and its siblings: numbers that a finished job computed."""
+
+from typing import Annotated
+
+import numpy as np
+from fastapi import APIRouter, Query, Response
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+from service.problems import kinds, problems
+from service.results import schemas
+from service.results.queries import Selection, Window, check_size, chosen_channels
+from service.results.stores import StoreOfThePath
+from storage.results import ResultReader
+
+router = APIRouter(
+    prefix="/v1/jobs/{job_id}",
+    tags=["results"],
+    responses=problems(
+        kinds.UNKNOWN_JOB,
+        kinds.NO_RESULTS,
+        kinds.RESULTS_NOT_READY,
+        kinds.INVALID_REQUEST,
+        kinds.UNKNOWN_CHANNEL,
+        kinds.RESPONSE_TOO_LARGE,
+    ),
+)
+Floats = NDArray[np.float64]
+
+
+@router.get("/history", response_model=schemas.History)
+def show_history(store: StoreOfThePath, selection: Annotated[Selection, Query()]) -> Response:
+    """Return channels on the output grid, in a window of time."""
+    start, stop = selection.checked()
+    names = chosen_channels(selection.channels, _names(store))
+    first, last = store.between(start, stop)
+    if last > first:
+        ends = store.history([], first, first + 1)[0], store.history([], last - 1, last)[0]
+        seconds = float(ends[1][0] - ends[0][0])
+        check_size(last - first, len(names) + 1, "samples", seconds)
+    time, columns = store.history(names, first, last)
+    return _as_json(
+        schemas.History.model_construct(
+            complete=store.complete, time=_time(time), channels=_series(store, columns)
+        )
+    )
+
+
+@router.get("/poincare", response_model=schemas.Poincare)
+def show_poincare(store: StoreOfThePath, selection: Annotated[Selection, Query()]) -> Response:
+    """Return channels at the Poincare sections: once in every period of the drivers."""
+    start, stop = selection.checked()
+    names = chosen_channels(selection.channels, _names(store))
+    time = store.sections([])[0]
+    inside = _inside(time, start, stop)
+    if inside.any():
+        check_size(int(inside.sum()), len(names) + 1, "sections", float(np.ptp(time[inside])))
+    columns = {name: column[inside] for name, column in store.sections(names)[1].items()}
+    return _as_json(
+        schemas.Poincare.model_construct(
+            complete=store.complete,
+            time=_time(time[inside]),
+            channels=_series(store, columns),
+            note=str(store.attributes.get("section_note", "")),
+        )
+    )
+
+
+@router.get("/peaks", response_model=schemas.Peaks)
+def show_peaks(store: StoreOfThePath) -> Response:
+    """Return each channel's signed minimum and maximum, with their times."""
+    units = {channel.name: channel.unit for channel in store.channels}
+    peaks = {
+        name: schemas.Peak.model_construct(unit=units[name], **peak._asdict())
+        for name, peak in store.peaks().items()
+    }
+    return _as_json(schemas.Peaks.model_construct(complete=store.complete, peaks=peaks))
+
+
+@router.get("/impacts", response_model=schemas.Impacts)
+def show_impacts(store: StoreOfThePath, window: Annotated[Window, Query()]) -> Response:
+    """Return the contacts in the clearance joints whose onset is in a window of time."""
+    start, stop = window.checked()
+    rows = store.impacts()
+    rows = rows[_inside(rows["onset"], start, stop)]
+    if len(rows):
+        check_size(len(rows), len(rows.dtype.names or ()), "impacts", float(np.ptp(rows["onset"])))
+    names = rows.dtype.names or ()
+    impacts = []
+    for row in rows.tolist():
+        values = dict(zip(names, row, strict=True))
+        values["joint"] = store.joints[values["joint"]]
+        impacts.append(schemas.Impact.model_construct(**values))
+    return _as_json(schemas.Impacts.model_construct(complete=store.complete, impacts=impacts))
+
+
+def _names(store: ResultReader) -> list[str]:
+    return [channel.name for channel in store.channels]
+
+
+def _inside(time: Floats, start: float | None, stop: float | None) -> NDArray[np.bool_]:
+    low = -np.inf if start is None else start
+    high = np.inf if stop is None else stop
+    return (time >= low) & (time <= high)
+
+
+def _time(time: Floats) -> schemas.Series:
+    return schemas.Series.model_construct(unit="s", long_name="time", values=time.tolist())
+
+
+def _series(store: ResultReader, columns: dict[str, Floats]) -> dict[str, schemas.Series]:
+    described = {channel.name: channel for channel in store.channels}
+    return {
+        name: schemas.Series.model_construct(
+            unit=described[name].unit,
+            long_name=described[name].long_name,
+            values=column.tolist(),
+        )
+        for name, column in columns.items()
+    }
+
+
+def _as_json(document: BaseModel) -> Response:
+    """Serialise once, without validating a million numbers of our own; NaN becomes null."""
+    return Response(document.model_dump_json(), media_type="application/json")

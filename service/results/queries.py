@@ -1,0 +1,100 @@
+"""What a client can ask of results: channels and a window of time, within bounds."""
+
+from difflib import get_close_matches
+from fnmatch import fnmatchcase
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from service.problems import ErrorDetail, RequestRefused, kinds
+
+MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON
+
+
+class Window(BaseModel):
+    """A window of time, both ends included."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True)
+
+    start: float | None = Field(
+        default=None, description="From this time on.", json_schema_extra={"unit": "s"}
+    )
+    stop: float | None = Field(
+        default=None, description="Up to this time.", json_schema_extra={"unit": "s"}
+    )
+
+    def checked(self) -> tuple[float | None, float | None]:
+        """Return start and stop, or refuse a window that ends before it begins."""
+        if self.start is not None and self.stop is not None and self.start > self.stop:
+            sentence = f"stop ({self.stop:g} s) is before start ({self.start:g} s); swap them."
+            raise RequestRefused(
+                kinds.INVALID_REQUEST, sentence, [ErrorDetail(parameter="stop", detail=sentence)]
+            )
+        return self.start, self.stop
+
+
+class Selection(Window):
+    """Channels and a window of time."""
+
+    channels: str | None = Field(
+        default=None,
+        max_length=20_000,
+        description="Names or globs, separated by commas, such as `slider7.*,A.normal_force`; "
+        "default: all that the job stored.",
+    )
+
+
+def chosen_channels(text: str | None, names: list[str]) -> list[str]:
+    """Return the channels that a comma-separated list of names and globs means.
+
+    Raises
+    ------
+    RequestRefused
+        Something in the list matches no channel; the sentence names near ones.
+    """
+    if text is None:
+        return names
+    patterns = [pattern.strip() for pattern in text.split(",") if pattern.strip()]
+    unknown = [p for p in patterns if not any(fnmatchcase(name, p) for name in names)]
+    if unknown or not patterns:
+        errors = [
+            ErrorDetail(parameter="channels", detail=_suggestion(pattern[:80], names))
+            for pattern in unknown[:20] or [""]
+        ]
+        raise RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
+    return [name for name in names if any(fnmatchcase(name, p) for p in patterns)]
+
+
+def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
+    """Refuse an answer of more than `MOST_VALUES` values, and say how to narrow the question.
+
+    Parameters
+    ----------
+    rows, columns
+        Samples of the window, and channels with the time.
+    what
+        Name of the rows, in the plural.
+    seconds
+        Length of the window, s.
+    """
+    if rows * columns <= MOST_VALUES:
+        return
+    rows_allowed = MOST_VALUES // columns
+    sentence = (
+        f"{rows} {what} of {columns - 1} channels and the time are {rows * columns} values; one "
+        f"answer carries at most {MOST_VALUES}. Ask for fewer channels with `channels`, or for "
+        f"windows of {rows_allowed} {what} (about {seconds * rows_allowed / rows:.3g} s) with "
+        "`start` and `stop`."
+    )
+    raise RequestRefused(
+        kinds.RESPONSE_TOO_LARGE,
+        sentence,
+        [ErrorDetail(parameter="stop", detail="Choose a shorter window.")],
+    )
+
+
+def _suggestion(pattern: str, names: list[str]) -> str:
+    near = get_close_matches(pattern, names, n=3, cutoff=0.5)
+    hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(names[:12])}"
+    if not near:
+        hint += ", …" if len(names) > 12 else "."
+    return f"There is no channel {pattern!r}; {hint}"

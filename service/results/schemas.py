@@ -1,0 +1,83 @@
+"""Results as the API shows them. Where nothing was computed a value is null."""
+
+from typing import Any
+
+from pydantic import BaseModel, Field
+
+Values = list[float | None]
+
+
+class Series(BaseModel):
+    """Values of one quantity, one for each row."""
+
+    unit: str
+    long_name: str = Field(description="What the quantity is, in words.")
+    values: Values
+
+
+class History(BaseModel):
+    """Channels on the output grid."""
+
+    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    time: Series
+    channels: dict[str, Series]
+
+
+class Poincare(History):
+    """Channels at the Poincare sections."""
+
+    note: str = Field(description="Why there are no sections; else empty.")
+
+
+class Peak(BaseModel):
+    """Signed extremes of one channel over the whole run, found between the samples too."""
+
+    unit: str
+    minimum: float | None
+    minimum_time: float | None = Field(json_schema_extra={"unit": "s"})
+    maximum: float | None
+    maximum_time: float | None = Field(json_schema_extra={"unit": "s"})
+
+
+class Peaks(BaseModel):
+    """Extremes by channel."""
+
+    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    peaks: dict[str, Peak]
+
+
+def _in(unit: str, description: str) -> Any:  # what pydantic's Field returns
+    return Field(description=description, json_schema_extra={"unit": unit})
+
+
+class Impact(BaseModel):
+    """One contact in a clearance joint, from onset to release."""
+
+    joint: str
+    onset: float | None = _in("s", "When journal and bearing touch.")
+    release: float | None = _in("s", "When they part; null: still in contact at the end.")
+    approach_rate: float | None = _in("m/s", "Rate of penetration at the onset.")
+    peak_force: float | None = _in("N", "Largest normal force.")
+    impulse: float | None = _in("N s", "Integral of the normal force.")
+
+
+class Impacts(BaseModel):
+    """Contacts in order of release."""
+
+    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    impacts: list[Impact]
+
+
+class FigureLink(BaseModel):
+    """One figure of a job."""
+
+    name: str
+    title: str
+    png: str = Field(description="Address of the figure as PNG.")
+    svg: str = Field(description="Address of the figure as SVG.")
+
+
+class Figures(BaseModel):
+    """The figures that can be drawn of a job's results."""
+
+    figures: list[FigureLink]

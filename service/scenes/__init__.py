@@ -1,0 +1,1 @@
+"""``/v1/scenes``: the mechanisms that a job can name."""
