@@ -59,9 +59,7 @@ class Connection:
         try:
             response = self._http.request(method, path, **arguments)
         except (httpx.UnsupportedProtocol, httpx.InvalidURL) as error:
-            raise ClientError(
-                f"{self.url!r} is not an address such as {DEFAULT_URL}."
-            ) from error
+            raise ClientError(f"{self.url!r} is not an address such as {DEFAULT_URL}.") from error
         except httpx.TransportError as error:
             raise Unreachable(_unreachable(self.url, error)) from error
         if response.is_success:

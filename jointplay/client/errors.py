@@ -16,7 +16,7 @@ class ClientError(Exception):
 
 
 class Unreachable(ClientError):
-    """Nothing answers at the address, or the connection broke: is the service up?"""
+    """Nothing answers at the address, or the connection broke."""
 
 
 class ServiceFailure(ClientError):
