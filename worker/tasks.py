@@ -14,6 +14,7 @@ from celery.signals import worker_init, worker_process_init, worker_shutting_dow
 from storage.catalogue import Catalogue
 from storage.settings import Settings
 from worker.app import RUN_BLOCK, app
+from worker.block_run import BlockRun  # before the fork: all children share numba and the solver
 
 _draining = threading.Event()
 _DRAIN_SIGNAL = signal.SIGUSR2
@@ -29,8 +30,6 @@ def _platform() -> tuple[Settings, Catalogue]:
 @app.task(name=RUN_BLOCK)  # type: ignore[untyped-decorator]
 def run_block(block: str) -> None:
     """Compute a block if it is still to be had; a message too many does nothing."""
-    from worker.block_run import BlockRun  # imported before the fork already
-
     settings, catalogue = _platform()
     if _draining.is_set():
         return
@@ -42,9 +41,7 @@ def run_block(block: str) -> None:
 
 @worker_init.connect  # type: ignore[untyped-decorator]
 def _prepare(**_: Any) -> None:
-    """Before the fork: bring the schema up to date and load what every child will need."""
-    import worker.block_run  # noqa: F401 - numba and the solver, shared by all children
-
+    """Before the fork: bring the schema up to date."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
     settings = Settings()
     catalogue = Catalogue(settings.catalogue_url)

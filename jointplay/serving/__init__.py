@@ -1,0 +1,57 @@
+"""Running the service on one machine: broker, API, relay and workers under one supervisor."""
+
+import ipaddress
+import logging
+import sys
+from pathlib import Path
+
+from jointplay.serving.background import running_service
+from jointplay.serving.child import StartFailed
+from jointplay.serving.supervisor import Supervisor
+
+__all__ = ["StartFailed", "running_service", "serve"]
+
+
+def serve(host: str, port: int, data: Path, workers: int) -> int:
+    """Run the service until SIGTERM or SIGINT; print its URL once it answers.
+
+    Parameters
+    ----------
+    host, port
+        Where the API listens; port 0 takes a free one.
+    data
+        Folder of everything it keeps; one service a folder.
+    workers
+        How many blocks are computed at a time.
+
+    Returns
+    -------
+    int
+        Exit code: 0 when it was asked to end, 3 when it could not start.
+    """
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
+
+    def announce(url: str) -> None:
+        sys.stdout.write(f"jointplay is ready at {url} (data in {data}; Ctrl-C stops it)\n")
+        if not _is_loopback(host):
+            sys.stdout.write(
+                "It listens beyond this machine and asks nobody for a password: whoever can"
+                " reach it can run jobs and read all results.\n"
+            )
+        sys.stdout.flush()
+
+    try:
+        Supervisor(host, port, data, workers).run(announce)
+    except StartFailed as failure:
+        sys.stderr.write(f"{failure}\n")
+        return 3
+    return 0
+
+
+def _is_loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False

@@ -1,0 +1,32 @@
+"""`python -m jointplay.serving.api`: the HTTP process, with bounds on what clients may hold."""
+
+import argparse
+import socket
+
+import uvicorn
+
+
+def main() -> None:
+    """Serve on an address, or on a listening socket inherited from the supervisor."""
+    parser = argparse.ArgumentParser(prog="python -m jointplay.serving.api")
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, default=8000)
+    parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
+    arguments = parser.parse_args()
+    configuration = uvicorn.Config(
+        "service.app:create_app",
+        factory=True,
+        host=arguments.host,
+        port=arguments.port,
+        access_log=False,  # clients poll; the log would say little else
+        limit_concurrency=256,
+        timeout_keep_alive=30,
+        timeout_graceful_shutdown=5,
+        h11_max_incomplete_event_size=16 * 1024,
+    )
+    inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
+    uvicorn.Server(configuration).run(sockets=inherited)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,134 @@
+"""One process that the supervisor keeps running, in a process group of its own."""
+
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+_LARGEST_LOG = 10_000_000  # bytes; a larger log is set aside when its process starts
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.2, 10.0  # seconds before a process is started again
+_STEADY = 30.0  # a process that ran this long was well: its failures are forgotten
+_PR_SET_PDEATHSIG = 1
+_POLL = 0.02
+
+
+class StartFailed(Exception):
+    """The service cannot start; the message is for the user."""
+
+
+def _bound_to(parent: int, death_signal: signal.Signals) -> Callable[[], None] | None:
+    """Return what makes a new process end with its parent, where the system can do that."""
+    if sys.platform != "linux":
+        return None
+    libc = ctypes.CDLL(None)
+
+    def bind() -> None:
+        libc.prctl(_PR_SET_PDEATHSIG, death_signal)
+        if os.getppid() != parent:  # it died before the line above
+            os._exit(1)
+
+    return bind
+
+
+class Child:
+    """A process with a log file; started again by `revive`, ever later while it keeps failing.
+
+    Parameters
+    ----------
+    environment
+        Variables beside those of this process.
+    file_descriptors
+        Open files the process inherits.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        command: Sequence[str],
+        log: Path,
+        environment: Mapping[str, str],
+        file_descriptors: tuple[int, ...] = (),
+    ) -> None:
+        self.name = name
+        self.log = log
+        self._command = list(command)
+        self._environment = dict(environment)
+        self._file_descriptors = file_descriptors
+        self._process: subprocess.Popen[bytes] | None = None
+        self._started = 0.0
+        self._failures = 0
+        self._due = 0.0
+
+    def start(self) -> None:
+        """Start the process; it ends by SIGKILL when this process does."""
+        self.log.parent.mkdir(parents=True, exist_ok=True)
+        if self.log.exists() and self.log.stat().st_size > _LARGEST_LOG:
+            self.log.replace(self.log.with_name(self.log.name + ".old"))
+        with self.log.open("ab") as log:
+            self._process = subprocess.Popen(  # noqa: S603 - our own programs
+                self._command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env=os.environ | self._environment,
+                pass_fds=self._file_descriptors,
+                process_group=0,  # Ctrl-C reaches us alone; we end them in order
+                preexec_fn=_bound_to(os.getpid(), signal.SIGKILL),
+            )
+        self._started = time.monotonic()
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process runs."""
+        return self._process is not None and self._process.poll() is None
+
+    @property
+    def pid(self) -> int | None:
+        """Process id, if it was started."""
+        return self._process.pid if self._process else None
+
+    def revive(self) -> float | None:
+        """Start the process again if it ended and its pause is over.
+
+        Returns
+        -------
+        float or None
+            Seconds of a pause that begins now, or none if nothing ended.
+        """
+        if self.alive or self._process is None:
+            return None
+        now = time.monotonic()
+        if self._due <= self._started:  # it has just ended
+            self._failures = 0 if now - self._started > _STEADY else self._failures + 1
+            pause: float = min(_FIRST_PAUSE * 2.0**self._failures, _LONGEST_PAUSE)
+            self._due = now + pause
+            return pause
+        if now >= self._due:
+            self.start()
+        return None
+
+    def last_words(self, lines: int = 12) -> str:
+        """Return the end of the log."""
+        if not self.log.exists():
+            return ""
+        return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
+
+    def terminate(self) -> None:
+        """Ask the process to end."""
+        if self._process is not None and self.alive:
+            self._process.terminate()
+
+    def await_end(self, deadline: float) -> None:
+        """Wait until the process ended; at the deadline end it and its group."""
+        if self._process is None:
+            return
+        while self.alive and time.monotonic() < deadline:
+            time.sleep(_POLL)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)  # what it may have left behind, too
+        self._process.wait()
