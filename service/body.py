@@ -8,20 +8,30 @@ from jointplay.strict_json import parse
 from service.problems import RequestRefused, kinds
 
 LARGEST_BODY = 1024 * 1024  # bytes; a scene of 12 bodies takes about 10 000
+MOST_DROPPED = 64 * LARGEST_BODY
 
 
 async def _bounded(request: Request) -> bytes:
-    """Read the body without ever holding more than the limit."""
-    received = bytearray()
+    """Read the body without ever holding more than the limit.
+
+    What is beyond the limit is read and dropped, up to `MOST_DROPPED`: a client that is still
+    sending when the connection closes never sees why.
+    """
+    body = bytearray()
+    received = 0
     async for chunk in request.stream():
-        received += chunk
-        if len(received) > LARGEST_BODY:
-            raise RequestRefused(
-                kinds.BODY_TOO_LARGE,
-                f"The body is larger than {LARGEST_BODY} bytes; a job is a few kilobytes.",
-                headers={"Connection": "close"},
-            )
-    return bytes(received)
+        received += len(chunk)
+        if received <= LARGEST_BODY:
+            body += chunk
+        if received > MOST_DROPPED:
+            break
+    if received > LARGEST_BODY:
+        raise RequestRefused(
+            kinds.BODY_TOO_LARGE,
+            f"The body is larger than {LARGEST_BODY} bytes; a job is a few kilobytes.",
+            headers={"Connection": "close"},
+        )
+    return bytes(body)
 
 
 async def _json_document(request: Request) -> object:
