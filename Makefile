@@ -33,7 +33,7 @@ $(STAMP): pyproject.toml
 install: $(STAMP)
 
 demo: $(STAMP)
-	@$(BIN)/jointplay demo
+	@$(BIN)/jointplay demo seven-bar-press
 
 test: $(STAMP)
 	@$(BIN)/python -m tests.everything

@@ -10,6 +10,7 @@ import service.health.endpoints
 import service.jobs.endpoints
 import service.problems.endpoints
 import service.results.endpoints
+import service.results.figures
 import service.scenes.endpoints
 from service import problems
 from storage.catalogue import Catalogue
@@ -24,6 +25,7 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 _RESOURCES = (
     service.jobs.endpoints,
     service.results.endpoints,
+    service.results.figures,
     service.scenes.endpoints,
     service.health.endpoints,
     service.problems.endpoints,

@@ -135,6 +135,10 @@ class Client:
         """Return the contacts of the clearance joints."""
         return Impacts.from_document(self._result(job_id, "impacts"))
 
+    def figures(self, job_id: str) -> list[str]:
+        """Return the names of the figures that can be drawn of the job's results."""
+        return [figure["name"] for figure in self._result(job_id, "figures")["figures"]]
+
     def figure(self, job_id: str, name: str, form: str = "png") -> bytes:
         """Return a figure as a file's bytes; ``form`` is "png" or "svg"."""
         path = f"/v1/jobs/{segment(job_id)}/figures/{segment(name)}.{segment(form)}"

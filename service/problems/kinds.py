@@ -74,6 +74,12 @@ UNKNOWN_FIGURE = Kind(
     "The job has no such figure",
     "The problem's `detail` lists the figures that the job has.",
 )
+NOT_DRAWABLE = Kind(
+    "not-drawable",
+    422,
+    "The figure cannot be drawn of these results",
+    "The problem's `detail` names what is missing, such as channels that the job did not store.",
+)
 NO_RESULTS = Kind(
     "no-results",
     404,
@@ -135,6 +141,7 @@ ALL = {
         UNKNOWN_JOB,
         UNKNOWN_SCENE,
         UNKNOWN_FIGURE,
+        NOT_DRAWABLE,
         NO_RESULTS,
         RESULTS_NOT_READY,
         BODY_TOO_LARGE,

@@ -1,13 +1,12 @@
 """What a client can ask of results: channels and a window of time, within bounds."""
 
-from difflib import get_close_matches
-from fnmatch import fnmatchcase
-
 from pydantic import BaseModel, ConfigDict, Field
 
+from jointplay.channel_choice import NoSuchChannel, choose
 from service.problems import ErrorDetail, RequestRefused, kinds
 
 MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON
+_MOST_ERRORS = 20
 
 
 class Window(BaseModel):
@@ -44,24 +43,15 @@ class Selection(Window):
 
 
 def chosen_channels(text: str | None, names: list[str]) -> list[str]:
-    """Return the channels that a comma-separated list of names and globs means.
-
-    Raises
-    ------
-    RequestRefused
-        Something in the list matches no channel; the sentence names near ones.
-    """
-    if text is None:
-        return names
-    patterns = [pattern.strip() for pattern in text.split(",") if pattern.strip()]
-    unknown = [p for p in patterns if not any(fnmatchcase(name, p) for name in names)]
-    if unknown or not patterns:
+    """Return the channels that a comma-separated list of names and globs means, or refuse."""
+    try:
+        return choose(text, names)
+    except NoSuchChannel as error:
         errors = [
-            ErrorDetail(parameter="channels", detail=_suggestion(pattern[:80], names))
-            for pattern in unknown[:20] or [""]
+            ErrorDetail(parameter="channels", detail=sentence)
+            for sentence in error.sentences[:_MOST_ERRORS]
         ]
-        raise RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
-    return [name for name in names if any(fnmatchcase(name, p) for p in patterns)]
+        raise RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors) from None
 
 
 def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
@@ -90,11 +80,3 @@ def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
         sentence,
         [ErrorDetail(parameter="stop", detail="Choose a shorter window.")],
     )
-
-
-def _suggestion(pattern: str, names: list[str]) -> str:
-    near = get_close_matches(pattern, names, n=3, cutoff=0.5)
-    hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(names[:12])}"
-    if not near:
-        hint += ", …" if len(names) > 12 else "."
-    return f"There is no channel {pattern!r}; {hint}"

@@ -1,0 +1,106 @@
+"""The command's parts put together, and its failures turned into one line and an exit code."""
+
+import sys
+
+import typer
+
+from jointplay.command_line import (
+    cancel,
+    demo,
+    export,
+    ls,
+    plot,
+    run_locally,
+    scene,
+    serve,
+    show,
+    submit,
+)
+from jointplay.command_line.exits import Exit, Stopped
+
+application = typer.Typer(
+    name="jointplay",
+    help="Simulate planar mechanisms whose joints have play.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+application.command("run")(run_locally.run)
+application.command()(demo.demo)
+application.command()(serve.serve)
+application.command()(submit.submit)
+application.command()(ls.ls)
+application.command()(show.show)
+application.command()(cancel.cancel)
+application.command()(export.export)
+application.command()(plot.plot)
+application.add_typer(scene.application, name="scene")
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run one command and return its exit code; what users cause ends in one line on stderr."""
+    try:
+        code = application(arguments, prog_name="jointplay", standalone_mode=False)
+    except (KeyboardInterrupt, typer.Abort):
+        return _told(Exit.INTERRUPTED, "interrupted")
+    except typer.TyperException as error:
+        return _told(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
+    except BrokenPipeError:
+        sys.stderr.close()  # whoever read our output has left, as `head` does
+        return Exit.OK
+    except Exception as error:
+        told = _classified(error)
+        if told is None:
+            raise  # a fault of ours: the traceback is what helps
+        return _told(*told)
+    return int(code or Exit.OK)
+
+
+def _told(code: Exit, line: str) -> int:
+    sys.stderr.write(f"jointplay: {' '.join(line.split())}\n")
+    return code
+
+
+def _classified(error: Exception) -> tuple[Exit, str] | None:
+    """Return exit code and line of a failure that is not a fault of the program."""
+    if isinstance(error, Stopped):
+        return error.code, str(error)
+    if isinstance(error, OSError) and error.filename is not None:
+        return Exit.BAD_INPUT, f"{error.filename}: {error.strerror}."
+    return _bad_document(error) or _service_failure(error) or _bad_results(error)
+
+
+def _bad_document(error: Exception) -> tuple[Exit, str] | None:
+    from jointplay.strict_json import MalformedJson
+    from solver.errors import InvalidInput
+
+    if isinstance(error, InvalidInput):
+        return Exit.BAD_INPUT, _listed(error.problems)
+    if isinstance(error, MalformedJson):
+        return Exit.BAD_INPUT, _listed(error.flaws)
+    return None
+
+
+def _service_failure(error: Exception) -> tuple[Exit, str] | None:
+    from jointplay.client import ClientError, ServiceFailure, Unreachable
+    from jointplay.serving import StartFailed
+
+    if isinstance(error, Unreachable):
+        return Exit.UNREACHABLE, str(error)
+    if isinstance(error, ServiceFailure | StartFailed):
+        return Exit.FAILED, str(error)
+    return (Exit.BAD_INPUT, str(error)) if isinstance(error, ClientError) else None
+
+
+def _bad_results(error: Exception) -> tuple[Exit, str] | None:
+    from jointplay.figures import FigureError
+    from storage.results import ResultsError
+
+    known = isinstance(error, FigureError | ResultsError)
+    return (Exit.BAD_INPUT, str(error)) if known else None
+
+
+def _listed(problems: tuple[tuple[str, str], ...]) -> str:
+    return "; ".join(f"{place}: {detail}" if place else detail for place, detail in problems)

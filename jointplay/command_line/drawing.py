@@ -1,0 +1,35 @@
+"""Figures of a store into files."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from jointplay.command_line.progress import progress
+
+if TYPE_CHECKING:
+    from jointplay.source import Source
+
+Form = Literal["png", "svg"]
+
+
+def draw_all(source: "Source", folder: Path, form: Form) -> list[Path]:
+    """Draw every figure that the results allow into a folder, and return the files."""
+    from jointplay import figures
+
+    listed = figures.available(source)
+    return draw(source, [figure.name for figure in listed], folder, form)
+
+
+def draw(source: "Source", names: list[str], folder: Path, form: Form) -> list[Path]:
+    """Draw the named figures into a folder, and return the files."""
+    from jointplay import figures
+
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    with progress("figures") as report:
+        for done, name in enumerate(names):
+            report(done / len(names), name)
+            path = folder / f"{name}.{form}"
+            path.write_bytes(figures.render(source, name, form))
+            written.append(path)
+        report(1.0, "")
+    return written

@@ -1,0 +1,22 @@
+"""Exit codes, and the exception that carries one."""
+
+from enum import IntEnum
+
+
+class Exit(IntEnum):
+    """What a script can tell from the command's exit."""
+
+    OK = 0
+    BAD_INPUT = 2  # also wrong usage
+    FAILED = 3  # the job failed
+    CANCELLED = 4  # the job was cancelled
+    UNREACHABLE = 5  # no service answered
+    INTERRUPTED = 130  # Ctrl-C, as shells have it
+
+
+class Stopped(Exception):
+    """Ends a command with one line on stderr and an exit code."""
+
+    def __init__(self, code: Exit, line: str) -> None:
+        super().__init__(line)
+        self.code = code

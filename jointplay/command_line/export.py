@@ -1,0 +1,98 @@
+"""``jointplay export``: channels as CSV or JSON."""
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from jointplay.command_line import connection, output_folder
+from jointplay.command_line.exits import Exit, Stopped
+
+if TYPE_CHECKING:
+    from jointplay.source import Source
+
+
+Form = Literal["csv", "json"]
+
+
+def export(
+    results: Annotated[
+        str, typer.Argument(metavar="OUT|ID", help="Folder of `jointplay run`, or id of a job.")
+    ],
+    channels: Annotated[
+        str | None,
+        typer.Option(metavar="A,B", help="Names or globs such as 'slider7.*'; default all."),
+    ] = None,
+    start: Annotated[float | None, typer.Option(metavar="SECONDS", help="From this time.")] = None,
+    stop: Annotated[float | None, typer.Option(metavar="SECONDS", help="To this time.")] = None,
+    form: Annotated[Form, typer.Option("--format", help="Text format.")] = "csv",
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Default: stdout.")
+    ] = None,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Write channels on the output grid, with 17 significant digits.
+
+    Example: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`
+    """
+    if Path(results).is_dir():
+        pieces = _local(Path(results), channels, start, stop, form)
+    else:
+        pieces = _fetched(results, channels, start, stop, form, url)
+    if output is None:
+        sys.stdout.writelines(pieces)
+        return
+    first = next(pieces)  # what is wrong shows here, before a file is made
+    with output.open("w", encoding="utf-8") as file:
+        file.write(first)
+        file.writelines(pieces)
+
+
+def _local(
+    folder: Path, channels: str | None, start: float | None, stop: float | None, form: Form
+) -> Iterator[str]:
+    from jointplay.channel_choice import NoSuchChannel, choose
+    from storage.results import ResultReader
+
+    reader = ResultReader(output_folder.store_in(folder))
+    try:
+        names = choose(channels, [channel.name for channel in reader.channels])
+    except NoSuchChannel as error:
+        raise Stopped(Exit.BAD_INPUT, f"--channels: {error}") from None
+    return _written(reader, names, start, stop, form)
+
+
+def _fetched(
+    job_id: str,
+    channels: str | None,
+    start: float | None,
+    stop: float | None,
+    form: Form,
+    url: str,
+) -> Iterator[str]:
+    from jointplay.dataset import Channel, Dataset
+
+    with connection.connect(url) as client:
+        wanted = None if channels is None else channels.split(",")
+        history = client.history(job_id, wanted, start, stop)
+    dataset = Dataset(
+        attributes={},
+        channels=[Channel(name, one.unit, one.long_name) for name, one in history.channels.items()],
+        time=history.time,
+        values={name: one.values for name, one in history.channels.items()},
+        complete=history.complete,
+    )
+    return _written(dataset, list(history.channels), None, None, form)
+
+
+def _written(
+    source: "Source", names: list[str], start: float | None, stop: float | None, form: Form
+) -> Iterator[str]:
+    from jointplay import export as formats
+
+    if form == "json":
+        return formats.json_pieces(source, names, start, stop)
+    comments = [] if source.complete else ["incomplete: the run failed or was cancelled"]
+    return formats.csv_lines(source, names, start, stop, comments)

@@ -1,0 +1,131 @@
+"""A job's document from what was typed: a preset or a file, and the options that change it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from jointplay.command_line.exits import Exit, Stopped
+
+JOB = Annotated[
+    str,
+    typer.Argument(
+        metavar="JOB.json|SCENE.json|PRESET",
+        help="A job document, a scene document, or the name of a preset (`jointplay scene list`).",
+    ),
+]
+SET = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="NAME=VALUE", help="Set a parameter of the scene, in SI units; repeatable."
+    ),
+]
+DURATION = Annotated[float | None, typer.Option(metavar="SECONDS", help="How long to simulate.")]
+TOLERANCE = Annotated[
+    float | None, typer.Option(help="Error that one step may make, relative to the scene.")
+]
+ACCURACY = Annotated[
+    str | None, typer.Option(help="A named tolerance instead, such as standard (1e-6).")
+]
+OUTPUT_STEP = Annotated[
+    float | None,
+    typer.Option(metavar="SECONDS", help="Spacing of the stored samples; default duration/2000."),
+]
+CHANNELS = Annotated[
+    str | None,
+    typer.Option(metavar="A,B", help="Channels to store, names or globs such as 'slider7.*'."),
+]
+FORMULATION = Annotated[
+    str | None, typer.Option(help="reduced (default), or lagrange, for cross-checks.")
+]
+LABEL = Annotated[str | None, typer.Option(help="A name of your own for the job.")]
+
+
+def job_document(
+    source: str, *, settings: Sequence[str], options: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the job that ``source`` and the options describe; nothing is checked yet.
+
+    Parameters
+    ----------
+    source
+        Path of a job or scene document, or name of a preset.
+    settings
+        ``name=value`` for parameters of the scene.
+    options
+        Fields of the job; those that are None are left as they are.
+    """
+    job = _job_of(source)
+    changed = {name: value for name, value in options.items() if value is not None}
+    if "tolerance" in changed:
+        job.pop("accuracy", None)
+    if "accuracy" in changed:
+        job.pop("tolerance", None)
+    job.update(changed)
+    if settings:
+        _set_parameters(job, dict(map(_setting, settings)))
+    return job
+
+
+def options(*, channels: str | None, **fields: Any) -> dict[str, Any]:
+    """Return the options as fields of a job, the channels as a list."""
+    names = None if channels is None else [name.strip() for name in channels.split(",")]
+    return {**fields, "channels": names}
+
+
+def read_document(path: Path) -> dict[str, Any]:
+    """Read a JSON object from a file, strictly."""
+    from jointplay.strict_json import parse
+
+    document = parse(path.read_bytes())
+    if not isinstance(document, dict):
+        raise Stopped(Exit.BAD_INPUT, f"{path}: a job or a scene is a JSON object.")
+    return document
+
+
+def _job_of(source: str) -> dict[str, Any]:
+    path = Path(source)
+    if path.is_file():
+        document = read_document(path)
+        if "bodies" in document:
+            return {"kind": "simulate", "scene": document}
+        return document
+    if source.endswith(".json") or "/" in source:
+        raise Stopped(Exit.BAD_INPUT, f"There is no file {source}.")
+    return {"kind": "simulate", "scene": {"preset": source}}
+
+
+def _setting(text: str) -> tuple[str, object]:
+    from jointplay.strict_json import MalformedJson, parse
+
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise Stopped(Exit.BAD_INPUT, f"--set {text}: write NAME=VALUE, such as clearance=5e-4.")
+    try:
+        return name, parse(value.encode())
+    except MalformedJson:
+        return name, value  # a word, such as as-published
+
+
+def _set_parameters(job: dict[str, Any], values: dict[str, object]) -> None:
+    """Put parameter values where the job takes them.
+
+    A scene given whole has no list of values beside it: there the declared defaults are the
+    values.
+    """
+    scene = job.get("scene")
+    if not isinstance(scene, dict):
+        return  # admission will say what is wrong with it
+    if "bodies" not in scene:
+        scene["parameters"] = {**scene.get("parameters", {}), **values}
+        return
+    declared = scene.get("parameters", {})
+    for name, value in values.items():
+        if name not in declared:
+            known = ", ".join(declared) or "none"
+            raise Stopped(
+                Exit.BAD_INPUT,
+                f"--set {name}: the scene declares no such parameter; it has {known}.",
+            )
+        declared[name] = {**declared[name], "default": value}

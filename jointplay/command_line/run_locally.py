@@ -1,0 +1,115 @@
+"""``jointplay run``: simulate here and now, without any service."""
+
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from jointplay.command_line import job_document, output_folder
+from jointplay.command_line.exits import Exit, Stopped
+
+if TYPE_CHECKING:
+    from solver.admission import Admission
+    from worker.execute import Outcome
+
+
+def run(
+    source: job_document.JOB,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="OUT", help="Folder to make; must not exist.")
+    ],
+    settings: job_document.SET = None,
+    duration: job_document.DURATION = None,
+    tolerance: job_document.TOLERANCE = None,
+    accuracy: job_document.ACCURACY = None,
+    output_step: job_document.OUTPUT_STEP = None,
+    channels: job_document.CHANNELS = None,
+    formulation: job_document.FORMULATION = None,
+    label: job_document.LABEL = None,
+) -> None:
+    """Simulate here and now, without any service.
+
+    OUT gets job.json (every default filled in: running it repeats the result), results.zarr,
+    peaks.csv and figures.  Ctrl-C ends the run and keeps what was computed.
+
+    Example: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`
+    """
+    from solver.admission import admit
+
+    document = job_document.job_document(
+        source,
+        settings=settings or (),
+        options=job_document.options(
+            duration=duration,
+            tolerance=tolerance,
+            accuracy=accuracy,
+            output_step=output_step,
+            channels=channels,
+            formulation=formulation,
+            label=label,
+        ),
+    )
+    admission = admit(document)
+    _make(output)
+    store = output / output_folder.STORE
+    outcome = _simulate(admission, store, output.name)
+    shutil.copyfile(store / "job.json", output / output_folder.JOB_FILE)
+    _summarise(store, output)
+    _tell(outcome)
+
+
+def _make(output: Path) -> None:
+    try:
+        output.mkdir(parents=True)
+    except FileExistsError:
+        line = f"{output} exists already; results are never overwritten, name another folder."
+        raise Stopped(Exit.BAD_INPUT, line) from None
+
+
+def _simulate(admission: "Admission", store: Path, title: str) -> "Outcome":
+    """Run the job; Ctrl-C asks it to end, and it ends between two slices of a quarter second."""
+    import signal
+
+    from jointplay.command_line.progress import progress
+
+    asked_to_end = False
+
+    def end(signal_number: int, frame: object) -> None:
+        nonlocal asked_to_end
+        asked_to_end = True
+
+    with progress(title) as report:
+        report(0.0, "preparing the kernel")
+        from worker.execute import Progress, execute
+
+        def go_on(done: Progress) -> str:
+            report(done.fraction, f"t = {done.time:.4g} s")
+            return "cancel" if asked_to_end else "continue"
+
+        before = signal.signal(signal.SIGINT, end)
+        try:
+            return execute(admission, store, report=go_on)
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+def _summarise(store: Path, output: Path) -> None:
+    """Write figures and peaks, and print the peaks."""
+    from jointplay.command_line.drawing import draw_all
+    from jointplay.command_line.peaks import print_peaks, with_units, write_peaks
+    from storage.results import ResultReader
+
+    reader: ResultReader = ResultReader(store)
+    peaks = with_units(reader)
+    write_peaks(output / output_folder.PEAKS_FILE, peaks)
+    draw_all(reader, output / output_folder.FIGURES, "png")
+    print_peaks(peaks)
+
+
+def _tell(outcome: "Outcome") -> None:
+    if outcome.error is not None:
+        error = outcome.error
+        raise Stopped(Exit.FAILED, f"the run failed ({error.error_class}): {error.detail}")
+    if outcome.state == "cancelled":
+        raise Stopped(Exit.CANCELLED, "the run was cancelled; what was computed is kept")

@@ -1,0 +1,33 @@
+"""``jointplay scene draw``: a mechanism in its starting position, to look at."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jointplay.command_line import job_document
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.scene.assembled import SCENE, assemble_scene
+
+
+def draw(
+    source: Annotated[str, SCENE],
+    settings: job_document.SET = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg; default NAME.png."),
+    ] = None,
+) -> None:
+    """Draw a mechanism as it stands at t = 0.
+
+    Example: `jointplay scene draw mine.json -o mine.svg`
+    """
+    from jointplay import figures
+
+    scene = assemble_scene(source, settings or ())
+    file = output or Path(f"{scene.document['name']}.png")
+    if file.suffix not in {".png", ".svg"}:
+        raise Stopped(Exit.BAD_INPUT, f"-o {file}: name a file that ends in .png or .svg.")
+    form = "svg" if file.suffix == ".svg" else "png"
+    file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
+    typer.echo(file)

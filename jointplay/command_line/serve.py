@@ -1,0 +1,28 @@
+"""``jointplay serve``: the whole service on this machine."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0 takes a free port.")] = 8000,
+    data: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Where catalogue and results are kept.")
+    ] = Path(".jointplay"),
+    workers: Annotated[
+        int, typer.Option(min=1, max=256, help="How many jobs are computed at a time.")
+    ] = 2,
+) -> None:
+    """Keep the service up: broker, API, relay and workers under one supervisor.
+
+    Ctrl-C or SIGTERM ends it cleanly; running jobs go on from where they were when it is started
+    again with the same data.
+
+    Example: `jointplay serve --port 8000 --data results --workers 4`
+    """
+    from jointplay.serving import serve as keep_serving
+
+    raise typer.Exit(keep_serving(host, port, data, workers))

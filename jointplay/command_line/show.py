@@ -1,0 +1,48 @@
+"""``jointplay show``: one job of a service."""
+
+from typing import Annotated
+
+import typer
+
+from jointplay.command_line import connection
+
+
+def show(
+    job_id: Annotated[str, typer.Argument(metavar="ID", help="Id of the job.")],
+    wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
+    document: Annotated[
+        bool, typer.Option("--job", help="Print the job's document, every default filled in.")
+    ] = False,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Show a job: its state, and once it is finished the peaks of its channels.
+
+    Example: `jointplay show 01M7YCD368E9VM5RM0B9JY3SGA --job > job.json`
+    """
+    import json
+
+    from jointplay.client import NotFound
+    from jointplay.command_line.peaks import print_peaks
+    from jointplay.command_line.waiting import exit_of, wait_for
+
+    with connection.connect(url) as client:
+        job = wait_for(client, job_id, job_id) if wait else client.get(job_id)
+        if document:
+            typer.echo(json.dumps(job.job, indent=2))
+            return
+        typer.echo(f"{job.id}  {job.kind}  {job.label or ''}".rstrip())
+        typer.echo(
+            f"state     {job.state}, t = {job.progress.time:g} s ({job.progress.fraction:.0%})"
+        )
+        typer.echo(f"attempt   {job.attempt}")
+        typer.echo(f"created   {job.created.astimezone():%Y-%m-%d %H:%M:%S}")
+        if job.started and job.finished:
+            typer.echo(f"computed  {(job.finished - job.started).total_seconds():.2f} s")
+        typer.echo(f"solver    {job.solver_version}")
+        if job.is_finished:
+            try:
+                print_peaks(client.peaks(job_id))
+            except NotFound:
+                typer.echo("Nothing was computed.")
+    if wait:
+        exit_of(job)

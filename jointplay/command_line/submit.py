@@ -1,0 +1,48 @@
+"""``jointplay submit``: give a job to a service."""
+
+from typing import Annotated
+
+import typer
+
+from jointplay.command_line import connection, job_document
+
+
+def submit(
+    source: job_document.JOB,
+    settings: job_document.SET = None,
+    duration: job_document.DURATION = None,
+    tolerance: job_document.TOLERANCE = None,
+    accuracy: job_document.ACCURACY = None,
+    output_step: job_document.OUTPUT_STEP = None,
+    channels: job_document.CHANNELS = None,
+    formulation: job_document.FORMULATION = None,
+    label: job_document.LABEL = None,
+    wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Queue a job at a service and print its id.
+
+    With --wait the exit code tells how the job ended: 0 succeeded, 3 failed, 4 cancelled.
+
+    Example: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`
+    """
+    from jointplay.command_line.waiting import exit_of, wait_for
+
+    job = job_document.job_document(
+        source,
+        settings=settings or (),
+        options=job_document.options(
+            duration=duration,
+            tolerance=tolerance,
+            accuracy=accuracy,
+            output_step=output_step,
+            channels=channels,
+            formulation=formulation,
+            label=label,
+        ),
+    )
+    with connection.connect(url) as client:
+        queued = client.submit(job)
+        typer.echo(queued.id)
+        if wait:
+            exit_of(wait_for(client, queued.id, queued.label or queued.id))

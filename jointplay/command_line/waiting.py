@@ -1,0 +1,33 @@
+"""Wait for a job with a progress bar, and tell how it ended."""
+
+from typing import TYPE_CHECKING
+
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.progress import progress
+
+if TYPE_CHECKING:
+    from jointplay.client import Client, Job
+
+
+def wait_for(client: "Client", job_id: str, title: str) -> "Job":
+    """Return the finished job; Ctrl-C stops the waiting, not the job."""
+    with progress(title) as report:
+        try:
+            return client.wait(
+                job_id,
+                lambda job: report(
+                    job.progress.fraction, f"t = {job.progress.time:.4g} s, {job.state}"
+                ),
+            )
+        except KeyboardInterrupt:
+            line = f"stopped waiting; the job goes on: jointplay show --wait {job_id}"
+            raise Stopped(Exit.INTERRUPTED, line) from None
+
+
+def exit_of(job: "Job") -> None:
+    """Return if the job succeeded, else end the command with its reason and code."""
+    if job.state == "failed" and job.error is not None:
+        line = f"job {job.id} failed ({job.error.kind}): {job.error.detail}"
+        raise Stopped(Exit.FAILED, line)
+    if job.state == "cancelled":
+        raise Stopped(Exit.CANCELLED, f"job {job.id} was cancelled at t = {job.progress.time:g} s")
