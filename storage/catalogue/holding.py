@@ -18,7 +18,7 @@ from storage.catalogue.records import (
     Verdict,
 )
 from storage.catalogue.rows import block_record, lock_job, record_event, step_job
-from storage.catalogue.submission import drop_untouched_blocks
+from storage.catalogue.submission import drop_queued_blocks
 
 RECOVERED_QUEUE = "recovered"
 _block = tables.block
@@ -191,7 +191,7 @@ def finish(
 def _settle(connection: Connection, job_id: str, error: JobError | None, now: float) -> JobState:
     """End the job if nothing of it is left to do, or at once if a block failed."""
     if error is not None:
-        drop_untouched_blocks(connection, job_id)
+        drop_queued_blocks(connection, job_id, untouched=False)
         step_job(connection, job_id, JobState.failed, now, error=error)
         return lock_job(connection, job_id).state
     states = set(connection.execute(select(_block.c.state).where(_block.c.job == job_id)).scalars())
@@ -211,10 +211,13 @@ def release(connection: Connection, block_id: str, attempt: int, now: float) -> 
         lease_until=None,
         worker=None,
     )
-    lock_job(connection, job_id)
+    job = lock_job(connection, job_id)
     _end_attempt(connection, block_id, attempt, "released", now)
-    queue_again(connection, block_id, now)
     record_event(connection, job_id, now, "released", {"block": block_id, "attempt": attempt})
+    if job.state.terminal:
+        drop_queued_blocks(connection, job_id, untouched=False)
+    else:
+        queue_again(connection, block_id, now)
 
 
 def lose(

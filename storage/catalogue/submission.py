@@ -111,7 +111,7 @@ def request_cancel(connection: Connection, job_id: str, now: float) -> Job:
     if job.state.terminal or job.state is JobState.cancelling:
         return job
     block = tables.block
-    drop_untouched_blocks(connection, job_id)
+    drop_queued_blocks(connection, job_id, untouched=True)
     live = connection.execute(
         select(func.count()).where(block.c.job == job_id, block.c.state.in_(_LIVE))
     ).scalar_one()
@@ -122,15 +122,13 @@ def request_cancel(connection: Connection, job_id: str, now: float) -> Job:
     return find_job(connection, job_id)
 
 
-def drop_untouched_blocks(connection: Connection, job_id: str) -> None:
-    """Cancel the blocks of a job that no worker ever held, and forget their wake-ups."""
+def drop_queued_blocks(connection: Connection, job_id: str, *, untouched: bool) -> None:
+    """Cancel a job's queued blocks, or those no worker ever held; forget their wake-ups."""
     block, outbox = tables.block, tables.outbox
-    untouched = and_(
-        block.c.job == job_id,
-        block.c.state == BlockState.queued.value,
-        block.c.attempt == 0,
-    )
+    dropped = and_(block.c.job == job_id, block.c.state == BlockState.queued.value)
+    if untouched:
+        dropped = and_(dropped, block.c.attempt == 0)
     connection.execute(
-        delete(outbox).where(exists().where(and_(block.c.id == outbox.c.block, untouched)))
+        delete(outbox).where(exists().where(and_(block.c.id == outbox.c.block, dropped)))
     )
-    connection.execute(update(block).where(untouched).values(state=BlockState.cancelled.value))
+    connection.execute(update(block).where(dropped).values(state=BlockState.cancelled.value))

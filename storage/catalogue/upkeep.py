@@ -48,7 +48,7 @@ def reap(connection: Connection, max_attempts: int, now: float) -> Reaped:
     expired = connection.execute(
         select(block.c.id, block.c.attempt, block.c.job)
         .where(block.c.state == BlockState.running.value, block.c.lease_until < now)
-        .order_by(block.c.lease_until)
+        .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
         .with_for_update(skip_locked=True)
     ).all()

@@ -1,0 +1,289 @@
+import itertools
+import sqlite3
+import threading
+from collections import Counter
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from stepped_clock import Clock
+
+from storage.catalogue import (
+    BlockState,
+    Catalogue,
+    Fenced,
+    JobError,
+    JobNotFound,
+    JobState,
+    KeyReused,
+    NewJob,
+    SubmissionKey,
+)
+from storage.catalogue.identifiers import Identifiers
+
+NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
+
+
+def test_a_job_comes_back_as_it_was_submitted(catalogue: Catalogue, clock: Clock) -> None:
+    new = replace(NEW, label="Größe 1", owner="me", batch="B" * 26, expires=clock.now + 5)
+    submitted = catalogue.submit(new)
+    job = catalogue.get(submitted.job.id)
+    assert submitted.created
+    assert job == submitted.job
+    assert (job.spec, job.digest, job.label, job.owner) == (NEW.spec, NEW.digest, "Größe 1", "me")
+    assert (job.batch, job.expires, job.created) == ("B" * 26, clock.now + 5, clock.now)
+    assert (job.state, job.attempt, job.started, job.error) == (JobState.queued, 0, None, None)
+
+
+def test_an_unknown_job_is_named(catalogue: Catalogue) -> None:
+    with pytest.raises(JobNotFound, match="nobody"):
+        catalogue.get("nobody")
+    with pytest.raises(JobNotFound, match="nobody"):
+        catalogue.request_cancel("nobody")
+
+
+def test_pages_follow_each_other_while_jobs_arrive(catalogue: Catalogue, clock: Clock) -> None:
+    first = []
+    for _ in range(7):
+        clock.now += 0.001
+        first.append(catalogue.submit(NEW).job.id)
+    page = catalogue.jobs(limit=3)
+    seen = [job.id for job in page.jobs]
+    catalogue.submit(NEW)  # belongs before the first page: later pages must not shift
+    while page.next is not None:
+        page = catalogue.jobs(limit=3, after=page.next)
+        seen += [job.id for job in page.jobs]
+    assert seen == first[::-1]
+
+
+def test_lists_are_filtered(catalogue: Catalogue) -> None:
+    wanted = catalogue.submit(replace(NEW, label="a", owner="me")).job
+    other = catalogue.submit(replace(NEW, kind="sweep", label="b")).job
+    catalogue.request_cancel(other.id)
+    assert [job.id for job in catalogue.jobs(label="a").jobs] == [wanted.id]
+    assert [job.id for job in catalogue.jobs(owner="me").jobs] == [wanted.id]
+    assert [job.id for job in catalogue.jobs(kind="sweep").jobs] == [other.id]
+    assert [job.id for job in catalogue.jobs(state=JobState.queued).jobs] == [wanted.id]
+    assert catalogue.jobs(kind="sweep", state=JobState.queued).jobs == ()
+
+
+@pytest.mark.parametrize("limit", [0, -1, 1001])
+def test_a_page_is_bounded(catalogue: Catalogue, limit: int) -> None:
+    with pytest.raises(ValueError, match="1 to 1000"):
+        catalogue.jobs(limit=limit)
+
+
+def test_a_key_finds_the_earlier_job_until_it_is_forgotten(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    key = SubmissionKey("me", "key", "fingerprint", seconds=10)
+    first = catalogue.submit(NEW, key)
+    assert catalogue.submit(NEW, key).job.id == first.job.id
+    with pytest.raises(KeyReused, match="use a new key"):
+        catalogue.submit(NEW, replace(key, fingerprint="other"))
+    assert catalogue.submit(NEW, replace(key, owner="you")).created
+    clock.now += 11
+    assert catalogue.submit(NEW, replace(key, fingerprint="other")).created
+
+
+def test_one_key_sent_at_once_by_many_makes_one_job(catalogue: Catalogue) -> None:
+    key = SubmissionKey("", "key", "fingerprint")
+    with ThreadPoolExecutor(8) as pool:
+        answers = list(pool.map(lambda _: catalogue.submit(NEW, key), range(16)))
+    assert sum(answer.created for answer in answers) == 1
+    assert len({answer.job.id for answer in answers}) == 1
+
+
+def test_a_block_is_claimed_once_however_many_want_it(new_url: Callable[[], str]) -> None:
+    url = new_url()
+    catalogues = [Catalogue(url) for _ in range(4)]  # four processes' worth of connections
+    blocks = [f"{catalogues[0].submit(NEW).job.id}-0" for _ in range(25)]
+    start = threading.Barrier(len(catalogues))
+
+    def claim_all(catalogue: Catalogue) -> list[str]:
+        start.wait()
+        return [block for block in blocks if catalogue.claim_block(block, "worker", 30)]
+
+    with ThreadPoolExecutor(len(catalogues)) as pool:
+        claimed = Counter(itertools.chain.from_iterable(pool.map(claim_all, catalogues)))
+    assert claimed == Counter(blocks)
+    for catalogue in catalogues:
+        catalogue.close()
+
+
+def test_a_fenced_worker_changes_nothing(catalogue: Catalogue, clock: Clock) -> None:
+    job = catalogue.submit(NEW).job.id
+    block = f"{job}-0"
+    assert catalogue.claim_block(block, "first", 30)
+    catalogue.record_checkpoint(block, 1, watermark=100, checkpoint="block0-a1")
+    clock.now += 31
+    assert catalogue.reap(3).requeued == (block,)
+    second = catalogue.claim_block(block, "second", 30)
+    assert second is not None
+    assert (second.block.checkpoint, second.block.watermark) == ("block0-a1", 100)
+    before = catalogue.get(job), catalogue.blocks(job), catalogue.events(job)
+    for act in (
+        lambda: catalogue.heartbeat(block, 1, 30),
+        lambda: catalogue.record_progress(block, 1, 30, time=9, fraction=0.9),
+        lambda: catalogue.record_checkpoint(block, 1, watermark=9, checkpoint="late"),
+        lambda: catalogue.release(block, 1),
+        lambda: catalogue.verdict(block, 1),
+        lambda: catalogue.finish(block, 1, BlockState.done),
+    ):
+        with pytest.raises(Fenced, match="attempt 1 does not hold"):
+            act()
+    assert (catalogue.get(job), catalogue.blocks(job), catalogue.events(job)) == before
+    assert catalogue.finish(block, 2, BlockState.done) is JobState.succeeded
+    assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost", "done"]
+
+
+def test_a_block_that_keeps_losing_workers_fails_as_the_platforms_fault(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    job = catalogue.submit(NEW).job.id
+    for _ in range(3):
+        assert catalogue.claim_block(f"{job}-0", "worker", 30)
+        clock.now += 31
+        reaped = catalogue.reap(3)
+    assert reaped.ended == (job,)
+    failed = catalogue.get(job)
+    assert failed.state is JobState.failed
+    assert failed.error is not None
+    assert (failed.error.error_class, failed.error.code) == ("platform", "worker-lost")
+    assert catalogue.claim_block(f"{job}-0", "worker", 30) is None
+
+
+def test_giving_a_block_back_is_no_loss(catalogue: Catalogue) -> None:
+    job = catalogue.submit(NEW).job.id
+    for _ in range(5):
+        claim = catalogue.claim_block(f"{job}-0", "worker", 30)
+        assert claim is not None
+        catalogue.release(f"{job}-0", claim.block.attempt)
+    assert catalogue.blocks(job)[0].losses == 0
+    assert [wake_up.queue for wake_up in catalogue.due_wake_ups(10)] == ["recovered"]
+
+
+def test_recovered_blocks_are_told_first_and_unheard_wake_ups_repeat(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    old = catalogue.submit(NEW).job.id
+    assert catalogue.claim_block(f"{old}-0", "worker", 30)
+    fresh = catalogue.submit(NEW).job.id
+    clock.now += 31
+    catalogue.reap(3)
+    due = catalogue.due_wake_ups(10)
+    assert [wake_up.block for wake_up in due] == [f"{old}-0", f"{fresh}-0"]
+    catalogue.mark_published((f"{fresh}-0",), republish_after=20)
+    assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [f"{old}-0"]
+    clock.now += 20
+    assert len(catalogue.due_wake_ups(10)) == 2
+    catalogue.mark_published((f"{fresh}-0",), republish_after=20)
+    clock.now += 20
+    assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [f"{old}-0"]
+
+
+def test_progress_of_a_job_weighs_its_blocks(catalogue: Catalogue) -> None:
+    job = catalogue.submit(replace(NEW, blocks=((0, 30), (30, 10)))).job.id
+    for index in (0, 1):
+        assert catalogue.claim_block(f"{job}-{index}", "worker", 30)
+    catalogue.record_progress(f"{job}-0", 1, 30, time=1.0, fraction=0.5)
+    catalogue.record_progress(f"{job}-1", 1, 30, time=0.5, fraction=0.25)
+    progressed = catalogue.get(job)
+    assert progressed.progress_fraction == pytest.approx((30 * 0.5 + 10 * 0.25) / 40)
+    assert progressed.progress_time == 1.0
+    assert catalogue.finish(f"{job}-0", 1, BlockState.done) is JobState.running
+    assert catalogue.finish(f"{job}-1", 1, BlockState.done) is JobState.succeeded
+    assert catalogue.get(job).progress_fraction == 1.0
+
+
+def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> None:
+    job = catalogue.submit(NEW).job.id
+    catalogue.claim_block(f"{job}-0", "worker", 30)
+    error = JobError("solver", "step-size-underflow", "h = 1e-17 s at 0.3 s", 0.3)
+    clock.now += 2
+    assert catalogue.finish(f"{job}-0", 1, BlockState.failed, error) is JobState.failed
+    failed = catalogue.get(job)
+    assert failed.error == error
+    assert failed.finished == clock.now
+    assert catalogue.events(job)[-1].data["error"]["detail"] == error.detail
+    assert catalogue.events(job, after=2, limit=1)[0].seq == 3
+
+
+def test_the_cache_finds_the_newest_result_that_has_not_expired(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    def succeed(expires: float | None) -> str:
+        job = catalogue.submit(replace(NEW, expires=expires)).job.id
+        catalogue.claim_block(f"{job}-0", "worker", 30)
+        catalogue.finish(f"{job}-0", 1, BlockState.done)
+        return job
+
+    assert catalogue.same_digest(NEW.digest) is None
+    lasting = succeed(None)
+    passing = succeed(clock.now + 5)
+    found = catalogue.same_digest(NEW.digest)
+    assert found is not None
+    assert found.id == passing
+    clock.now += 6
+    found = catalogue.same_digest(NEW.digest)
+    assert found is not None
+    assert found.id == lasting
+    assert catalogue.same_digest(NEW.digest, owner="somebody") is None
+
+
+def test_a_duty_has_one_holder_at_a_time(catalogue: Catalogue, clock: Clock) -> None:
+    assert catalogue.hold_duty("relay", "a", 5)
+    assert not catalogue.hold_duty("relay", "b", 5)
+    assert catalogue.hold_duty("relay", "a", 5)
+    clock.now += 5
+    assert catalogue.hold_duty("relay", "b", 5)
+    catalogue.lay_down_duty("relay", "a")  # not its own any more
+    assert not catalogue.hold_duty("relay", "a", 5)
+    catalogue.lay_down_duty("relay", "b")
+    assert catalogue.hold_duty("relay", "a", 5)
+
+
+def test_ids_sort_by_time_also_within_a_millisecond_and_when_the_clock_steps_back() -> None:
+    identifiers = Identifiers()
+    moments = [5.0, 5.0, 5.0004, 5.002, 4.0, 6.0]
+    ids = [identifiers.next(moment) for moment in moments]
+    assert ids == sorted(set(ids))
+    assert {len(identifier) for identifier in ids} == {26}
+
+
+def test_what_was_accepted_is_durable_and_progress_is_cheap(new_url: Callable[[], str]) -> None:
+    catalogue = Catalogue(new_url())
+    modes = {}
+    for durable in (True, False):
+        with catalogue._connections.writing(durable=durable) as connection:
+            modes[durable] = connection.exec_driver_sql("PRAGMA synchronous").scalar_one()
+    assert modes == {True: 2, False: 1}  # FULL, NORMAL
+    catalogue.close()
+
+
+def test_a_database_that_is_no_file_is_refused() -> None:
+    with pytest.raises(ValueError, match="needs a file"):
+        Catalogue("sqlite://")
+
+
+def test_a_reader_is_not_held_up_by_a_writer(catalogue: Catalogue) -> None:
+    job = catalogue.submit(NEW).job.id
+    with catalogue._connections.writing():
+        assert catalogue.get(job).id == job
+
+
+def test_a_busy_database_is_waited_for(new_url: Callable[[], str], clock: Clock) -> None:
+    url = new_url()
+    catalogue = Catalogue(url, clock=clock)
+    other = sqlite3.connect(Path(url.removeprefix("sqlite:///")), isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    with ThreadPoolExecutor(1) as pool:
+        submitted = pool.submit(catalogue.submit, NEW)
+        with pytest.raises(TimeoutError):
+            submitted.result(timeout=0.2)
+        other.execute("COMMIT")
+        assert submitted.result(timeout=20).created
+    other.close()
+    catalogue.close()

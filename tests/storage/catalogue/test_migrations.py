@@ -1,0 +1,49 @@
+import multiprocessing
+from pathlib import Path
+
+import pytest
+from alembic.autogenerate import compare_metadata
+from alembic.config import Config
+from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
+
+from storage.catalogue import Catalogue, schema, tables
+
+
+def migrate(url: str) -> None:
+    catalogue = Catalogue(url)
+    catalogue.migrate()
+    catalogue.ping()
+    catalogue.close()
+
+
+def test_migrations_build_exactly_the_tables_of_the_code(empty_catalogue: Path) -> None:
+    catalogue = Catalogue(f"sqlite:///{empty_catalogue}")
+    with catalogue._connections.reading() as connection:
+        context = MigrationContext.configure(connection, opts={"compare_type": True})
+        assert compare_metadata(context, tables.metadata) == []
+    catalogue.close()
+
+
+def test_the_code_knows_the_newest_revision() -> None:
+    configuration = Config()
+    configuration.set_main_option("script_location", "storage:migrations")
+    assert ScriptDirectory.from_config(configuration).get_current_head() == schema.REVISION
+
+
+def test_several_processes_may_migrate_at_once(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'new' / 'catalogue.sqlite'}"
+    context = multiprocessing.get_context("spawn")
+    processes = [context.Process(target=migrate, args=(url,)) for _ in range(3)]
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join(60)
+    assert [process.exitcode for process in processes] == [0, 0, 0]
+
+
+def test_an_empty_database_is_not_ready(tmp_path: Path) -> None:
+    catalogue = Catalogue(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
+    with pytest.raises(Exception, match="alembic_version"):
+        catalogue.ping()
+    catalogue.close()

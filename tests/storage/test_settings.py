@@ -1,0 +1,40 @@
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+from storage.settings import Settings
+
+
+def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("JOINTPLAY_DATA", str(tmp_path))
+    monkeypatch.setenv("JOINTPLAY_LEASE", "12.5")
+    settings = Settings()
+    assert settings.catalogue_url == f"sqlite:///{tmp_path}/catalogue.sqlite"
+    assert settings.lease == 12.5
+    job = "01M7YBSH1WSYHM7G141H5BWD2R"
+    assert settings.result_folder(job, 2) == tmp_path / "results" / "2R" / job / "a2"
+
+
+def test_a_relative_folder_means_the_same_in_every_process(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert Settings(data=Path("here")).data == tmp_path / "here"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "complaint"),
+    [
+        ("JOINTPLAY_LEASE", "6", "at least twice JOINTPLAY_HEARTBEAT"),
+        ("JOINTPLAY_LEASE", "nan", "finite number"),
+        ("JOINTPLAY_REAPER_PERIOD", "0", "greater than 0"),
+        ("JOINTPLAY_MAX_ATTEMPTS", "many", "integer"),
+    ],
+)
+def test_impossible_settings_are_refused(
+    monkeypatch: pytest.MonkeyPatch, name: str, value: str, complaint: str
+) -> None:
+    monkeypatch.setenv(name, value)
+    with pytest.raises(ValidationError, match=complaint):
+        Settings()
