@@ -1,0 +1,58 @@
+"""Numbers and units as axes show them."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+_PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
+_SCALABLE = re.compile(r"(m|s|N|J|W|N m|m/s|m/s\^2|rad|rad/s)")
+_NEVER_LARGER = ("m", "s", "rad")  # kilometres and kiloseconds are no unit of a mechanism
+_LARGEST_PLAIN = 1e4
+_SMALLEST_PLAIN = 0.1
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How one axis shows its quantity: divided by `factor`, in `unit` ("" for a pure number)."""
+
+    factor: float
+    unit: str
+
+    def label(self, quantity: str) -> str:
+        """Label of the axis, as in `eccentricity x [mm]`."""
+        return f"{quantity} [{self.unit}]" if self.unit else quantity
+
+
+def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
+    """Choose the SI prefix that keeps the axis free of powers of ten.
+
+    Parameters
+    ----------
+    unit
+        SI unit of the values; `1` is a pure number.
+    values
+        Everything that the axis shows.
+    """
+    if unit == "1":
+        return Scale(1.0, "")
+    pretty = re.sub(r"\^(-?\d+)", lambda found: found[1].translate(_SUPERSCRIPTS), unit)
+    pretty = pretty.replace(" ", "·")
+    largest = max((_largest(array) for array in values), default=0.0)
+    plain = _SMALLEST_PLAIN <= largest < _LARGEST_PLAIN
+    if plain or largest == 0.0 or not _SCALABLE.fullmatch(unit):
+        return Scale(1.0, pretty)
+    fitting = [
+        (factor, prefix) for factor, prefix in _PREFIXES if _SMALLEST_PLAIN * factor <= largest
+    ]
+    factor, prefix = fitting[-1] if fitting else _PREFIXES[0]
+    if factor > 1.0 and unit.startswith(_NEVER_LARGER):
+        factor, prefix = 1.0, ""
+    return Scale(factor, prefix + pretty)
+
+
+def _largest(values: NDArray[np.float64]) -> float:
+    finite = values[np.isfinite(values)]
+    return float(np.abs(finite).max()) if finite.size else 0.0
