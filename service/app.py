@@ -13,6 +13,7 @@ import service.results.endpoints
 import service.results.figures
 import service.scenes.endpoints
 from service import problems
+from service.openapi import described
 from storage.catalogue import Catalogue
 from storage.settings import Settings
 
@@ -64,4 +65,5 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     for resource in _RESOURCES:
         app.include_router(resource.router)
+    app.openapi = described(app)  # type: ignore[method-assign]  # as FastAPI documents it
     return app

@@ -3,7 +3,6 @@
 from typing import Any
 
 from solver.admission import admit
-from solver.job import SimulateJob
 from solver.version import SOLVER_VERSION
 from storage.catalogue import Catalogue, Job, NewJob
 from worker.app import wake_relay
@@ -11,7 +10,7 @@ from worker.app import wake_relay
 REQUEST_BODY: dict[str, Any] = {
     "required": True,
     "description": "What to simulate: all values in SI units.",
-    "content": {"application/json": {"schema": SimulateJob.model_json_schema()}},
+    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/SimulateJob"}}},
 }
 
 

@@ -114,7 +114,7 @@ METHOD_NOT_ALLOWED = Kind(
     "method-not-allowed",
     405,
     "This address does not know the method",
-    "The header Allow lists the methods; /docs describes them.",
+    "/docs describes the methods of every address.",
 )
 UNAVAILABLE = Kind(
     "unavailable",

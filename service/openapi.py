@@ -1,0 +1,53 @@
+"""The OpenAPI document: what FastAPI derives, plus the job's schema and our kind of errors."""
+
+from collections.abc import Callable
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from service.problems.document import ProblemDocument, problems
+from service.problems.kinds import INVALID_REQUEST
+from solver.job import SimulateJob
+
+_REFERENCE = "#/components/schemas/{model}"
+
+
+def described(app: FastAPI) -> Callable[[], dict[str, Any]]:
+    """Return the function that makes the document once, when it is first asked for."""
+
+    def openapi() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            document = get_openapi(
+                title=app.title,
+                version=app.version,
+                description=app.description,
+                routes=app.routes,
+            )
+            _add_schemas(document["components"]["schemas"])
+            _replace_fastapi_errors(document)
+            app.openapi_schema = document
+        return app.openapi_schema
+
+    return openapi
+
+
+def _add_schemas(schemas: dict[str, Any]) -> None:
+    """Add what no endpoint's signature mentions: bodies that we parse, and problems."""
+    for model in (SimulateJob, ProblemDocument):
+        schema = model.model_json_schema(ref_template=_REFERENCE)
+        for name, definition in schema.pop("$defs", {}).items():
+            schemas.setdefault(name, definition)
+        schemas[model.__name__] = schema
+
+
+def _replace_fastapi_errors(document: dict[str, Any]) -> None:
+    """FastAPI announces its own 422 wherever there are parameters; we answer with a problem."""
+    problem = problems(INVALID_REQUEST)[INVALID_REQUEST.status]
+    for operations in document["paths"].values():
+        for operation in operations.values():
+            responses = operation["responses"]
+            if "HTTPValidationError" in str(responses.get("422")):
+                responses["422"] = problem
+    for name in ("HTTPValidationError", "ValidationError"):
+        document["components"]["schemas"].pop(name, None)

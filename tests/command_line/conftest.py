@@ -1,0 +1,19 @@
+from tests.service_in_thread import (
+    catalogue,
+    finished_job,
+    fresh_service,
+    http,
+    service_url,
+    settings,
+    worker,
+)
+
+__all__ = [
+    "catalogue",
+    "finished_job",
+    "fresh_service",
+    "http",
+    "service_url",
+    "settings",
+    "worker",
+]

@@ -1,0 +1,178 @@
+"""What a finished job computed, read over HTTP; and what is answered while it is not finished."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from storage.catalogue import BlockState, JobError
+
+RESULTS = ["history", "peaks", "poincare", "impacts", "figures", "figures/orbit.png"]
+
+
+def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[str, Any]:
+    answer = http.get(path, params=query)
+    assert answer.status_code == status, answer.text
+    kind = "application/json" if status < 400 else "application/problem+json"
+    assert answer.headers["Content-Type"] == kind
+    document: dict[str, Any] = answer.json()
+    return document
+
+
+def test_history_has_the_stored_numbers_with_their_units(http, finished_job):
+    history = get(http, f"/v1/jobs/{finished_job}/history")
+    assert history["complete"] is True
+    assert history["time"]["unit"] == "s"
+    assert len(history["time"]["values"]) == 2001
+    assert history["time"]["values"][-1] == 2.0
+    slider = history["channels"]["slider7.vx"]
+    assert slider["unit"] == "m/s"
+    column = list(history["channels"]).index("slider7.vx")
+    assert slider["values"] == [column + time for time in history["time"]["values"]]
+
+
+def test_history_of_a_window_has_both_ends_and_only_the_channels_asked_for(http, finished_job):
+    history = get(
+        http,
+        f"/v1/jobs/{finished_job}/history",
+        channels="A.normal_force, slider7.*",
+        start=0.5,
+        stop=0.51,
+    )
+    times = history["time"]["values"]
+    assert (times[0], times[-1], len(times)) == (0.5, 0.51, 11)
+    assert "A.normal_force" in history["channels"]
+    assert {name.split(".")[0] for name in history["channels"]} == {"A", "slider7"}
+    assert all(len(one["values"]) == 11 for one in history["channels"].values())
+
+
+def test_a_window_without_samples_is_empty(http, finished_job):
+    history = get(http, f"/v1/jobs/{finished_job}/history", start=5.0)
+    assert history["time"]["values"] == []
+
+
+def test_an_unknown_channel_is_refused_with_those_that_are_near(http, finished_job):
+    problem = get(http, f"/v1/jobs/{finished_job}/history", 422, channels="slider7.vX")
+    assert problem["errors"][0]["parameter"] == "channels"
+    assert "slider7.vx" in problem["errors"][0]["detail"]
+
+
+@pytest.mark.parametrize(
+    ("query", "parameter"),
+    [
+        ({"start": "nan"}, "start"),
+        ({"stop": "inf"}, "stop"),
+        ({"start": "soon"}, "start"),
+        ({"start": 2.0, "stop": 1.0}, "stop"),
+        ({"chanels": "slider7.x"}, "chanels"),
+        ({"channels": ""}, "channels"),
+        ({"channels": "x" * 30_000}, "channels"),
+        ({"channels": "*" * 500 + "z"}, "channels"),
+    ],
+)
+def test_a_wrong_parameter_is_named(http, finished_job, query, parameter):
+    problem = get(http, f"/v1/jobs/{finished_job}/history", 422, **query)
+    assert [error["parameter"] for error in problem["errors"]] == [parameter]
+
+
+def test_an_answer_too_large_is_refused_with_what_would_be_small_enough(http, worker):
+    job = worker.finished(output_step=1e-4)  # 20 001 samples of 95 channels
+    problem = get(http, f"/v1/jobs/{job}/history", 422)
+    assert problem["type"] == "/problems/response-too-large"
+    assert "10416 samples (about 1.04 s)" in problem["detail"]
+    window = get(http, f"/v1/jobs/{job}/history", start=0.0, stop=1.04)
+    assert len(window["time"]["values"]) == 10_401
+    get(http, f"/v1/jobs/{job}/history", channels="slider7.*")
+
+
+def test_peaks_are_signed_and_have_times_and_units(http, finished_job):
+    peaks = get(http, f"/v1/jobs/{finished_job}/peaks")["peaks"]
+    assert len(peaks) == 95
+    assert peaks["slider7.ax"] == {
+        "unit": "m/s^2",
+        "minimum": -1.0,
+        "minimum_time": 0.25,
+        "maximum": 1.0,
+        "maximum_time": 0.75,
+    }
+
+
+def test_poincare_sections_are_at_whole_periods(http, finished_job):
+    sections = get(http, f"/v1/jobs/{finished_job}/poincare", channels="A.eccentricity_*")
+    assert sections["time"]["values"] == [0.0, 1.0]
+    assert sections["note"] == ""
+    assert len(sections["channels"]) == 4
+    later = get(http, f"/v1/jobs/{finished_job}/poincare", start=0.5)
+    assert later["time"]["values"] == [1.0]
+
+
+def test_impacts_name_their_joint_and_an_open_contact_has_no_release(http, finished_job):
+    impacts = get(http, f"/v1/jobs/{finished_job}/impacts")["impacts"]
+    assert impacts == [
+        {
+            "joint": "B",
+            "onset": 0.5,
+            "release": None,
+            "approach_rate": 0.01,
+            "peak_force": 100.0,
+            "impulse": 0.2,
+        }
+    ]
+    assert get(http, f"/v1/jobs/{finished_job}/impacts", start=1.0)["impacts"] == []
+
+
+def test_figures_are_listed_and_drawn_as_png_and_svg(http, finished_job):
+    figures = get(http, f"/v1/jobs/{finished_job}/figures")["figures"]
+    assert {"displacement", "contact-force", "orbit"} <= {figure["name"] for figure in figures}
+    displacement = next(one for one in figures if one["name"] == "displacement")
+    png = http.get(displacement["png"])
+    assert png.headers["Content-Type"] == "image/png"
+    assert png.content.startswith(b"\x89PNG")
+    svg = http.get(displacement["svg"])
+    assert svg.headers["Content-Type"] == "image/svg+xml"
+    assert b"<svg" in svg.content
+
+
+def test_any_stored_channel_is_a_figure(http, finished_job):
+    png = http.get(f"/v1/jobs/{finished_job}/figures/slider7.vx.png", params={"stop": 0.5})
+    assert png.content.startswith(b"\x89PNG")
+
+
+def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
+    problem = get(http, f"/v1/jobs/{finished_job}/figures/obrit.png", 404)
+    assert problem["type"] == "/problems/unknown-figure"
+    assert "orbit" in problem["detail"]
+    get(http, f"/v1/jobs/{finished_job}/figures/orbit.pdf", 422)
+
+
+@pytest.mark.parametrize("result", RESULTS)
+def test_results_of_a_job_that_is_not_finished_are_a_conflict(http, worker, result):
+    queued = worker.submit()
+    assert get(http, f"/v1/jobs/{queued}/{result}", 409)["detail"].startswith(f"Job {queued} is")
+    worker.start(queued)
+    assert "running" in get(http, f"/v1/jobs/{queued}/{result}", 409)["detail"]
+
+
+def test_a_failed_job_serves_what_it_computed(http, worker):
+    claim = worker.start(worker.submit())
+    worker.store(claim, complete=False)
+    error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
+    worker.finish(claim, BlockState.failed, error)
+    job = get(http, f"/v1/jobs/{claim.job.id}")
+    assert job["state"] == "failed"
+    assert job["error"] == {
+        "class": "solver",
+        "code": "step-size-underflow",
+        "detail": "The step fell below 1e-15 s.",
+        "time": 0.7,
+    }
+    history = get(http, f"/v1/jobs/{claim.job.id}/history", channels="slider7.x")
+    assert history["complete"] is False
+    assert len(history["time"]["values"]) == 2001
+
+
+def test_a_job_that_ended_before_it_began_has_no_results(http, worker):
+    job = worker.submit()
+    http.post(f"/v1/jobs/{job}/cancel")
+    problem = get(http, f"/v1/jobs/{job}/history", 404)
+    assert problem["type"] == "/problems/no-results"

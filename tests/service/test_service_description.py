@@ -1,0 +1,106 @@
+"""What the service says about itself: health, scenes, problems, the OpenAPI document."""
+
+import re
+import shutil
+from typing import Any
+
+import httpx
+import pytest
+
+from service.app import create_app
+from solver import presets
+from storage.settings import Settings
+from tests.service_in_thread import serving
+
+
+def test_a_service_that_is_up_is_alive_and_ready(http):
+    assert http.get("/healthz").json() == {"status": "ok"}
+    assert http.get("/readyz").json() == {"status": "ok"}
+
+
+def test_a_service_without_its_folder_is_alive_but_not_ready(tmp_path):
+    settings = Settings(data=tmp_path / "data")
+    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+        assert http.get("/readyz").status_code == 200
+        shutil.rmtree(settings.data)
+        answer = http.get("/readyz")
+        assert answer.status_code == 503
+        assert answer.headers["Retry-After"] == "5"
+        assert answer.json()["type"] == "/problems/unavailable"
+        assert http.get("/healthz").status_code == 200
+
+
+def test_every_scene_is_listed_with_its_parameters_and_can_be_fetched(http):
+    scenes = http.get("/v1/scenes").json()["scenes"]
+    assert [scene["name"] for scene in scenes] == presets.names()
+    for scene in scenes:
+        assert scene["parameters"]
+        document = http.get(scene["link"]).json()
+        assert document["bodies"].keys() == presets.document(scene["name"])["bodies"].keys()
+
+
+def test_a_fetched_scene_is_a_scene(http):
+    for name in presets.names():
+        scene = http.get(f"/v1/scenes/{name}").json()
+        answer = http.post("/v1/jobs", json={"kind": "simulate", "scene": scene, "duration": 0.1})
+        assert answer.status_code == 202, answer.text
+
+
+def test_an_unknown_scene_is_not_found_and_near_ones_are_named(http):
+    answer = http.get("/v1/scenes/pendulumm")
+    assert answer.status_code == 404
+    assert "pendulum" in answer.json()["errors"][0]["detail"]
+
+
+def test_every_kind_of_problem_is_explained(http):
+    for problem in http.get("/problems").json()["problems"]:
+        explained = http.get(problem["type"]).json()
+        assert explained == problem
+        assert len(explained["help"]) > 20
+    assert http.get("/problems/none").status_code == 404
+
+
+def test_an_address_that_does_not_exist_and_a_wrong_method_are_problems(http):
+    for answer, status in ((http.get("/v2"), 404), (http.delete("/v1/jobs"), 405)):
+        assert answer.status_code == status
+        assert answer.headers["Content-Type"] == "application/problem+json"
+    assert "Allow" in answer.headers
+
+
+@pytest.fixture(scope="module")
+def openapi(http) -> dict[str, Any]:
+    document: dict[str, Any] = http.get("/openapi.json").json()
+    return document
+
+
+def test_the_job_in_the_openapi_document_carries_units(openapi):
+    body = openapi["paths"]["/v1/jobs"]["post"]["requestBody"]["content"]["application/json"]
+    assert "SimulateJob" in str(body)
+    job = openapi["components"]["schemas"]["SimulateJob"]
+    assert job["properties"]["duration"]["unit"] == "s"
+    impact = openapi["components"]["schemas"]["Impact"]["properties"]
+    assert {name: one.get("unit") for name, one in impact.items()} == {
+        "joint": None,
+        "onset": "s",
+        "release": "s",
+        "approach_rate": "m/s",
+        "peak_force": "N",
+        "impulse": "N s",
+    }
+
+
+def test_every_reference_in_the_openapi_document_resolves(openapi):
+    schemas = openapi["components"]["schemas"]
+    for reference in re.findall(r"'\$ref': '([^']+)'", str(openapi)):
+        assert reference.removeprefix("#/components/schemas/") in schemas
+
+
+def test_every_operation_says_what_it_answers_and_what_it_does(openapi):
+    for path, operations in openapi["paths"].items():
+        for method, operation in operations.items():
+            assert operation["description"], (method, path)
+            success = next(v for k, v in operation["responses"].items() if k.startswith("2"))
+            assert success["content"], (method, path)
+            for status, answer in operation["responses"].items():
+                if status.startswith(("4", "5")):
+                    assert list(answer["content"]) == ["application/problem+json"], (path, status)
