@@ -34,11 +34,9 @@ def found(catalogue: Catalogue, job_id: str) -> Job:
             return catalogue.get(job_id)
         except JobNotFound:
             pass
-    raise RequestRefused(
-        kinds.UNKNOWN_JOB,
-        f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs.",
-        [ErrorDetail(parameter="job_id", detail="Give the id of an existing job.")],
-    )
+    sentence = f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs."
+    errors = [ErrorDetail(parameter="job_id", detail=sentence)]
+    raise RequestRefused(kinds.UNKNOWN_JOB, sentence, errors)
 
 
 JobId = Annotated[str, Path(description="Id of the job, as POST /v1/jobs returned it.")]

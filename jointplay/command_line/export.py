@@ -37,7 +37,7 @@ def export(
 
     Example: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`
     """
-    if Path(results).is_dir():
+    if not output_folder.is_job_id(results):
         pieces = _local(Path(results), channels, start, stop, form)
     else:
         pieces = _fetched(results, channels, start, stop, form, url)

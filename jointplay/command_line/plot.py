@@ -27,7 +27,7 @@ def plot(
 
     Example: `jointplay plot OUT acceleration A.normal_force --format svg -o figures`
     """
-    if Path(results).is_dir():
+    if not output_folder.is_job_id(results):
         from jointplay.command_line.drawing import draw, draw_all
         from storage.results import ResultReader
 

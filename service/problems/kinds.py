@@ -48,7 +48,7 @@ UNKNOWN_CHANNEL = Kind(
     "unknown-channel",
     422,
     "The job has no such channel",
-    "Name channels as the job's `peaks` lists them, or by globs such as `slider7.*`.",
+    "Name channels as the job's `peaks` lists them, or by globs such as `A.*`.",
 )
 RESPONSE_TOO_LARGE = Kind(
     "response-too-large",

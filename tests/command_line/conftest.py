@@ -1,19 +1,45 @@
+from collections.abc import Callable
+from typing import NamedTuple
+
+import pytest
+
+from jointplay.command_line.application import run
 from tests.service_in_thread import (
     catalogue,
     finished_job,
-    fresh_service,
     http,
     service_url,
     settings,
     worker,
 )
 
-__all__ = [
-    "catalogue",
-    "finished_job",
-    "fresh_service",
-    "http",
-    "service_url",
-    "settings",
-    "worker",
-]
+__all__ = ["catalogue", "finished_job", "http", "service_url", "settings", "worker"]
+
+
+class Ended(NamedTuple):
+    """How a command ended."""
+
+    code: int
+    out: str
+    err: str
+
+    def line(self) -> str:
+        """The one line on stderr."""
+        assert self.err.count("\n") == 1, self.err
+        assert self.err.startswith("jointplay: ")
+        return self.err.strip()
+
+
+Jointplay = Callable[..., Ended]
+
+
+@pytest.fixture
+def jointplay(capsys: pytest.CaptureFixture[str]) -> Jointplay:
+    """Run one command in this process."""
+
+    def call(*arguments: object) -> Ended:
+        code = run([str(argument) for argument in arguments])
+        out, err = capsys.readouterr()
+        return Ended(code, out, err)
+
+    return call

@@ -1,0 +1,95 @@
+"""Whatever is typed wrong: exit code 2 and one line that names the field and what is right."""
+
+import json
+
+import pytest
+
+from solver import presets
+
+PRESS = ["run", "seven-bar-press", "-o", "OUT"]
+TIMED = [*PRESS, "--duration", "2"]
+
+WRONG = {
+    "unknown command": (["frobnicate"], "frobnicate"),
+    "no output": (["run", "seven-bar-press", "--duration", "2"], "--output"),
+    "no duration": (PRESS, "/duration"),
+    "duration zero": ([*PRESS, "--duration", "0"], "/duration"),
+    "duration negative": ([*PRESS, "--duration", "-1"], "/duration"),
+    "duration NaN": ([*PRESS, "--duration", "nan"], "/duration"),
+    "duration infinite": ([*PRESS, "--duration", "inf"], "/duration"),
+    "duration 1e400": ([*PRESS, "--duration", "1e400"], "/duration"),
+    "duration a word": ([*PRESS, "--duration", "long"], "--duration"),
+    "too many periods": ([*PRESS, "--duration", "1e7"], "/duration"),
+    "unknown preset": (["run", "six-bar-press", "-o", "OUT", "--duration", "2"], "/scene/preset"),
+    "unknown parameter": ([*TIMED, "--set", "clearence=1e-4"], "clearence"),
+    "no value": ([*TIMED, "--set", "clearance"], "NAME=VALUE"),
+    "negative clearance": ([*TIMED, "--set", "clearance=-1e-4"], "/scene/parameters/clearance"),
+    "clearance too large": ([*TIMED, "--set", "clearance=5e-3"], "/scene/parameters/clearance"),
+    "clearance NaN": ([*TIMED, "--set", "clearance=NaN"], "/scene/parameters/clearance"),
+    "unknown channel": ([*TIMED, "--channels", "slider8.x"], "/channels/0"),
+    "unknown formulation": ([*TIMED, "--formulation", "newton"], "/formulation"),
+    "too many samples": ([*TIMED, "--output-step", "1e-9"], "/output_step"),
+    "no such file": (["run", "missing.json", "-o", "OUT"], "missing.json"),
+    "no such results": (["export", "missing"], "missing"),
+    "a folder without results": (["plot", "."], "no results"),
+    "unknown format": (["export", "missing", "--format", "xls"], "--format"),
+    "no such scene": (["scene", "show", "six-bar-press"], "six-bar-press"),
+    "a scene that cannot be drawn into that": (
+        ["scene", "draw", "pendulum", "-o", "pendulum.doc"],
+        ".png",
+    ),
+    "not an address": (["ls", "--url", "localhost"], "is not an address"),
+    "no reported numbers": (["demo", "pendulum"], "no reported numbers"),
+}
+
+
+@pytest.mark.parametrize(("arguments", "says"), WRONG.values(), ids=WRONG)
+def test_wrong_usage_ends_with_two_and_one_line(jointplay, tmp_path, monkeypatch, arguments, says):
+    monkeypatch.chdir(tmp_path)
+    ended = jointplay(*arguments)
+    assert ended.code == 2
+    assert says in ended.line()
+    assert list(tmp_path.iterdir()) == []
+
+
+FILES = {
+    "malformed": (b'{"kind": "simul', "line 1"),
+    "not an object": (b"[1, 2]", "JSON object"),
+    "NaN": (b'{"kind": "simulate", "duration": NaN}', "/duration"),
+    "1e400": (b'{"kind": "simulate", "duration": 1e400}', "/duration"),
+    "a key twice": (b'{"kind": "simulate", "kind": "simulate"}', "/kind"),
+    "unknown field": (b'{"kind": "simulate", "durations": 1}', "/durations"),
+    "unknown kind": (b'{"kind": "sweep"}', "/kind"),
+    "100 000 levels": (b"[" * 100_000, "nested"),
+    "not UTF-8": (b"\xff\xfe", "UTF-8"),
+}
+
+
+@pytest.mark.parametrize(("content", "says"), FILES.values(), ids=FILES)
+def test_a_wrong_file_ends_with_two_and_one_line(jointplay, tmp_path, content, says):
+    (tmp_path / "job.json").write_bytes(content)
+    ended = jointplay("run", tmp_path / "job.json", "-o", tmp_path / "OUT")
+    assert ended.code == 2
+    assert says in ended.line()
+    assert not (tmp_path / "OUT").exists()
+
+
+def test_an_existing_output_is_never_overwritten(jointplay, tmp_path):
+    ended = jointplay("run", "pendulum", "--duration", "1", "-o", tmp_path)
+    assert ended.code == 2
+    assert "exists already" in ended.line()
+
+
+def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
+    scene = presets.document("seven-bar-press")
+    file = tmp_path / "mine.json"
+    file.write_text(json.dumps(scene))
+    checked = jointplay("scene", "check", file)
+    assert checked.code == 0
+    assert checked.out == jointplay("scene", "check", "seven-bar-press").out
+    scene["joints"]["A"]["journal"] = "link2.nowhere"
+    file.write_text(json.dumps(scene))
+    ended = jointplay("scene", "check", file)
+    assert ended.code == 2
+    assert "/scene/joints/A" in ended.line()
+    assert "nowhere" in ended.line()

@@ -1,0 +1,96 @@
+"""The commands that talk to a service."""
+
+import csv
+import io
+import json
+import socket
+
+import pytest
+
+from storage.catalogue import BlockState, JobError
+
+
+@pytest.fixture
+def at(service_url):
+    return ["--url", service_url]
+
+
+def test_a_submitted_job_is_listed_shown_and_cancelled(jointplay, at):
+    submitted = jointplay("submit", "pendulum", "--duration", "1", "--label", "typed", *at)
+    assert submitted.code == 0
+    job_id = submitted.out.strip()
+    first = jointplay("ls", "-n", "1", *at).out
+    assert job_id in first
+    assert "queued" in first
+    assert "typed" in first
+    assert "queued" in jointplay("show", job_id, *at).out
+    document = json.loads(jointplay("show", job_id, "--job", *at).out)
+    assert (document["duration"], document["tolerance"]) == (1.0, 1e-6)
+    for _ in range(2):
+        assert jointplay("cancel", job_id, *at) == (0, f"{job_id}  cancelled\n", "")
+
+
+def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):
+    shown = jointplay("show", finished_job, *at).out
+    assert "succeeded" in shown
+    assert "slider7.ax" in shown
+
+
+def test_waiting_tells_by_the_exit_code_how_the_job_ended(jointplay, at, worker):
+    assert jointplay("show", "--wait", worker.finished(), *at).code == 0
+    claim = worker.start(worker.submit())
+    worker.store(claim, complete=False)
+    error = JobError("solver", "step-size-underflow", "Loosen the tolerance.", 0.5)
+    worker.finish(claim, BlockState.failed, error)
+    ended = jointplay("show", "--wait", claim.job.id, *at)
+    assert ended.code == 3
+    assert "Loosen the tolerance." in ended.err.splitlines()[-1]
+    cancelled = worker.submit()
+    jointplay("cancel", cancelled, *at)
+    assert jointplay("show", "--wait", cancelled, *at).code == 4
+
+
+def test_channels_of_a_job_are_exported_as_csv_and_json(jointplay, at, finished_job, tmp_path):
+    selection = ["--channels", "slider7.x,A.normal_force", "--start", "0.5", "--stop", "0.51"]
+    text = jointplay("export", finished_job, *selection, *at).out
+    header, *rows = csv.reader(io.StringIO(text))
+    assert header == ["time [s]", "slider7.x [m]", "A.normal_force [N]"]
+    assert len(rows) == 11
+    assert float(rows[0][0]) == 0.5
+    file = tmp_path / "press.json"
+    jointplay("export", finished_job, *selection, "--format", "json", "-o", file, *at)
+    document = json.loads(file.read_text())
+    assert document["time"]["values"] == [float(row[0]) for row in rows]
+    assert document["channels"]["slider7.x"]["values"] == [float(row[1]) for row in rows]
+
+
+def test_figures_of_a_job_are_fetched(jointplay, at, finished_job, tmp_path):
+    drawn = jointplay("plot", finished_job, "orbit", "slider7.vx", "-o", tmp_path / "figures", *at)
+    assert drawn.code == 0
+    files = [tmp_path / "figures" / name for name in ("orbit.png", "slider7.vx.png")]
+    assert drawn.out.split() == [str(file) for file in files]
+    assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
+
+
+def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finished_job):
+    wrong = jointplay("submit", "pendulum", "--duration", "-1", *at)
+    assert wrong.code == 2
+    assert "/duration" in wrong.line()
+    for command in ("show", "cancel", "export"):
+        unknown = jointplay(command, "0" * 26, *at)
+        assert unknown.code == 2
+        assert "0" * 26 in unknown.line()
+    near = jointplay("export", finished_job, "--channels", "slider7.X", *at)
+    assert near.code == 2
+    assert "slider7.x" in near.line()
+
+
+@pytest.mark.parametrize(
+    "command", [["ls"], ["show", "x"], ["submit", "pendulum"], ["cancel", "x"]]
+)
+def test_where_nobody_answers_the_exit_code_is_five(jointplay, command):
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    ended = jointplay(*command, "--url", f"http://127.0.0.1:{port}")
+    assert ended.code == 5
+    assert "jointplay serve" in ended.line()

@@ -1,0 +1,135 @@
+"""What linters cannot see: sizes, names, units, and what importing a package loads."""
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ["solver", "storage", "worker", "service", "jointplay"]
+SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
+EVERYTHING = SOURCES + sorted((ROOT / "tests").rglob("*.py"))
+
+
+def relative(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+@pytest.mark.parametrize("path", EVERYTHING, ids=relative)
+def test_no_file_is_longer_than_400_lines(path):
+    assert len(path.read_text().splitlines()) <= 400
+
+
+def test_no_module_is_named_for_what_found_no_home():
+    homeless = {"utils", "util", "helpers", "helper", "common", "misc", "manager", "handler"}
+    assert [relative(path) for path in SOURCES if path.stem in homeless] == []
+
+
+def test_every_package_says_what_it_is_for():
+    silent = [
+        relative(path)
+        for path in SOURCES
+        if path.name == "__init__.py" and not ast.get_docstring(ast.parse(path.read_text()))
+    ]
+    assert silent == []
+
+
+def test_nothing_evaluates_or_unpickles_what_it_reads():
+    forbidden = re.compile(r"(?<![\w.])(eval|pickle\.loads?|marshal\.loads?|yaml\.load)\(")
+    assert [relative(path) for path in SOURCES if forbidden.search(path.read_text())] == []
+
+
+def test_no_code_outside_the_scenes_knows_a_preset():
+    """The press is a document; a name of it in the code would be a special case."""
+    names = re.compile(r"slider7|seven.bar|crank1|link2|bouncing.journal", re.IGNORECASE)
+    knowing = []
+    for path in SOURCES:
+        tree = ast.parse(path.read_text())
+        documentation = {id(node) for node in docstrings_and_help(tree)}
+        for node in ast.walk(tree):
+            is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
+            if is_text and id(node) not in documentation and names.search(node.value):
+                knowing.append(f"{relative(path)}:{node.lineno}: {node.value[:60]}")
+    assert knowing == []
+
+
+def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
+    """Yield the texts for readers, where the press may be an example."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            yield node.value
+        if isinstance(node, ast.keyword) and node.arg in {"help", "description"}:
+            yield from (part for part in ast.walk(node.value) if isinstance(part, ast.Constant))
+
+
+def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
+    from service.jobs.schemas import JobResource
+    from service.results.schemas import History, Impacts, Peaks
+    from solver.job import SimulateJob
+
+    for model in (SimulateJob, JobResource, History, Impacts, Peaks):
+        schema = model.model_json_schema()
+        for name, definition in {model.__name__: schema, **schema.get("$defs", {})}.items():
+            for field, described in definition.get("properties", {}).items():
+                yield f"{name}.{field}", described
+
+
+# Numbers whose unit stands beside them as a field, or which are pure numbers by their nature.
+WITHOUT_UNIT = {
+    "Output.factor",
+    "Output.offset",
+    "Parameter.default",
+    "Parameter.minimum",
+    "Parameter.maximum",
+    "Peak.minimum",
+    "Peak.maximum",
+    "PresetScene.parameters",
+    "Progress.fraction",
+    "Reported.parameters",
+    "Reported.value",
+    "Series.values",
+    "Target.factor",
+}
+
+
+def test_every_number_of_the_documents_has_a_unit():
+    without = {
+        name
+        for name, described in schemas()
+        if "'number'" in str(described) and "unit" not in str(described)
+    }
+    assert without == WITHOUT_UNIT
+
+
+def loaded_by(module: str, watched: list[str]) -> list[str]:
+    program = f"import sys, {module}; print(*(m for m in {watched} if m in sys.modules))"
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    return ended.stdout.split()
+
+
+@pytest.mark.parametrize(
+    ("module", "never"),
+    [
+        ("jointplay.client", ["numba", "celery", "fastapi", "sqlalchemy", "zarr", "matplotlib"]),
+        ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
+        ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
+        ("solver.admission", ["numba", "celery", "fastapi", "zarr"]),
+        ("storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
+        ("storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
+        ("service.app", ["numba", "solver.simulate", "worker.tasks", "matplotlib"]),
+    ],
+)
+def test_importing_a_module_does_not_load(module, never):
+    assert loaded_by(module, never) == []
+
+
+def test_version_control_ignores_what_the_targets_make():
+    ignored = (ROOT / ".gitignore").read_text().split()
+    assert {".venv/", "demo/", "__pycache__/", ".jointplay/"} <= set(ignored)
