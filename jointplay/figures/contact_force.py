@@ -32,28 +32,29 @@ def _draw(source: Source, selection: Selection) -> Figure:
     impacts = [_between_samples(source, joint, selection, step) for joint in joints]
     newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
     seconds = scale("s", *(time for time, _ in curves))
-    height = _PANEL_HEIGHT * len(joints) + _AXIS_HEIGHT
+    legend_height = page.LEGEND_HEIGHT if any(len(onset) for onset, _ in impacts) else 0.0
+    height = _PANEL_HEIGHT * len(joints) + _AXIS_HEIGHT + legend_height
     figure, grid = page.panels(len(joints), 1, height, share_x=True)
-    for (axes,), joint, curve, spikes in zip(grid, joints, curves, impacts, strict=True):
-        onset, peak = spikes
-        if len(onset):
-            axes.vlines(
-                onset / seconds.factor,
-                0.0,
-                peak / newtons.factor,
-                color=page.VERMILION,
-                linewidth=0.5,
-                label="peak of an impact between samples",
-            )
-        time, force = curve
+    for (axes,), joint, (time, force), (onset, peak) in zip(
+        grid, joints, curves, impacts, strict=True
+    ):
         axes.plot(time / seconds.factor, force / newtons.factor, color=page.BLUE, label="samples")
+        axes.vlines(
+            onset / seconds.factor,
+            0.0,
+            peak / newtons.factor,
+            color=page.VERMILION,
+            linewidth=0.5,
+            zorder=1.5,
+            label="peaks of impacts between samples",
+        )
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(newtons.label("normal force"))
         page.corner_text(axes, f"joint {joint}")
-        if len(onset):
-            axes.legend(loc="upper right", borderaxespad=0.3)
     grid[-1][0].set_xlabel(seconds.label("time"))
     figure.align_ylabels()
+    if legend_height:
+        page.legend(figure, grid[0][0])
     return figure
 
 

@@ -78,7 +78,7 @@ def _draw(shape: Geometry) -> Figure:
     draw_gravity(axes, shape)
     axes.set_xlabel(metres.label("x"))
     axes.set_ylabel(metres.label("y"))
-    figure.legend(loc="outside upper center", ncols=4, columnspacing=1.2, handletextpad=0.3)
+    page.legend(figure, axes)
     return figure
 
 

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.path import Path
 
-_TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
+TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
 """Lighter Okabe-Ito colours, for the faces of bodies under black marks and text."""
-_EDGE = "#404040"
+EDGE = "#404040"
 _RAIL = 0.14
 """Half the length of a slider's rail, in extents of the mechanism."""
 BLOCK_SIZE = 15.0  # points
@@ -51,12 +51,12 @@ def draw_rails(axes: Axes, shape: Geometry, metre: float) -> None:
 def draw_bodies(axes: Axes, shape: Geometry, metre: float) -> None:
     """Draw each body through its points, and a dot at every point that no joint marks."""
     marked = [joint.place for joint in shape.joints]
-    for tint, (name, points) in zip(cycle(_TINTS), shape.bodies.items(), strict=False):
+    for tint, (name, points) in zip(cycle(TINTS), shape.bodies.items(), strict=False):
         corners = np.array(outline([*points.values()])).reshape(-1, 2) / metre
         if len(corners) > 2:
-            axes.fill(*corners.T, facecolor=tint, edgecolor=_EDGE, linewidth=0.6, zorder=2)
+            axes.fill(*corners.T, facecolor=tint, edgecolor=EDGE, linewidth=0.6, zorder=2)
         elif len(corners) == 2:
-            for colour, width in ((_EDGE, 4.2), (tint, 3.2)):
+            for colour, width in ((EDGE, 4.2), (tint, 3.2)):
                 axes.plot(
                     *corners.T, color=colour, linewidth=width, solid_capstyle="round", zorder=2
                 )
@@ -64,7 +64,7 @@ def draw_bodies(axes: Axes, shape: Geometry, metre: float) -> None:
             _draw_block(axes, shape, name, tint, metre)
         loose = [place for place in points.values() if not among(place, marked, 1e-2 * shape.size)]
         if loose and len(corners) > 1:
-            axes.plot(*(np.array(loose).T / metre), ".", color=_EDGE, markersize=2.5, zorder=4)
+            axes.plot(*(np.array(loose).T / metre), ".", color=EDGE, markersize=2.5, zorder=4)
 
 
 def draw_joints(axes: Axes, shape: Geometry, metre: float) -> None:
@@ -78,7 +78,7 @@ def draw_joints(axes: Axes, shape: Geometry, metre: float) -> None:
             "color": page.VERMILION,
             "markeredgewidth": 1.4,
         },
-        "weld": {"markersize": 3.5, "markerfacecolor": _EDGE, "color": _EDGE, "marker": "s"},
+        "weld": {"markersize": 3.5, "markerfacecolor": EDGE, "color": EDGE, "marker": "s"},
         "slider": {},
     }
     by_look: dict[str, list[Point]] = {look: [] for look in looks}
@@ -92,7 +92,7 @@ def draw_joints(axes: Axes, shape: Geometry, metre: float) -> None:
                 [y / metre],
                 marker=_support(),
                 markersize=13.0,
-                color=_EDGE,
+                color=EDGE,
                 markeredgewidth=0.6,
                 fillstyle="none",
                 zorder=1,
@@ -165,9 +165,9 @@ def _draw_block(axes: Axes, shape: Geometry, name: str, tint: str, metre: float)
         [x / metre],
         [y / metre],
         marker=marker,
+        color=EDGE,
         markersize=BLOCK_SIZE,
         markerfacecolor=tint,
-        markeredgecolor=_EDGE,
         markeredgewidth=0.6,
         zorder=2,
     )

@@ -9,14 +9,15 @@ import numpy as np
 from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import FigureKind, Selection
 from jointplay.figures.quantity import scale
-from jointplay.source import Source
+from jointplay.source import Floats, Source
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _COLUMNS = 2
 _PANEL_HEIGHT = 47.0  # mm
-_WIDE_PANEL_HEIGHT = 80.0
+_WIDE_PANEL_HEIGHT = 78.0
 
 
 def _names(joint: str) -> tuple[str, str]:
@@ -33,29 +34,45 @@ def _draw(source: Source, selection: Selection) -> Figure:
     columns = min(_COLUMNS, len(joints))
     rows = -(-len(joints) // columns)
     height = _WIDE_PANEL_HEIGHT if columns == 1 else _PANEL_HEIGHT
-    figure, grid = page.panels(rows, columns, height * rows)
+    figure, grid = page.panels(rows, columns, height * rows + page.LEGEND_HEIGHT)
     metres = scale("m", np.array(list(joints.values())))
-    angle = np.linspace(0.0, 2.0 * np.pi, 241)
     panels = [axes for row in grid for axes in row]
     for axes, (joint, clearance) in zip(panels, joints.items(), strict=False):
         _, path = sampling.in_a_plane(source, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
-        radius = clearance / metres.factor
-        axes.plot(
-            radius * np.cos(angle), radius * np.sin(angle), color=page.BLACK, linestyle=(0, (4, 2))
-        )
-        axes.plot(x, y, color=page.BLUE, linewidth=0.4, rasterized=len(x) > page.MOST_VECTOR_POINTS)
-        axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=3.0)
-        axes.set_aspect("equal")
-        reach = 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0)))
-        axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+        _orbit(axes, x, y, clearance / metres.factor)
         axes.set_xlabel(metres.label("eccentricity x"))
         page.corner_text(axes, f"joint {joint}, c = {clearance / metres.factor:.4g} {metres.unit}")
     for row in grid:
         row[0].set_ylabel(metres.label("eccentricity y"))
     for axes in panels[len(joints) :]:
         axes.remove()
+    page.legend(figure, panels[0])
     return figure
+
+
+def _orbit(axes: Axes, x: Floats, y: Floats, radius: float) -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 241)
+    axes.plot(
+        x,
+        y,
+        color=page.BLUE,
+        linewidth=0.4,
+        rasterized=len(x) > page.MOST_VECTOR_POINTS,
+        label="journal centre",
+    )
+    axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=3.0, label="first sample")
+    axes.plot(
+        radius * np.cos(angle),
+        radius * np.sin(angle),
+        color=page.BLACK,
+        linewidth=0.6,
+        linestyle=(0, (4, 3)),
+        label="clearance circle",
+    )
+    reach = 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0)))
+    axes.set_aspect("equal")
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
 
 
 ORBIT = FigureKind(

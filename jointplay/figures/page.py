@@ -17,12 +17,12 @@ Form = Literal["png", "svg"]
 COLUMN_WIDTH: Final = 85.0
 """Width of a journal's column [mm]."""
 DOTS_PER_INCH: Final = 300
+LEGEND_HEIGHT: Final = 5.0
+"""Height of a legend above the panels [mm]."""
 
 # Okabe and Ito 2008: told apart with any colour vision, and in grey
 BLUE: Final = "#0072B2"
 VERMILION: Final = "#D55E00"
-GREEN: Final = "#009E73"
-SKY: Final = "#56B4E9"
 BLACK: Final = "#000000"
 GREY: Final = "#767676"
 
@@ -51,6 +51,9 @@ _STYLE: Final[dict[str, Any]] = {
     "legend.fontsize": 6.5,
     "legend.frameon": False,
     "legend.handlelength": 1.5,
+    "legend.columnspacing": 1.4,
+    "legend.handletextpad": 0.5,
+    "legend.borderpad": 0.2,
     "lines.linewidth": 0.8,
     "lines.markersize": 2.5,
     "savefig.facecolor": "white",
@@ -107,6 +110,12 @@ def panels(
 def corner_text(axes: Axes, text: str) -> None:
     """Name a panel above its upper left corner."""
     axes.set_title(text, loc="left", fontsize=7.0, pad=2.5)
+
+
+def legend(figure: Figure, axes: Axes) -> None:
+    """Explain the curves of a panel once for all panels, above them."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, borderaxespad=0.2)
 
 
 def save(figure: Figure, form: Form) -> bytes:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import FigureKind, Selection
 from jointplay.figures.quantity import scale
-from jointplay.source import Source
+from jointplay.source import Floats, Source
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,62 +22,98 @@ _WIDE_PANEL_HEIGHT = 60.0
 _MOST_JOINTS = 6
 
 
-def _pairs(source: Source, selection: Selection) -> list[list[tuple[str, str]]]:
-    """Give rows of panels, each with position and rate to draw."""
+@dataclass(frozen=True)
+class _Panel:
+    """Two channels with what their axes are called."""
+
+    position: str
+    rate: str
+    position_label: str
+    rate_label: str
+    title: str = ""
+
+
+def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
     if selection.channels:
         if len(selection.channels) != 2:
             raise NotDrawable("a phase portrait is drawn of two channels: position and rate")
-        return [[(selection.channels[0], selection.channels[1])]]
+        return [[_Panel(*selection.channels, *selection.channels)]]
     joints = list(scene_facts.chosen_joints(source, selection))
     if len(joints) > _MOST_JOINTS:
         raise NotDrawable(f"choose at most {_MOST_JOINTS} joints for one figure")
     return [
-        [(f"{joint}.eccentricity_{axis}", f"{joint}.eccentricity_rate_{axis}") for axis in "xy"]
+        [
+            _Panel(
+                f"{joint}.eccentricity_{axis}",
+                f"{joint}.eccentricity_rate_{axis}",
+                f"eccentricity {axis}",
+                f"rate {axis}",
+                f"joint {joint}",
+            )
+            for axis in "xy"
+        ]
         for joint in joints
     ]
 
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
-    rows = _pairs(source, selection)
-    return scene_facts.stored(source, [name for row in rows for pair in row for name in pair])
+    names = [
+        name
+        for row in _rows(source, selection)
+        for panel in row
+        for name in (panel.position, panel.rate)
+    ]
+    return scene_facts.stored(source, names)
 
 
 def _draw(source: Source, selection: Selection) -> Figure:
-    rows = _pairs(source, selection)
+    rows = _rows(source, selection)
     height = _PANEL_HEIGHT * len(rows) if len(rows[0]) > 1 else _WIDE_PANEL_HEIGHT
-    figure, grid = page.panels(len(rows), len(rows[0]), height)
-    for panels, pairs in zip(grid, rows, strict=True):
-        for axes, (position, rate) in zip(panels, pairs, strict=True):
-            _portrait(axes, source, position, rate, selection)
+    figure, grid = page.panels(len(rows), len(rows[0]), height + page.LEGEND_HEIGHT)
+    for axes_row, panel_row in zip(grid, rows, strict=True):
+        for axes, panel in zip(axes_row, panel_row, strict=True):
+            _portrait(axes, source, panel, selection)
+    page.legend(figure, grid[0][0])
     return figure
 
 
-def _portrait(axes: Axes, source: Source, position: str, rate: str, selection: Selection) -> None:
-    _, path = sampling.in_a_plane(source, (position, rate), selection)
-    time, points = source.sections([position, rate])
-    low, high = selection.start, selection.stop
-    inside = (time >= (time.min(initial=0.0) if low is None else low)) & (
-        time <= (time.max(initial=0.0) if high is None else high)
+def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -> None:
+    names = (panel.position, panel.rate)
+    _, path = sampling.in_a_plane(source, names, selection)
+    points = _sections(source, names, selection)
+    across, up = (
+        scale(scene_facts.channel(source, name).unit, path[name], points[name]) for name in names
     )
-    across = scale(scene_facts.channel(source, position).unit, path[position])
-    up = scale(scene_facts.channel(source, rate).unit, path[rate])
     axes.plot(
-        path[position] / across.factor,
-        path[rate] / up.factor,
-        color=page.SKY,
+        path[panel.position] / across.factor,
+        path[panel.rate] / up.factor,
+        color=page.BLUE,
         linewidth=0.4,
-        rasterized=len(path[position]) > page.MOST_VECTOR_POINTS,
+        rasterized=len(path[panel.rate]) > page.MOST_VECTOR_POINTS,
+        label="trajectory",
     )
-    axes.plot(
-        points[position][inside] / across.factor,
-        points[rate][inside] / up.factor,
-        "o",
-        color=page.VERMILION,
-        markeredgewidth=0.0,
-        rasterized=int(inside.sum()) > page.MOST_VECTOR_POINTS,
-    )
-    axes.set_xlabel(across.label(position))
-    axes.set_ylabel(up.label(rate))
+    if len(points[panel.rate]):
+        axes.plot(
+            points[panel.position] / across.factor,
+            points[panel.rate] / up.factor,
+            "o",
+            color=page.VERMILION,
+            markeredgewidth=0.0,
+            rasterized=len(points[panel.rate]) > page.MOST_VECTOR_POINTS,
+            label="Poincaré points",
+        )
+    axes.set_xlabel(across.label(panel.position_label))
+    axes.set_ylabel(up.label(panel.rate_label))
+    page.corner_text(axes, panel.title)
+
+
+def _sections(source: Source, names: tuple[str, str], selection: Selection) -> dict[str, Floats]:
+    """Give the Poincare points inside the window of time."""
+    time, points = source.sections(names)
+    low = -np.inf if selection.start is None else selection.start
+    high = np.inf if selection.stop is None else selection.stop
+    inside = (time >= low) & (time <= high)
+    return {name: points[name][inside] for name in names}
 
 
 PHASE_PORTRAIT = FigureKind(

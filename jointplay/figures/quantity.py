@@ -45,7 +45,9 @@ def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
     if plain or largest == 0.0 or not _SCALABLE.fullmatch(unit):
         return Scale(1.0, pretty)
     fitting = [
-        (factor, prefix) for factor, prefix in _PREFIXES if _SMALLEST_PLAIN * factor <= largest
+        (factor, prefix)
+        for factor, prefix in _PREFIXES
+        if largest >= (factor if factor > 1.0 else _SMALLEST_PLAIN * factor)
     ]
     factor, prefix = fitting[-1] if fitting else _PREFIXES[0]
     if factor > 1.0 and unit.startswith(_NEVER_LARGER):
