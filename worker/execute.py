@@ -173,6 +173,7 @@ def _layout(admission: Admission) -> ResultLayout:
         joints=admission.joints,
         attributes={
             "job": admission.job,
+            "scene": admission.scene,
             "digest": admission.digest,
             "solver_version": SOLVER_VERSION,
             "period": admission.period,
