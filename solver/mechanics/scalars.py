@@ -58,6 +58,11 @@ def minimum(x: Scalar, y: Scalar) -> Scalar:
     return select_positive(x - y, y, x)
 
 
+def maximum(x: Scalar, y: Scalar) -> Scalar:
+    """The larger of x and y."""
+    return select_positive(x - y, x, y)
+
+
 def clamp_to_unit(x: Scalar) -> Scalar:
     """X limited to 0..1."""
     return minimum(positive_part(x), 1.0)

@@ -1,0 +1,90 @@
+"""Records a scene's equations of motion: once, from the readable mechanics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from solver.compiler.recorder import Expression, Recorder
+from solver.mechanics.lagrange import LagrangeMechanism
+from solver.mechanics.observe import channel_values, ledger_rates, stored_energy
+from solver.mechanics.reduced import ReducedMechanism
+from solver.mechanics.tree import Tree
+from solver.mechanics.view import view
+from solver.scene.document import Scene
+
+
+@dataclass(frozen=True)
+class Equations:
+    """What kernels evaluate, as expressions of the variables.
+
+    The variables are ``stage0…`` (coordinates, then their speeds), ``stage_time`` (s within the
+    period), ``phase<k>`` (driver k's position at local time zero), ``mode<j>`` and
+    ``impact_rate<j>`` of joint j with play, in document order.
+    """
+
+    recorder: Recorder
+    coordinates: tuple[str, ...]
+    drivers: tuple[str, ...]
+    play: tuple[str, ...]
+    accelerations: tuple[Expression, ...]
+    ledger: tuple[Expression, ...]
+    """Rates of driver work, contact loss, friction loss, then the impulse of each joint."""
+    gaps: tuple[tuple[Expression, Expression], ...]
+    """Penetration (m) and its rate (m/s) of each joint with play."""
+    channels: dict[str, Expression]
+    """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
+
+
+def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
+    """Run the mechanics on recorded expressions.
+
+    Raises
+    ------
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    recorder = Recorder()
+    numbers = view(scene, recorder.number)
+    lagrange = formulation == "lagrange"
+    coordinates = (
+        tuple(f"{body}.{axis}" for body in scene.bodies for axis in ("x", "y", "theta"))
+        if lagrange
+        else tree.coordinates
+    )
+    count = len(coordinates)
+    stage = [recorder.variable(f"stage{i}") for i in range(2 * count)]
+    time = recorder.variable("stage_time")
+    driven = {
+        name: recorder.variable(f"phase{k}") + numbers.drivers[name].speed * time
+        for k, name in enumerate(scene.drivers)
+    }
+    modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.play)}
+    rates = {name: recorder.variable(f"impact_rate{j}") for j, name in enumerate(tree.play)}
+
+    mechanism: LagrangeMechanism | ReducedMechanism
+    if lagrange:
+        mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[count:], driven)
+        motion = observed = mechanism.motion(modes, rates)
+    else:
+        position = dict(zip(coordinates, stage[:count], strict=True))
+        speed = dict(zip(coordinates, stage[count:], strict=True))
+        mechanism = ReducedMechanism(tree, numbers, position, speed, driven)
+        motion = mechanism.motion(modes, rates)
+        known = [recorder.variable(f"slope{count + i}") for i in range(count)]
+        observed = mechanism.motion(modes, rates, known)
+    lift = recorder.lift
+    channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
+    channels["stored"] = lift(stored_energy(observed))
+    return Equations(
+        recorder,
+        coordinates,
+        tuple(scene.drivers),
+        tree.play,
+        tuple(lift(a) for a in motion.accelerations),
+        tuple(lift(rate) for rate in ledger_rates(motion).values()),
+        tuple(
+            (lift(found.penetration), lift(found.penetration_rate))
+            for found in motion.contacts.values()
+        ),
+        channels,
+    )

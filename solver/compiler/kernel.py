@@ -1,0 +1,149 @@
+"""A kernel: a scene's compiled equations, one method's step, and the layout they share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.compiler import scanning, stepping
+from solver.compiler.cache import load
+from solver.compiler.emit import HEADER, FixedNodes, lane_function
+from solver.compiler.equations import Equations, record
+from solver.compiler.lane_functions import FOLD
+from solver.compiler.layout import Layout
+from solver.compiler.recorder import Expression, Recorder
+from solver.compiler.slots import Slots, slots_of
+from solver.integrators.tableau import Tableau
+from solver.mechanics.tree import Tree
+from solver.mechanics.view import view
+from solver.scene.document import Scene
+
+LEDGER = 3
+"""Ledger terms before the joints' impulses: driver work, contact loss, friction loss."""
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """Compiled functions over one work array, and what the slots mean.
+
+    `channels` lists the rows of the ``channel`` block: every channel of the scene, then
+    ``stored`` (elastic energy), then the normal force of each joint with play once more, for the
+    peak of each contact.
+    """
+
+    module: ModuleType
+    layout: Layout
+    slots: Slots
+    coordinates: tuple[str, ...]
+    drivers: tuple[str, ...]
+    play: tuple[str, ...]
+    channels: tuple[str, ...]
+    fixed: tuple[tuple[int, Expression], ...]
+    """Slot and expression of what depends on the scene's numbers alone."""
+
+    @property
+    def states(self) -> int:
+        """Coordinates and speeds."""
+        return 2 * len(self.coordinates)
+
+    @property
+    def functions(self) -> tuple[Any, ...]:
+        """The compiled functions, in the order that `solver.advance.advance` takes them."""
+        m = self.module
+        return (
+            m.attempt,
+            m.keep,
+            m.commit,
+            m.right_hand_side,
+            m.observe,
+            m.scan,
+            m.advance_scan,
+            m.probe,
+            m.probe_before,
+        )
+
+    def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
+        """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
+
+        The scene must have the structure that this kernel was compiled for.
+        """
+        numbers: dict[str, float] = {}
+        view(scene, lambda path, value: numbers.setdefault(path, value))
+        found: dict[int, float] = {}
+        return np.array([_evaluate(node, numbers, found) for _, node in self.fixed])
+
+
+def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau) -> Kernel:
+    """Record, emit and load the kernel of a scene's structure; seconds when it is not cached.
+
+    Raises
+    ------
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    equations = record(scene, tree, formulation)
+    layout = Layout()
+    states, joints = 2 * len(equations.coordinates), len(equations.play)
+    ledger = LEDGER + joints
+    stepping.allocate(layout, states, ledger, joints, tableau.stages)
+    rows = _rows(equations)
+    scanning.allocate(layout, len(rows))
+    # `accept` once more for every row, so that one flat loop, which vectorises, can be masked
+    mask_rows = max(len(rows), states * (tableau.stages + 1))
+    layout.add_block("mask", mask_rows)
+    layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
+    layout.add_block("phase", len(equations.drivers))
+    fixed = FixedNodes(layout)
+    steps = stepping.StepRecorder(tableau, states, ledger, joints, layout)
+    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows)]
+    source = "\n\n".join(
+        [
+            HEADER,
+            lane_function("right_hand_side", _slopes(equations), layout, fixed),
+            lane_function("observe", observed, layout, fixed),
+            steps.source(),
+            scanning.source(layout, len(rows)),
+        ]
+    )
+    module = load(source)
+    drivers = len(equations.drivers)
+    return Kernel(
+        module,
+        layout,
+        slots_of(layout, states, ledger, joints, drivers, len(rows), mask_rows),
+        equations.coordinates,
+        equations.drivers,
+        equations.play,
+        rows,
+        tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+    )
+
+
+def _rows(equations: Equations) -> tuple[str, ...]:
+    return (*equations.channels, *(f"{name}.normal_force" for name in equations.play))
+
+
+def _slopes(equations: Equations) -> list[tuple[str, Expression]]:
+    recorder: Recorder = equations.recorder
+    count = len(equations.coordinates)
+    outputs = [(f"slope{i}", recorder.variable(f"stage{count + i}")) for i in range(count)]
+    outputs += [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
+    outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
+    for j, (gap, rate) in enumerate(equations.gaps):
+        outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    return outputs
+
+
+def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:
+    if node.operation == "constant":
+        return node.value
+    if node.operation == "number":
+        return numbers[str(node.data)]
+    if node.index not in found:
+        arguments = [_evaluate(a, numbers, found) for a in node.arguments]
+        found[node.index] = FOLD[node.operation](*arguments)
+    return found[node.index]

@@ -1,0 +1,209 @@
+"""Records what the mechanics compute, as a graph of arithmetic that simplifies as it grows.
+
+A small recorder of our own, not CasADi or SymPy: what is needed is a few simplifications, one
+pass of common-subexpression elimination that falls out of hash-consing, a bound on the number of
+statements, and control over the text that is emitted; all of it fits here, without a
+dependency of 100 MB and without symbolic algebra, whose simplifier takes minutes on a mechanism.
+
+Every operation on an `Expression` returns the node that already stands for the same value, so a
+subexpression is evaluated once. Nodes that depend on numbers of the scene alone (`fixed`) are
+evaluated once a run, outside the kernel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from solver.compiler import lane_functions
+from solver.errors import LimitExceeded, Problem
+
+MOST_STATEMENTS = 10_000
+"""Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000)."""
+
+COMMUTING = frozenset({"add", "mul"})
+
+
+class Recorder:
+    """Owns the nodes of one recording."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[tuple[object, ...], Expression] = {}
+        self.numbers: dict[str, float] = {}
+
+    def constant(self, value: float) -> Expression:
+        """Return the node of a literal number; minus zero is zero."""
+        return self.node("constant", (), float(value) + 0.0, fixed=True)
+
+    def number(self, name: str, value: float) -> Expression:
+        """Return the node of a number of the scene, data of a run; `value` serves as its sample."""
+        self.numbers[name] = value
+        return self.node("number", (), name, fixed=True)
+
+    def variable(self, name: str) -> Expression:
+        """Return the node of a quantity that changes while running: state, time, mode."""
+        return self.node("variable", (), name, fixed=False)
+
+    def lift(self, value: object) -> Expression:
+        """Return a node for a float, or the expression itself."""
+        if isinstance(value, Expression):
+            return value
+        return self.constant(float(value))  # type: ignore[arg-type]
+
+    def node(
+        self, operation: str, arguments: tuple[Expression, ...], data: object, *, fixed: bool
+    ) -> Expression:
+        """Return the one node of this operation on these arguments."""
+        ordered = arguments
+        if operation in COMMUTING:
+            ordered = tuple(sorted(arguments, key=lambda e: e.index))
+        key = (operation, *(e.index for e in ordered), data)
+        found = self._nodes.get(key)
+        if found is None:
+            if len(self._nodes) >= 4 * MOST_STATEMENTS:
+                raise LimitExceeded([too_many(len(self._nodes))])
+            found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
+            self._nodes[key] = found
+        return found
+
+    def apply(self, operation: str, *arguments: Expression) -> Expression:
+        """Return the node of an operation, folded where all arguments are literals."""
+        if all(e.operation == "constant" for e in arguments):
+            return self.constant(lane_functions.FOLD[operation](*(e.value for e in arguments)))
+        return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
+
+
+def too_many(count: int) -> Problem:
+    """Say that a scene's equations are too long to compile."""
+    return Problem(
+        "/scene",
+        f"The equations of this scene take more than {min(count, 4 * MOST_STATEMENTS)} recorded"
+        f" statements; the limit is {MOST_STATEMENTS}. Use fewer bodies.",
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Expression:
+    """A node: an operation on other nodes. Arithmetic on it records more nodes."""
+
+    recorder: Recorder
+    index: int
+    operation: str
+    arguments: tuple[Expression, ...]
+    data: object
+    fixed: bool
+
+    @property
+    def value(self) -> float:
+        """The number of a literal."""
+        assert isinstance(self.data, float)  # noqa: S101  (literals only; narrows the type)
+        return self.data
+
+    def is_literal(self, value: float) -> bool:
+        """Whether this is the literal `value`."""
+        return self.operation == "constant" and self.data == value
+
+    def __add__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if self.is_literal(0.0):
+            return b
+        if b.is_literal(0.0):
+            return self
+        if b.operation == "neg":
+            return self - b.arguments[0]
+        if self.operation == "neg":
+            return b - self.arguments[0]
+        return self.recorder.apply("add", self, b)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Expression:
+        if self.operation == "neg":
+            return self.arguments[0]
+        if self.operation == "sub":
+            return self.recorder.apply("sub", self.arguments[1], self.arguments[0])
+        return self.recorder.apply("neg", self)
+
+    def __sub__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if b.is_literal(0.0):
+            return self
+        if self.is_literal(0.0):
+            return -b
+        if self is b:
+            return self.recorder.constant(0.0)
+        if b.operation == "neg":
+            return self + b.arguments[0]
+        return self.recorder.apply("sub", self, b)
+
+    def __rsub__(self, other: object) -> Expression:
+        return self.recorder.lift(other) - self
+
+    def __mul__(self, other: object) -> Expression:
+        a, b = self, self.recorder.lift(other)
+        if a.is_literal(0.0) or b.is_literal(0.0):
+            return self.recorder.constant(0.0)
+        for one, rest in ((a, b), (b, a)):
+            if one.is_literal(1.0):
+                return rest
+            if one.is_literal(-1.0):
+                return -rest
+            if one.operation == "neg":
+                return -(one.arguments[0] * rest)
+        return self.recorder.apply("mul", a, b)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if self.is_literal(0.0):
+            return self
+        if b.is_literal(1.0):
+            return self
+        if b.fixed and not self.fixed:
+            return self * (self.recorder.constant(1.0) / b)
+        return self.recorder.apply("div", self, b)
+
+    def __rtruediv__(self, other: object) -> Expression:
+        return self.recorder.lift(other) / self
+
+    def __abs__(self) -> Expression:
+        return self.recorder.apply("abs", self)
+
+    def sqrt(self) -> Expression:
+        """Square root."""
+        return self.recorder.apply("sqrt", self)
+
+    def floor(self) -> Expression:
+        """Largest whole number not above."""
+        return self.recorder.apply("floor", self)
+
+    def exponent_and_mantissa(self) -> tuple[Expression, Expression]:
+        """Return e and m with x = m 2^e and 1 <= m < 2, for x > 0."""
+        apply = self.recorder.apply
+        return apply("exponent_of", self), apply("mantissa_of", self)
+
+    def power_of_two(self) -> Expression:
+        """2^x for a whole number x, limited to the range of a float."""
+        return self.recorder.apply("power_of_two", self)
+
+    def select_positive(self, if_positive: object, otherwise: object) -> Expression:
+        """`if_positive` where x > 0, else `otherwise`."""
+        a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)
+        if a is b:
+            return a
+        if self.operation == "constant":
+            return a if self.value > 0.0 else b
+        return self.recorder.apply("select", self, a, b)
+
+    def sine_cosine(self) -> tuple[Expression, Expression]:
+        """Sine and cosine by our own lane functions; outside the kernel where x is fixed."""
+        if self.fixed:
+            return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
+        return lane_functions.sine_cosine(self)
+
+    def power(self, exponent: object) -> Expression:
+        """x ** exponent for x >= 0 by our own lane functions."""
+        lifted = self.recorder.lift(exponent)
+        if self.fixed and lifted.fixed:
+            return self.recorder.apply("pow", self, lifted)
+        return lane_functions.power(self, lifted)

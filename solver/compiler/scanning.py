@@ -1,0 +1,74 @@
+"""The scan for extremes: per channel and lane, did a local extreme just pass that may be a record?
+
+It looks at the values at step ends only to find candidates; the extremes themselves are then
+sought inside the steps on the dense output (`solver.peaks`).
+"""
+
+from __future__ import annotations
+
+from solver.compiler.emit import DECORATOR
+from solver.compiler.layout import LANES, Layout
+
+BLOCKS = ("channel", "previous", "change", "highest", "lowest", "candidate")
+
+CHAINS = 4
+"""Independent maxima in the reduction over rows: one would wait for its own latency."""
+
+MARGIN = 0.5
+"""How far an extreme inside the steps may lie beyond the step end, in the larger of the adjacent
+changes. A sine sampled every 1.5 rad, the limit of stability, needs 0.2."""
+
+
+def allocate(layout: Layout, rows: int) -> None:
+    """Give slots to `rows` channel values, their predecessors, changes and records."""
+    layout.add("peak")
+    for block in (*BLOCKS, "highest_time", "lowest_time"):
+        layout.add_block(block, rows)
+
+
+def source(layout: Layout, rows: int) -> str:
+    """Return the source of scan(W)."""
+    at = {name: layout[f"{name}0"] * LANES for name in BLOCKS}
+    accept, peak, mask = (layout[name] * LANES for name in ("accept", "peak", "mask0"))
+    lines = []
+    for row in range(rows):
+        slot = at["candidate"] + row * LANES
+        chain = f"found{row % CHAINS}"
+        if row < CHAINS:
+            lines.append(f"        {chain} = W[{slot} + l]")
+        else:
+            lines.append(f"        other = W[{slot} + l]")
+            lines.append(f"        {chain} = other if other > {chain} else {chain}")
+    for chain in range(1, min(CHAINS, rows)):
+        lines.append(f"        found0 = found{chain} if found{chain} > found0 else found0")
+    largest = "\n".join(lines)
+    return f"""{DECORATOR}
+def scan(W):
+    for i in range({rows * LANES}):
+        value = W[{at["channel"]} + i]
+        before = W[{at["previous"]} + i]
+        rose = W[{at["change"]} + i]
+        change = value - before
+        step = abs(rose) if abs(rose) > abs(change) else abs(change)
+        over = before + {MARGIN} * step - W[{at["highest"]} + i]
+        under = W[{at["lowest"]} + i] - before + {MARGIN} * step
+        top = over if rose > 0.0 else -1.0
+        top = -1.0 if change > 0.0 else top
+        bottom = under if rose < 0.0 else -1.0
+        bottom = -1.0 if change < 0.0 else bottom
+        W[{at["candidate"]} + i] = top if top > bottom else bottom
+    for l in range({LANES}):
+{largest}
+        W[{peak} + l] = found0 if W[{accept} + l] > 0.0 else -1.0
+
+
+{DECORATOR}
+def advance_scan(W):
+    for i in range({rows * LANES}):
+        value = W[{at["channel"]} + i]
+        before = W[{at["previous"]} + i]
+        taken = W[{mask} + i]
+        change = W[{at["change"]} + i]
+        W[{at["previous"]} + i] = value if taken > 0.0 else before
+        W[{at["change"]} + i] = value - before if taken > 0.0 else change
+"""

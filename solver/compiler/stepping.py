@@ -1,0 +1,264 @@
+"""Records one step of an embedded Runge-Kutta method: stages, error, control, commit, dense output.
+
+The functions work on the slots of one work array (`allocate` names them). They decide nothing
+that needs a branch: flags tell the driving loop (`solver.advance`) which lanes want attention.
+"""
+
+from __future__ import annotations
+
+import math
+
+from solver.compiler.emit import DECORATOR, lane_function
+from solver.compiler.lane_functions import exp2, log2
+from solver.compiler.layout import LANES, Layout
+from solver.compiler.recorder import Expression, Recorder
+from solver.integrators.tableau import Tableau
+from solver.mechanics.scalars import maximum, minimum, select_positive
+
+SAFETY = 0.9
+PROPORTIONAL = 0.04
+"""Weight of the previous error in the step controller (Hairer and Wanner 1996, IV.2)."""
+LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
+SMALLEST_ERROR = 1e-16
+"""Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
+
+REJECTED, DUE, ONSET, RELEASE = 1.0, 2.0, 4.0, 8.0
+"""What a lane's flag is the sum of."""
+
+
+def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
+    """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
+    layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
+    layout.add("active", "accept", "flag", "next_step", "memory", "new_memory")
+    layout.add("end", "next_due", "largest_step")
+    for prefix in ("", "before_"):  # two equal pieces, so that one can be copied to the other
+        layout.add_block(f"{prefix}y", states)
+        for s in range(1, stages + 1):
+            layout.add_block(f"{prefix}k{s}_", states)
+    for s in range(1, stages + 1):
+        layout.add_block(f"kledger{s}_", ledger)
+    layout.add_block("total", ledger)
+    layout.add_block("stage", states)
+    layout.add_block("slope", states)
+    layout.add_block("ledger", ledger)
+    layout.add_block("weight", states)
+    for j in range(joints):
+        layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
+    layout.add_block("mode", joints)
+    layout.add_block("impact_rate", joints)
+    for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total"):
+        layout.add_block(name, joints)
+    layout.add("before_time", "before_step")
+    layout.add_block("before_mode", joints)
+    layout.add_block("before_impact_rate", joints)
+
+
+class StepRecorder:
+    """Records the functions of one method for a number of states, ledger terms and joints."""
+
+    def __init__(
+        self, tableau: Tableau, states: int, ledger: int, joints: int, layout: Layout
+    ) -> None:
+        self.tableau = tableau
+        self.states, self.ledger, self.joints = states, ledger, joints
+        self.layout = layout
+        self.recorder = Recorder()
+
+    def variable(self, name: str) -> Expression:
+        """Return the expression of a slot."""
+        return self.recorder.variable(name)
+
+    def source(self) -> str:
+        """Return the source of attempt, commit, probe and probe_before."""
+        parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
+        parts += [self._judge(), self._attempt(), self._keep(), self._commit()]
+        parts += [self._probe("probe", ""), self._probe("probe_before", "before_")]
+        return "\n\n".join(parts)
+
+    def _function(self, name: str, outputs: list[tuple[str, Expression]]) -> str:
+        return lane_function(name, outputs, self.layout)
+
+    def _tried(self) -> Expression:
+        v = self.variable
+        remaining = v("end") - v("time")
+        limited = minimum(minimum(v("step"), v("largest_step")), remaining)
+        return select_positive(v("active"), limited, self.recorder.constant(0.0))
+
+    def _stage(self, s: int) -> str:
+        """Stage s of the step: y + h Σ a k, and keep the slope of the stage before."""
+        v = self.variable
+        weights = self.tableau.matrix[s - 1]
+        step = self._tried() if s == 2 else v("tried")
+        outputs: list[tuple[str, Expression]] = [("tried", step)] if s == 2 else []
+        slopes = [f"k{j}_" for j in range(1, s - 1)] + ["k1_" if s == 2 else "slope"]
+        for i in range(self.states):
+            total: Expression = self.recorder.constant(0.0)
+            for a, slope in zip(weights, slopes, strict=True):
+                total = total + a * v(f"{slope}{i}")
+            outputs.append((f"stage{i}", v(f"y{i}") + step * total))
+        node = self.tableau.nodes[s - 1]
+        moment = v("time") + node * step
+        outputs.append(("stage_time", moment))
+        if s == self.tableau.stages:
+            outputs.append(("arrival", moment))
+        if s > 2:
+            outputs += self._kept(s - 1)
+        return self._function(f"stage_{s}", outputs)
+
+    def _kept(self, s: int) -> list[tuple[str, Expression]]:
+        v = self.variable
+        kept = [(f"k{s}_{i}", v(f"slope{i}")) for i in range(self.states)]
+        kept += [(f"kledger{s}_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
+        return kept
+
+    def _judge(self) -> str:
+        """Error of the step, the next step size, and what needs attention."""
+        v, number = self.variable, self.recorder.constant
+        last = self.tableau.stages
+        squared: Expression = number(SMALLEST_ERROR)
+        for i in range(self.states):
+            slopes = [f"k{s}_{i}" for s in range(1, last)] + [f"slope{i}"]
+            error: Expression = number(0.0)
+            for weight, slope in zip(self.tableau.error, slopes, strict=True):
+                error = error + weight * v(slope)
+            scaled = v("tried") * error * v(f"weight{i}")
+            squared = squared + scaled * scaled
+        good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
+        magnitude = 0.5 * log2(squared)
+        exponent = 1.0 / self.tableau.error_order
+        smooth = exponent - 0.75 * PROPORTIONAL
+        accepted_growth = exp2(math.log2(SAFETY) - smooth * magnitude + PROPORTIONAL * v("memory"))
+        growth = select_positive(
+            good, accepted_growth, minimum(exp2(math.log2(SAFETY) - exponent * magnitude), 1.0)
+        )
+        growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
+        growth = minimum(growth, number(LARGEST_GROWTH))
+        due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
+        flag = REJECTED * (1.0 - good) + due
+        onset: Expression = number(0.0)
+        release: Expression = number(0.0)
+        for j in range(self.joints):
+            begins, ends = self._contact_flags(j)
+            onset, release = maximum(onset, begins), maximum(release, ends)
+        flag = flag + onset + release
+        outputs = [
+            ("accept", good * v("active")),
+            ("flag", select_positive(v("active"), flag, number(0.0))),
+            ("next_step", v("tried") * growth),
+            ("new_memory", magnitude),
+        ]
+        outputs += self._kept(last)
+        return self._function("judge", outputs)
+
+    def _contact_flags(self, j: int) -> tuple[Expression, Expression]:
+        """Apart: has the gap closed, or nearly, inside the step? In contact: has it opened?"""
+        v, number = self.variable, self.recorder.constant
+        gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
+        start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
+        step = v("tried")
+        # highest point of the cubic through both ends, at the zero of the linear rate
+        turn = start_rate / (start_rate - rate + 1e-300)
+        rest = 1.0 - turn
+        top = (
+            rest * rest * (1.0 + 2.0 * turn) * start
+            + turn * turn * (3.0 - 2.0 * turn) * gap
+            + turn * rest * step * (rest * start_rate - turn * rate)
+        )
+        ends = select_positive(gap - start, gap, start)
+        near = top + 0.1 * abs(top - ends)
+        touches = select_positive(near, number(ONSET), number(0.0))
+        grazing = select_positive(
+            start_rate, select_positive(-rate, touches, number(0.0)), number(0.0)
+        )
+        onset = select_positive(gap, number(ONSET), grazing)
+        opened = select_positive(-rate, number(RELEASE), number(0.0))
+        release = select_positive(gap, number(0.0), opened)
+        closed, nothing = v(f"mode{j}"), number(0.0)
+        return select_positive(closed, nothing, onset), select_positive(closed, release, nothing)
+
+    def _attempt(self) -> str:
+        calls = []
+        for s in range(2, self.tableau.stages + 1):
+            calls += [f"    stage_{s}(W)", "    right_hand_side(W)"]
+        return "\n".join([DECORATOR, "def attempt(W):", *calls, "    judge(W)", ""])
+
+    def _keep(self) -> str:
+        """Keep the dense output of the step that is being taken as the one before."""
+        source, target = self.layout["y0"] * LANES, self.layout["before_y0"] * LANES
+        mask = self.layout["mask0"] * LANES
+        return f"""{DECORATOR}
+def keep(W):
+    for i in range({target - source}):
+        new = W[{source} + i]
+        old = W[{target} + i]
+        W[{target} + i] = new if W[{mask} + i] > 0.0 else old
+"""
+
+    def _commit(self) -> str:
+        """Take the step in accepting lanes."""
+        v = self.variable
+        accept = v("accept")
+
+        def taken(new: Expression, old: str) -> tuple[str, Expression]:
+            return old, select_positive(accept, new, v(old))
+
+        outputs = [taken(v("arrival"), "time"), ("step", v("next_step"))]
+        outputs.append(taken(v("new_memory"), "memory"))
+        outputs += [taken(v("time"), "before_time"), taken(v("tried"), "before_step")]
+        for i in range(self.states):
+            outputs.append(taken(v(f"stage{i}"), f"y{i}"))
+            outputs.append(taken(v(f"slope{i}"), f"k1_{i}"))
+        for i in range(self.ledger):
+            total: Expression = self.recorder.constant(0.0)
+            for s, b in enumerate(self.tableau.matrix[-1], start=1):
+                total = total + b * v(f"kledger{s}_{i}")
+            outputs.append(taken(v(f"total{i}") + v("tried") * total, f"total{i}"))
+            outputs.append(taken(v(f"ledger{i}"), f"kledger1_{i}"))
+        for j in range(self.joints):
+            outputs.append(taken(v(f"gap{j}"), f"gap_start{j}"))
+            outputs.append(taken(v(f"gap_rate{j}"), f"gap_rate_start{j}"))
+            outputs.append(taken(v(f"mode{j}"), f"before_mode{j}"))
+            outputs.append(taken(v(f"impact_rate{j}"), f"before_impact_rate{j}"))
+        return self._function("commit", outputs)
+
+    def _probe(self, name: str, prefix: str) -> str:
+        """Dense output of one lane at eight instants: `theta` of S says where in the step."""
+        v = self.variable
+        theta = v("theta")
+        step = v(f"{prefix}step" if prefix else "tried")
+        weights: list[Expression] = []
+        for row in self.tableau.dense:
+            total: Expression = self.recorder.constant(0.0)
+            for coefficient in reversed(row):
+                total = (total + coefficient) * theta
+            weights.append(total)
+        outputs = [("stage_time", v(f"{prefix}time") + theta * step)]
+        for i in range(self.states):
+            slope: Expression = self.recorder.constant(0.0)
+            for s, weight in enumerate(weights, start=1):
+                slope = slope + weight * v(f"{prefix}k{s}_{i}")
+            outputs.append((f"stage{i}", v(f"{prefix}y{i}") + step * slope))
+        for j in range(self.joints):
+            outputs.append((f"mode{j}", v(f"{prefix}mode{j}") * 1.0))
+            outputs.append((f"impact_rate{j}", v(f"{prefix}impact_rate{j}") * 1.0))
+        return probe_function(name, outputs, self.layout)
+
+
+def probe_function(name: str, outputs: list[tuple[str, Expression]], layout: Layout) -> str:
+    """Return the source of (W, S, lane): read one lane of W (theta of S), write all lanes of S.
+
+    What W holds is loaded before the loop: inside it, the compiler could not know that the two
+    arrays do not overlap.
+    """
+    _, header, loop, *body = lane_function(name, outputs, layout).splitlines()
+    theta = f"W[{layout['theta'] * LANES} + l]"
+    loads, lines = [], []
+    for line in body:
+        target, _, value = line.strip().partition(" = ")
+        if value.startswith("W[") and value != theta:
+            loads.append(f"    {target} = {value.replace('+ l]', '+ lane]')}")
+        else:
+            lines.append("        " + f"{target} = {value}".replace("W[", "S["))
+    decorator = "@njit(void(float64[::1], float64[::1], int64), **options)"
+    header = header.replace("(W)", "(W, S, lane)")
+    return "\n".join([decorator, header, *loads, loop, *lines]) + "\n"

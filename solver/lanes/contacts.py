@@ -1,0 +1,114 @@
+"""Contacts of a lane: landing on an onset, latching the impact rate, the end of a contact."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slots
+from solver.jit import kernel
+from solver.lanes.onset import NO_ONSET, first_onset
+from solver.lanes.periods import stop
+from solver.lanes.state import Counter, Status
+
+LANDED = 1e-13
+"""Largest penetration, m, at which an onset counts as located."""
+MOST_LANDINGS = 12
+"""Attempts to land on one onset."""
+LANDED_AT_LAST = 1e-9
+"""Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
+
+
+@kernel()
+def land(
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    settings: np.ndarray,
+    counters: np.ndarray,
+    probe: object,
+    right_hand_side: object,
+) -> bool:
+    """Whether this step may be taken: it has no onset inside, or ends on one.
+
+    Otherwise the step is to be redone, shortened to the first onset inside it.
+    """
+    tried = work[slots.tried * LANES + l]
+    target = counters[Counter.LANDING, l]
+    onset = NO_ONSET
+    joint = -1
+    for j in range(slots.joints):
+        if work[(slots.mode + j) * LANES + l] > 0.0:
+            continue
+        gap = work[(slots.gap + 4 * j) * LANES + l]
+        if j == target and abs(gap) <= LANDED:
+            continue
+        found = first_onset(j, l, slots, work, spare, probe, right_hand_side)
+        if found < onset:
+            onset, joint = found, j
+    if target >= 0:
+        gap = work[(slots.gap + 4 * target) * LANES + l]
+        rate = work[(slots.gap + 4 * target + 1) * LANES + l]
+        last = counters[Counter.LANDINGS, l] >= MOST_LANDINGS
+        near = abs(gap) <= LANDED or (last and abs(gap) <= LANDED_AT_LAST)
+        if near and (joint < 0 or joint == target):
+            return True
+        if last:
+            stop(l, Status.ONSET_LOST, slots, work, counters)
+            return False
+        if gap < 0.0 and rate <= 0.0 and joint < 0:
+            counters[Counter.LANDING, l] = -1  # it only came near, and is on its way back
+            return True
+        if joint < 0 or joint == target:
+            # Newton on the landing itself: the redone step differs from the dense output
+            joint = target
+            onset = 1.0
+            if rate > 0.0:
+                onset = 1.0 - gap / (rate * tried)
+            onset = min(max(onset, 0.1), 2.0)
+    if joint < 0:
+        return True
+    counters[Counter.LANDING, l] = joint
+    counters[Counter.LANDINGS, l] += 1
+    work[slots.next_step * LANES + l] = onset * tried
+    return False
+
+
+@kernel()
+def begin_contact(j: int, now: float, l: int, slots: Slots, work: np.ndarray) -> None:
+    """Latch the impact rate of joint j, once per onset, and restart with a small step."""
+    rate = work[(slots.gap + 4 * j + 1) * LANES + l]
+    floored = max(rate, work[(slots.impact_floor + j) * LANES + l])
+    work[(slots.mode + j) * LANES + l] = 1.0
+    work[(slots.impact_rate + j) * LANES + l] = floored
+    work[(slots.onset_time + j) * LANES + l] = now
+    work[(slots.approach + j) * LANES + l] = rate
+    impulse = slots.total + slots.ledger - slots.joints + j
+    work[(slots.onset_total + j) * LANES + l] = work[impulse * LANES + l]
+    work[(slots.highest + slots.rows - slots.joints + j) * LANES + l] = 0.0
+    first = work[(slots.restart + j) * LANES + l] / floored
+    work[slots.step * LANES + l] = min(work[slots.step * LANES + l], first)
+
+
+@kernel()
+def end_contact(
+    j: int,
+    now: float,
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    counters: np.ndarray,
+    impact_rows: np.ndarray,
+) -> None:
+    """Write the contact of joint j that ends now (not a number: it lasts beyond the run)."""
+    row = impact_rows[l, counters[Counter.IMPACT_ROWS, l]]
+    impulse = slots.total + slots.ledger - slots.joints + j
+    row[0] = j
+    row[1] = work[(slots.onset_time + j) * LANES + l]
+    row[2] = now
+    row[3] = work[(slots.approach + j) * LANES + l]
+    highest = work[(slots.highest + slots.rows - slots.joints + j) * LANES + l]
+    row[4] = max(highest, work[(slots.channel + slots.rows - slots.joints + j) * LANES + l])
+    row[5] = work[impulse * LANES + l] - work[(slots.onset_total + j) * LANES + l]
+    counters[Counter.IMPACT_ROWS, l] += 1

@@ -1,0 +1,68 @@
+"""Channels of rows of dense state: forces and accelerations evaluated at the samples themselves."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import float64, int64, types, void
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slots
+from solver.jit import kernel
+
+LANE_FUNCTION = types.FunctionType(void(float64[::1]))
+SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
+
+
+@kernel(
+    void(
+        LANE_FUNCTION,
+        LANE_FUNCTION,
+        SLOTS,
+        float64[::1],
+        float64[::1],
+        int64,
+        float64[:, ::1],
+        int64[::1],
+        float64[:, ::1],
+    )
+)
+def observe_rows(
+    right_hand_side: object,
+    observe: object,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    l: int,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    out: np.ndarray,
+) -> None:
+    """Evaluate channels of lane l at rows of dense state, eight at a time.
+
+    rows : (count, width) as `solver.lanes.rows.write_row` wrote them. columns : (channels,) rows
+    of the channel block. out : (count, channels).
+    """
+    for s in range(slots.numbers, slots.size):
+        value = work[s * LANES + l]
+        for i in range(LANES):
+            spare[s * LANES + i] = value
+    for first in range(0, len(rows), LANES):
+        count = min(LANES, len(rows) - first)
+        for i in range(LANES):
+            row = rows[first + min(i, count - 1)]
+            spare[slots.stage_time * LANES + i] = row[1]
+            at = 2
+            for k in range(slots.drivers):
+                spare[(slots.phase + k) * LANES + i] = row[at + k]
+            at += slots.drivers
+            for k in range(slots.states):
+                spare[(slots.stage + k) * LANES + i] = row[at + k]
+            at += slots.states
+            for k in range(slots.joints):
+                spare[(slots.mode + k) * LANES + i] = row[at + 2 * k]
+                spare[(slots.impact_rate + k) * LANES + i] = row[at + 2 * k + 1]
+        right_hand_side(spare)
+        observe(spare)
+        for i in range(count):
+            for c in range(len(columns)):
+                out[first + i, c] = spare[(slots.channel + columns[c]) * LANES + i]

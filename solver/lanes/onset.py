@@ -1,0 +1,115 @@
+"""Finds where inside a step a gap closes, on the dense output."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slots
+from solver.jit import kernel
+
+NO_ONSET = math.inf
+NEWTON_STEPS = 4
+
+
+@kernel()
+def dense(
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    probe: object,
+    right_hand_side: object,
+) -> None:
+    """Evaluate lane l of `work` at the eight instants in `theta` of `spare`."""
+    for s in range(slots.numbers, slots.size):
+        value = work[s * LANES + l]
+        for i in range(LANES):
+            spare[s * LANES + i] = value
+    probe(work, spare, l)
+    right_hand_side(spare)
+
+
+@kernel()
+def first_onset(
+    j: int,
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    probe: object,
+    right_hand_side: object,
+) -> float:
+    """Return the share of the step after which joint j's gap first closes; infinite: it does not.
+
+    The gap is looked at in eight places; where its rate turns between two of them without the gap
+    closing, the turning point is looked at more closely (a grazing contact).
+    """
+    low, high = 0.0, 1.0
+    gap_slot, rate_slot = slots.gap + 4 * j, slots.gap + 4 * j + 1
+    for level in range(4):
+        for i in range(LANES):
+            spare[slots.theta * LANES + i] = low + (high - low) * (i + 1) / LANES
+        dense(l, slots, work, spare, probe, right_hand_side)
+        before_rate = work[(gap_slot + 3) * LANES + l] if level == 0 else 1.0
+        turning = -1
+        for i in range(LANES):
+            gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
+            if gap > 0.0:
+                left = low + (high - low) * i / LANES
+                right = low + (high - low) * (i + 1) / LANES
+                return polish(
+                    j, left, right, l, slots, work, spare, probe, right_hand_side
+                )  # fmt: skip
+            if before_rate > 0.0 and rate < 0.0:
+                turning = i
+            before_rate = rate
+        if turning < 0:
+            return NO_ONSET
+        width = (high - low) / LANES
+        low = low + width * turning
+        high = low + width
+    return NO_ONSET
+
+
+@kernel()
+def polish(
+    j: int,
+    left: float,
+    right: float,
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    probe: object,
+    right_hand_side: object,
+) -> float:
+    """Return the root of joint j's gap in a bracket: sectioning, then Newton inside the bracket."""
+    gap_slot, rate_slot = slots.gap + 4 * j, slots.gap + 4 * j + 1
+    tried = work[slots.tried * LANES + l]
+    root = right
+    for step in range(NEWTON_STEPS):
+        for i in range(LANES):
+            spare[slots.theta * LANES + i] = left + (right - left) * (i + 1) / LANES
+        if step > 0:
+            spare[slots.theta * LANES + 0] = root
+        dense(l, slots, work, spare, probe, right_hand_side)
+        if step > 0:
+            gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
+            better = root - gap / (rate * tried) if rate > 0.0 else root
+            if left <= better <= right:
+                root = better
+            continue
+        for i in range(LANES):
+            if spare[gap_slot * LANES + i] > 0.0:
+                right = spare[slots.theta * LANES + i]
+                left = (
+                    right - (right - left) / LANES if i == 0 else spare[slots.theta * LANES + i - 1]
+                )
+                gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
+                root = right - gap / (rate * tried) if rate > 0.0 else right
+                root = min(max(root, left), right)
+                break
+    return root

@@ -1,0 +1,87 @@
+"""Periods, what is due next, and the end of a lane."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slots
+from solver.jit import kernel
+from solver.lanes.clock import product_difference
+from solver.lanes.state import Counter, Setting
+
+SAMPLES, SECTIONS = 0, 1
+"""Kinds of rows that fall due at fixed times."""
+
+
+@kernel()
+def due_time(
+    kind: int,
+    index: int,
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    settings: np.ndarray,
+    counters: np.ndarray,
+) -> float:
+    """Local time of a sample (kind 0) or section (kind 1); infinite past the last one."""
+    period = settings[Setting.PERIOD, l]
+    whole = float(counters[Counter.PERIOD, l])
+    if kind == 0:
+        last = counters[Counter.SAMPLES, l] - 1
+        if index > last:
+            return math.inf
+        if index == last:
+            return work[slots.end * LANES + l]
+        return product_difference(float(index), settings[Setting.OUTPUT_STEP, l], whole, period)
+    if index >= counters[Counter.SECTIONS, l]:
+        return math.inf
+    return (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, l]
+
+
+@kernel()
+def plan(
+    l: int, slots: Slots, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+) -> None:
+    """Set the next local time at which a lane wants attention."""
+    sample = due_time(0, counters[Counter.SAMPLE, l], l, slots, work, settings, counters)
+    section = due_time(1, counters[Counter.SECTION, l], l, slots, work, settings, counters)
+    soonest = min(sample, section)
+    soonest = min(soonest, settings[Setting.PERIOD, l])
+    work[slots.next_due * LANES + l] = min(soonest, work[slots.end * LANES + l])
+
+
+@kernel()
+def turn_over(
+    l: int, slots: Slots, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+) -> None:
+    """Begin a new period: local time goes back, and phases on where periods are not common."""
+    period = settings[Setting.PERIOD, l]
+    counters[Counter.PERIOD, l] += 1
+    whole = float(counters[Counter.PERIOD, l])
+    work[slots.time * LANES + l] -= period
+    work[slots.before_time * LANES + l] -= period
+    work[slots.end * LANES + l] = product_difference(
+        settings[Setting.DURATION, l], 1.0, whole, period
+    )
+    if settings[Setting.COMMON, l] > 0.0:
+        return
+    for k in range(slots.drivers):
+        start = settings[Setting.FIRST_DRIVER + 2 * k, l]
+        turns = settings[Setting.FIRST_DRIVER + 2 * k + 1, l]  # per period; sliders: metres
+        if settings[Setting.TURNING, l] > 0.0:
+            moved = whole * turns
+            moved = 2.0 * math.pi * (moved - math.floor(moved))
+        else:
+            moved = whole * turns
+        work[(slots.phase + k) * LANES + l] = start + moved
+
+
+@kernel()
+def stop(l: int, status: int, slots: Slots, work: np.ndarray, counters: np.ndarray) -> None:
+    """Take a lane out of the running."""
+    counters[Counter.STATUS, l] = status
+    work[slots.active * LANES + l] = 0.0
+    work[slots.accept * LANES + l] = 0.0

@@ -1,0 +1,84 @@
+"""Rows of dense state: what samples and sections are made of."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slots
+from solver.jit import kernel
+from solver.lanes.periods import due_time
+from solver.lanes.state import Counter
+
+
+@kernel()
+def write_row(
+    row: np.ndarray,
+    i: int,
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    counters: np.ndarray,
+) -> None:
+    """Write the dense state in lane i of `spare`: period, time, phases, state, modes, rates."""
+    row[0] = counters[Counter.PERIOD, l]
+    row[1] = spare[slots.stage_time * LANES + i]
+    at = 2
+    for k in range(slots.drivers):
+        row[at + k] = work[(slots.phase + k) * LANES + l]
+    at += slots.drivers
+    for k in range(slots.states):
+        row[at + k] = spare[(slots.stage + k) * LANES + i]
+    at += slots.states
+    for k in range(slots.joints):
+        row[at + 2 * k] = spare[(slots.mode + k) * LANES + i]
+        row[at + 2 * k + 1] = spare[(slots.impact_rate + k) * LANES + i]
+
+
+@kernel()
+def emit(
+    l: int,
+    slots: Slots,
+    work: np.ndarray,
+    spare: np.ndarray,
+    settings: np.ndarray,
+    counters: np.ndarray,
+    sample_rows: np.ndarray,
+    section_rows: np.ndarray,
+    probe: object,
+) -> bool:
+    """Write the samples and sections inside this step; whether a buffer was too full for them.
+
+    A full buffer postpones the step: the same attempt is made again once there is room.
+    """
+    arrival = work[slots.arrival * LANES + l]
+    for kind in range(2):
+        rows = sample_rows if kind == 0 else section_rows
+        next_index = Counter.SAMPLE if kind == 0 else Counter.SECTION
+        filled = Counter.SAMPLE_ROWS if kind == 0 else Counter.SECTION_ROWS
+        while True:
+            count = 0
+            while count < LANES:
+                moment = due_time(kind, counters[next_index, l] + count, l, slots, work,
+                                  settings, counters)  # fmt: skip
+                if moment > arrival:
+                    break
+                start, tried = work[slots.time * LANES + l], work[slots.tried * LANES + l]
+                theta = (moment - start) / tried if tried > 0.0 else 0.0
+                spare[slots.theta * LANES + count] = min(max(theta, 0.0), 1.0)
+                count += 1
+            if count == 0:
+                break
+            if counters[filled, l] + count > rows.shape[1]:
+                work[slots.accept * LANES + l] = 0.0
+                work[slots.next_step * LANES + l] = work[slots.step * LANES + l]
+                return True
+            probe(work, spare, l)
+            for i in range(count):
+                write_row(rows[l, counters[filled, l]], i, l, slots, work, spare, counters)
+                counters[filled, l] += 1
+            counters[next_index, l] += count
+            if count < LANES:
+                break
+    return False

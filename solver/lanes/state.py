@@ -1,0 +1,54 @@
+"""What the driving loop keeps for each lane beside the work array."""
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """How a lane stands."""
+
+    RUNNING = 0
+    DONE = 1
+    UNDERFLOW = 2
+    STEP_LIMIT = 3
+    ONSET_LOST = 4
+    IDLE = 5
+
+
+class Counter(IntEnum):
+    """Rows of the whole-number array (kinds, LANES)."""
+
+    STATUS = 0
+    PERIOD = 1
+    SAMPLE = 2
+    SAMPLES = 3
+    SECTION = 4
+    SECTIONS = 5
+    STEPS = 6
+    MOST_STEPS = 7
+    REJECTIONS = 8
+    ONSETS = 9
+    LANDING = 10
+    LANDINGS = 11
+    SAMPLE_ROWS = 12
+    SECTION_ROWS = 13
+    IMPACT_ROWS = 14
+    COUNT = 15
+
+
+class Setting(IntEnum):
+    """Rows of the float array (kinds, LANES); from FIRST_DRIVER two rows a driver."""
+
+    PERIOD = 0
+    COMMON = 1
+    TURNING = 2
+    DURATION = 3
+    OUTPUT_STEP = 4
+    SECTION_OFFSET = 5
+    SMALLEST_STEP = 6
+    SMALLEST_SEEN = 7
+    FIRST_DRIVER = 8
+
+
+def row_width(drivers: int, states: int, joints: int) -> int:
+    """Width of a sample or section row: period, time, phases, state, then mode and impact rate."""
+    return 2 + drivers + states + 2 * joints

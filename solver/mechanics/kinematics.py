@@ -1,0 +1,162 @@
+"""Kinematics over the spanning tree: each body's motion as a function of the coordinates.
+
+Every body has a reference point, where its tree joint holds it. Partial velocities (Kane) follow
+from the same walk: the velocity of a point is Σ partial_i u_i over the speeds u of the
+coordinates and of the drivers, its acceleration Σ partial_i u̇_i + bias.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from solver.mechanics.absolute import unit
+from solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair
+from solver.mechanics.scalars import Scalar, sine_cosine
+from solver.mechanics.tree import Branch, Tree
+
+
+@dataclass
+class Carried:
+    """A body's frame, seen from the tree: angles in rad, lengths in m, SI rates."""
+
+    body: str
+    angle: Scalar
+    spin: Scalar
+    spin_partials: dict[str, Scalar]
+    origin: FrameVector
+    """Reference point, from the world's origin."""
+    velocity: FrameVector
+    bias: FrameVector
+    """Acceleration of the reference point with all coordinate accelerations zero."""
+    partials: dict[str, FrameVector]
+    hub: Pair
+    """The reference point in body coordinates (origin at the centre of mass)."""
+
+
+class Kinematics:
+    """All bodies of a scene in motion."""
+
+    def __init__(
+        self,
+        tree: Tree,
+        numbers: SimpleNamespace,
+        position: Mapping[str, Scalar],
+        speed: Mapping[str, Scalar],
+        driven: Mapping[str, Scalar],
+    ) -> None:
+        """Walk the tree.
+
+        `position` and `speed` by coordinate name; `driven` the position of each driver. Speeds of
+        drivers are the scene's numbers.
+        """
+        self.tree = tree
+        self.numbers = numbers
+        self.orientations = Orientations()
+        self.position = position
+        self.driven = driven
+        self.speed: dict[str, Scalar] = dict(speed)
+        for name, driver in numbers.drivers.items():
+            self.speed[name] = driver.speed
+        zero = FrameVector(self.orientations)
+        ground = Carried(WORLD, 0.0, 0.0, {}, zero, zero, zero, {}, (0.0, 0.0))
+        self.carried: dict[str, Carried] = {WORLD: ground}
+        for branch in tree.branches:
+            self.carried[branch.body] = self._carry(branch)
+
+    def arm(self, body: str, point: str) -> FrameVector:
+        """Return the vector from a body's reference point to a named point."""
+        return self._arm(body, self._coordinates(body, point))
+
+    def centre(self, body: str) -> FrameVector:
+        """Return the vector from a body's reference point to its centre of mass."""
+        return self._arm(body, (0.0, 0.0))
+
+    def point_motion(
+        self, body: str, arm: FrameVector
+    ) -> tuple[FrameVector, FrameVector, dict[str, FrameVector]]:
+        """Return position, velocity and partial velocities of a point of a body."""
+        frame = self.carried[body]
+        partials = dict(frame.partials)
+        for name, rate in frame.spin_partials.items():
+            swept = arm.turned().scaled(rate)
+            partials[name] = partials[name] + swept if name in partials else swept
+        velocity = frame.velocity + arm.turned().scaled(frame.spin)
+        return frame.origin + arm, velocity, partials
+
+    def point_bias(self, body: str, arm: FrameVector) -> FrameVector:
+        """Return a point's acceleration with all coordinate accelerations zero."""
+        frame = self.carried[body]
+        return frame.bias + arm.scaled(-(frame.spin * frame.spin))
+
+    def _coordinates(self, body: str, point: str) -> Pair:
+        owner = self.numbers.ground if body == WORLD else self.numbers.bodies[body]
+        x, y = owner.points[point]
+        return x, y
+
+    def _arm(self, body: str, target: Pair) -> FrameVector:
+        hub = self.carried[body].hub
+        return FrameVector(self.orientations, {body: (target[0] - hub[0], target[1] - hub[1])})
+
+    def _carry(self, branch: Branch) -> Carried:
+        if branch.kind == "free":
+            return self._float(branch)
+        parent = self.carried[branch.parent]
+        hub = self._coordinates(branch.body, branch.body_point)
+        arm = self.arm(branch.parent, branch.parent_point)
+        origin, velocity, partials = self.point_motion(branch.parent, arm)
+        bias = self.point_bias(branch.parent, arm)
+        angle, spin, spin_partials = parent.angle, parent.spin, dict(parent.spin_partials)
+        sense = 1.0 if branch.outward else -1.0
+        joint = self.numbers.joints[branch.joint]
+        if branch.kind == "revolute":
+            if branch.driver is not None:
+                angle = angle + sense * self.driven[branch.driver]
+                spin = spin + sense * self.speed[branch.driver]
+                spin_partials[branch.driver] = sense
+            else:
+                name = branch.coordinates[0]
+                angle, spin = self.position[name], self.speed[name]
+                spin_partials = {name: 1.0}
+        else:
+            angle = angle + sense * joint.angle
+        self._orient(branch.body, angle)
+        if branch.kind == "prismatic":
+            name = branch.driver or branch.coordinates[0]
+            travel = self.driven[name] if branch.driver else self.position[name]
+            guide = branch.parent if branch.outward else branch.body
+            axis = FrameVector(self.orientations, {guide: unit(joint.axis)})
+            moved = axis.scaled(sense * travel)
+            rate = axis.scaled(sense * self.speed[name])
+            origin = origin + moved
+            velocity = velocity + rate + moved.turned().scaled(spin)
+            bias = bias + moved.scaled(-(spin * spin)) + rate.turned().scaled(2.0 * spin)
+            for key, share in spin_partials.items():
+                swept = moved.turned().scaled(share)
+                partials[key] = partials[key] + swept if key in partials else swept
+            partials[name] = axis.scaled(sense)
+        return Carried(
+            branch.body, angle, spin, spin_partials, origin, velocity, bias, partials, hub
+        )
+
+    def _float(self, branch: Branch) -> Carried:
+        x, y, theta = branch.coordinates
+        self._orient(branch.body, self.position[theta])
+        along = FrameVector(self.orientations, {WORLD: (1.0, 0.0)})
+        across = FrameVector(self.orientations, {WORLD: (0.0, 1.0)})
+        return Carried(
+            branch.body,
+            self.position[theta],
+            self.speed[theta],
+            {theta: 1.0},
+            along.scaled(self.position[x]) + across.scaled(self.position[y]),
+            along.scaled(self.speed[x]) + across.scaled(self.speed[y]),
+            FrameVector(self.orientations),
+            {x: along, y: across},
+            (0.0, 0.0),
+        )
+
+    def _orient(self, body: str, angle: Scalar) -> None:
+        sine, cosine = sine_cosine(angle)
+        self.orientations.cosine_sine[body] = (cosine, sine)

@@ -1,0 +1,75 @@
+"""From a mechanism in motion to the values of its channels and the terms of its energy ledger."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from solver.mechanics.motion import Motion
+from solver.mechanics.scalars import Scalar
+
+
+def channel_values(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
+    """Return the value of every channel by name; see `solver.channels` for units and meaning."""
+    values: dict[str, Scalar] = {}
+    for name, body in motion.bodies.items():
+        values[f"{name}.x"], values[f"{name}.y"] = body.position
+        values[f"{name}.theta"] = body.angle
+        values[f"{name}.vx"], values[f"{name}.vy"] = body.velocity
+        values[f"{name}.omega"] = body.spin
+        values[f"{name}.ax"], values[f"{name}.ay"] = body.acceleration
+        values[f"{name}.alpha"] = body.angular_acceleration
+    for name, (x, y) in motion.joint_force.items():
+        values[f"{name}.force_x"], values[f"{name}.force_y"] = x, y
+    for name, found in motion.contacts.items():
+        values[f"{name}.eccentricity_x"], values[f"{name}.eccentricity_y"] = found.eccentricity
+        rate_x, rate_y = found.eccentricity_rate
+        values[f"{name}.eccentricity_rate_x"] = rate_x
+        values[f"{name}.eccentricity_rate_y"] = rate_y
+        values[f"{name}.penetration"] = found.penetration
+        values[f"{name}.normal_force"] = found.normal_force
+        values[f"{name}.friction_force"] = found.friction_force
+        values[f"{name}.slip_velocity"] = found.slip_velocity
+    for name, effort in motion.driver_effort.items():
+        values[f"{name}.torque"] = effort
+        values[f"{name}.power"] = effort * motion.driver_speed[name]
+    values["energy.kinetic"], values["energy.potential"] = energies(numbers, motion)
+    for output in numbers.outputs:
+        values[output.name] = output.factor * values[output.channel] + output.offset
+    return values
+
+
+def energies(numbers: SimpleNamespace, motion: Motion) -> tuple[Scalar, Scalar]:
+    """Return kinetic energy and the potential energy of gravity (zero at the origin), J."""
+    gx, gy = numbers.gravity
+    kinetic: Scalar = 0.0
+    potential: Scalar = 0.0
+    for name, body in motion.bodies.items():
+        mass, inertia = numbers.bodies[name].mass, numbers.bodies[name].inertia
+        (x, y), (vx, vy), spin = body.position, body.velocity, body.spin
+        kinetic = kinetic + 0.5 * (mass * (vx * vx + vy * vy) + inertia * (spin * spin))
+        potential = potential - mass * (gx * x + gy * y)
+    return kinetic, potential
+
+
+def ledger_rates(motion: Motion) -> dict[str, Scalar]:
+    """Return the powers whose integrals make the energy ledger, W, and the contact forces, N.
+
+    ``driver``: work put in by drivers; ``contact``, ``friction``: power lost there;
+    ``impulse:<joint>``: normal force, whose integral over a contact is its impulse.
+    """
+    rates: dict[str, Scalar] = {"driver": 0.0, "contact": 0.0, "friction": 0.0}
+    for name, effort in motion.driver_effort.items():
+        rates["driver"] = rates["driver"] + effort * motion.driver_speed[name]
+    for name, found in motion.contacts.items():
+        rates["contact"] = rates["contact"] + found.contact_loss
+        rates["friction"] = rates["friction"] + found.friction_loss
+        rates[f"impulse:{name}"] = found.normal_force
+    return rates
+
+
+def stored_energy(motion: Motion) -> Scalar:
+    """Return the elastic energy stored in all contacts, J."""
+    total: Scalar = 0.0
+    for found in motion.contacts.values():
+        total = total + found.elastic_energy
+    return total

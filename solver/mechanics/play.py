@@ -1,0 +1,139 @@
+"""Journal and bearing: eccentricity, penetration, slip and the forces between them (eqs 1-17).
+
+Signs: the normal n points from the bearing's centre to the journal's, the tangent is
+t = (-n_y, n_x); penetration is positive in contact, its rate positive while approaching. The
+contact forces act at r_i + R_i n on the bearing and r_j + R_j n on the journal. These two points
+are a penetration apart, so a free pair carries the small moment F_t δ; with it the work of the
+forces is exactly that of the slip and of the penetration, and the energy ledger closes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from solver.contact import LAWS as CONTACT_LAWS
+from solver.friction import LAWS as FRICTION_LAWS
+from solver.mechanics.frames import Pair
+from solver.mechanics.scalars import Scalar, select_positive, sqrt
+
+CENTRED = 1e-300
+"""Added to the eccentricity (m), so that a centred journal divides by no zero: its normal is 0."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """What a joint with play does at one instant; SI units, world components."""
+
+    eccentricity: Pair
+    eccentricity_rate: Pair
+    penetration: Scalar
+    """e - c (eq. 3): negative apart, m."""
+    penetration_rate: Scalar
+    normal: Pair
+    normal_force: Scalar
+    elastic_force: Scalar
+    elastic_energy: Scalar
+    friction_force: Scalar
+    """F_t, on the journal along t, N."""
+    slip_velocity: Scalar
+    """Of the material of the journal against the bearing's, m/s."""
+    force_on_journal: Pair
+    moment_on_journal: Scalar
+    """About the journal's centre, N m."""
+    moment_on_bearing: Scalar
+    """About the bearing's centre, N m."""
+
+    @property
+    def contact_loss(self) -> Scalar:
+        """Power lost to the contact's damping, W."""
+        return (self.normal_force - self.elastic_force) * self.penetration_rate
+
+    @property
+    def friction_loss(self) -> Scalar:
+        """Power lost to friction, W."""
+        return -(self.friction_force * self.slip_velocity)
+
+
+def contact(
+    clearance: SimpleNamespace,
+    eccentricity: Pair,
+    rate: Pair,
+    spins: tuple[Scalar, Scalar],
+    mode: Scalar,
+    impact_rate: Scalar,
+) -> Contact:
+    """Evaluate a joint with play.
+
+    Parameters
+    ----------
+    clearance
+        The joint's numbers: radial clearance, bearing radius, laws.
+    eccentricity, rate
+        Journal centre less bearing centre, m, and its rate, m/s.
+    spins
+        Angular velocities of bearing and journal, rad/s.
+    mode
+        1 in contact, 0 apart; apart there is no force whatever the penetration.
+    impact_rate
+        Penetration rate latched at the onset of this contact, m/s.
+    """
+    ex, ey = eccentricity
+    vx, vy = rate
+    distance = sqrt(ex * ex + ey * ey) + CENTRED
+    inverse = 1.0 / distance
+    nx, ny = ex * inverse, ey * inverse  # eq. (2)
+    penetration = distance - clearance.radial_clearance  # eq. (3)
+    penetration_rate = vx * nx + vy * ny
+    bearing_radius = clearance.bearing_radius
+    journal_radius = bearing_radius - clearance.radial_clearance
+    orbiting = nx * vy - ny * vx
+    spinning = journal_radius * spins[1] - bearing_radius * spins[0]
+    slip = orbiting + spinning
+
+    law = CONTACT_LAWS[clearance.contact.law]
+    stiffness = law.contact_stiffness(clearance.contact, bearing_radius, clearance.radial_clearance)
+    depth = select_positive(mode, penetration, 0.0)
+    normal_force, elastic = law.normal_force(
+        clearance.contact, stiffness, depth, penetration_rate, impact_rate
+    )
+    stored = law.elastic_energy(clearance.contact, elastic, depth)
+    friction = _friction(clearance, normal_force, slip, orbiting, inverse)
+    # eqs (13)-(17), on the journal: -(F_n n) + F_t t
+    fx = -(normal_force * nx) - friction * ny
+    fy = friction * nx - normal_force * ny
+    return Contact(
+        eccentricity,
+        rate,
+        penetration,
+        penetration_rate,
+        (nx, ny),
+        normal_force,
+        elastic,
+        stored,
+        friction,
+        slip,
+        (fx, fy),
+        journal_radius * friction,
+        -(bearing_radius * friction),
+    )
+
+
+def _friction(
+    clearance: SimpleNamespace,
+    normal_force: Scalar,
+    slip: Scalar,
+    orbiting: Scalar,
+    inverse_distance: Scalar,
+) -> Scalar:
+    friction = clearance.friction
+    if friction is None or (
+        isinstance(friction.coefficient, float) and friction.coefficient == 0.0
+    ):
+        return 0.0
+    if friction.slip_velocity == "as-published":
+        # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
+        # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
+        slip = orbiting - clearance.radial_clearance * orbiting * inverse_distance
+    force: Scalar = FRICTION_LAWS[friction.law].friction_force(friction, normal_force, slip)
+    return force

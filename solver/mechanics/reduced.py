@@ -1,0 +1,246 @@
+"""Equations of motion in joint coordinates over the spanning tree (Kane's form).
+
+Only what the scene requires: a driven crank on the ground is a known function of time, an ideal
+joint removes coordinates, a joint with play is a force. With partial velocities J,
+Σ_b (m J·J + I Jω Jω) q̈ = Σ_b J·(m (g - bias) + F) + Jω T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import SimpleNamespace
+
+from solver.mechanics.elimination import solve_symmetric
+from solver.mechanics.frames import WORLD, FrameVector, Pair, cross
+from solver.mechanics.kinematics import Kinematics
+from solver.mechanics.motion import BodyMotion, Motion
+from solver.mechanics.play import Contact, contact
+from solver.mechanics.scalars import Scalar
+from solver.mechanics.tree import Tree
+
+
+class ReducedMechanism:
+    """A scene at one instant: kinematics, contacts, accelerations, reactions."""
+
+    def __init__(
+        self,
+        tree: Tree,
+        numbers: SimpleNamespace,
+        position: Mapping[str, Scalar],
+        speed: Mapping[str, Scalar],
+        driven: Mapping[str, Scalar],
+    ) -> None:
+        self.tree = tree
+        self.numbers = numbers
+        self.kinematics = Kinematics(tree, numbers, position, speed, driven)
+
+    def motion(
+        self,
+        modes: Mapping[str, Scalar],
+        impact_rates: Mapping[str, Scalar],
+        known: list[Scalar] | None = None,
+    ) -> Motion:
+        """Return accelerations and all forces; modes and impact rates (m/s) by joint with play.
+
+        `known` accelerations of the coordinates, where they were computed before.
+        """
+        contacts = {
+            name: self._contact(name, modes[name], impact_rates[name]) for name in self.tree.play
+        }
+        loads = _Loads(self.kinematics, contacts)
+        accelerations = self._accelerations(loads) if known is None else known
+        bodies = self._bodies(accelerations)
+        joint_force, moments = self._reactions(loads, bodies)
+        for name, found in contacts.items():
+            joint_force[name] = found.force_on_journal
+        efforts = self._efforts(joint_force, moments)
+        speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
+        return Motion(accelerations, bodies, contacts, joint_force, efforts, speeds)
+
+    def _contact(self, name: str, mode: Scalar, impact_rate: Scalar) -> Contact:
+        joint = self.numbers.joints[name]
+        k = self.kinematics
+        (bearing, p), (journal, q) = joint.bearing.split("."), joint.journal.split(".")
+        here, here_rate, _ = k.point_motion(bearing, k.arm(bearing, p))
+        there, there_rate, _ = k.point_motion(journal, k.arm(journal, q))
+        gap = (there + here.scaled(-1.0)).world()
+        rate = (there_rate + here_rate.scaled(-1.0)).world()
+        spins = (k.carried[bearing].spin, k.carried[journal].spin)
+        return contact(joint.clearance, gap, rate, spins, mode, impact_rate)
+
+    def _accelerations(self, loads: _Loads) -> list[Scalar]:
+        """Solve M q̈ = Q; M from partial velocities, Q by one pass from the leaves inwards."""
+        k = self.kinematics
+        names = self.tree.coordinates
+        index = {name: i for i, name in enumerate(names)}
+        mass_matrix: dict[tuple[int, int], Scalar] = {}
+        for branch in self.tree.branches:
+            body = self.numbers.bodies[branch.body]
+            frame = k.carried[branch.body]
+            _, _, partials = k.point_motion(branch.body, k.centre(branch.body))
+            moving = [name for name in names if name in partials or name in frame.spin_partials]
+            for a, first in enumerate(moving):
+                for second in moving[: a + 1]:
+                    entry: Scalar = 0.0
+                    if first in partials and second in partials:
+                        entry = body.mass * partials[first].dot(partials[second])
+                    if first in frame.spin_partials and second in frame.spin_partials:
+                        share = frame.spin_partials[first] * frame.spin_partials[second]
+                        entry = entry + body.inertia * share
+                    key = (index[first], index[second])
+                    mass_matrix[key] = mass_matrix.get(key, 0.0) + entry
+        gx, gy = self.numbers.gravity
+        inertial = {}
+        for branch in self.tree.branches:
+            mass = self.numbers.bodies[branch.body].mass
+            bx, by = k.point_bias(branch.body, k.centre(branch.body)).world()
+            inertial[branch.body] = (mass * (gx - bx), mass * (gy - by), 0.0)
+        generalised = self._project(loads, inertial)
+        right = [generalised.get(name, 0.0) for name in names]
+        return solve_symmetric(mass_matrix, right)
+
+    def _project(
+        self, loads: _Loads, extra: Mapping[str, tuple[Scalar, Scalar, Scalar]]
+    ) -> dict[str, Scalar]:
+        """Return generalised forces of all loads: subtree sums from the leaves to the ground."""
+        sums, moments = self._subtree(loads, extra)
+        generalised: dict[str, Scalar] = {}
+        k = self.kinematics
+        for branch in self.tree.branches:
+            total, moment = sums[branch.body], moments[branch.body]
+            if branch.kind == "revolute" and branch.coordinates:
+                generalised[branch.coordinates[0]] = moment
+            elif branch.kind == "prismatic" and branch.coordinates:
+                name = branch.coordinates[0]
+                ux, uy = k.carried[branch.body].partials[name].world()
+                generalised[name] = ux * total[0] + uy * total[1]
+            elif branch.kind == "free":
+                x, y, theta = branch.coordinates
+                generalised[x], generalised[y], generalised[theta] = total[0], total[1], moment
+        return generalised
+
+    def _subtree(
+        self, loads: _Loads, extra: Mapping[str, tuple[Scalar, Scalar, Scalar]]
+    ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
+        """Sum forces outboard of each tree joint, and the moments that it does not let turn.
+
+        The moment is about the body's reference point. Across a free revolute joint the outboard
+        bodies do not turn along, so only their force is handed on.
+        """
+        k = self.kinematics
+        sums: dict[str, Pair] = {}
+        moments: dict[str, Scalar] = {}
+        for branch in self.tree.branches:
+            fx, fy, moment = loads.about_reference(branch.body)
+            ex, ey, turning = extra[branch.body]
+            centre = k.centre(branch.body).world()
+            sums[branch.body] = (fx + ex, fy + ey)
+            moments[branch.body] = moment + turning + cross(centre, (ex, ey))
+        for branch in reversed(self.tree.branches):
+            if branch.parent == WORLD:
+                continue
+            total = sums[branch.body]
+            own = sums[branch.parent]
+            sums[branch.parent] = (own[0] + total[0], own[1] + total[1])
+            arm = k.arm(branch.parent, branch.parent_point)
+            handed = cross(arm.world(), total)
+            if branch.kind != "revolute" or branch.driver is not None:
+                handed = handed + moments[branch.body]
+                if branch.kind == "prismatic":
+                    handed = handed + cross(self._travel(branch.body, arm), total)
+            moments[branch.parent] = moments[branch.parent] + handed
+        return sums, moments
+
+    def _travel(self, body: str, arm: FrameVector) -> Pair:
+        """Return the vector from a prismatic joint's point on the parent to that on the body."""
+        branch = self.tree.branch(body)
+        parent = self.kinematics.carried[branch.parent].origin + arm
+        return (self.kinematics.carried[body].origin + parent.scaled(-1.0)).world()
+
+    def _bodies(self, accelerations: list[Scalar]) -> dict[str, BodyMotion]:
+        k = self.kinematics
+        rates = dict(zip(self.tree.coordinates, accelerations, strict=True))
+        bodies = {}
+        for branch in self.tree.branches:
+            frame, centre = k.carried[branch.body], k.centre(branch.body)
+            position, velocity, partials = k.point_motion(branch.body, centre)
+            ax, ay = k.point_bias(branch.body, centre).world()
+            for name, partial in partials.items():
+                if name in rates:
+                    px, py = partial.world()
+                    ax, ay = ax + rates[name] * px, ay + rates[name] * py
+            alpha: Scalar = 0.0
+            for name, share in frame.spin_partials.items():
+                if name in rates:
+                    alpha = alpha + share * rates[name]
+            bodies[branch.body] = BodyMotion(
+                position.world(), frame.angle, velocity.world(), frame.spin, (ax, ay), alpha
+            )
+        return bodies
+
+    def _reactions(
+        self, loads: _Loads, bodies: Mapping[str, BodyMotion]
+    ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
+        """Return force on the second body and moment on the outboard body of each tree joint."""
+        gx, gy = self.numbers.gravity
+        inertial = {}
+        for name, body in bodies.items():
+            mass, inertia = self.numbers.bodies[name].mass, self.numbers.bodies[name].inertia
+            (ax, ay), alpha = body.acceleration, body.angular_acceleration
+            inertial[name] = (mass * (gx - ax), mass * (gy - ay), -(inertia * alpha))
+        sums, moments = self._subtree(loads, inertial)
+        forces: dict[str, Pair] = {}
+        held: dict[str, Scalar] = {}
+        for branch in self.tree.branches:
+            if branch.kind == "free":
+                continue
+            x, y = sums[branch.body]
+            # the joint supplies what the outboard bodies lack; by convention on the second body
+            forces[branch.joint] = (-x, -y) if branch.outward else (x, y)
+            held[branch.joint] = -moments[branch.body]
+        return forces, held
+
+    def _efforts(
+        self, forces: Mapping[str, Pair], moments: Mapping[str, Scalar]
+    ) -> dict[str, Scalar]:
+        efforts: dict[str, Scalar] = {}
+        for name, driver in self.numbers.drivers.items():
+            branch = next(b for b in self.tree.branches if b.joint == driver.joint)
+            if branch.kind == "revolute":
+                efforts[name] = moments[driver.joint] if branch.outward else -moments[driver.joint]
+            else:
+                ux, uy = self.kinematics.carried[branch.body].partials[name].world()
+                fx, fy = forces[driver.joint]
+                along = ux * fx + uy * fy
+                efforts[name] = along if branch.outward else -along
+        return efforts
+
+
+class _Loads:
+    """Contact forces on the bodies, as force and moment about each body's reference point."""
+
+    def __init__(self, kinematics: Kinematics, contacts: Mapping[str, Contact]) -> None:
+        self._sums: dict[str, tuple[Scalar, Scalar, Scalar]] = {}
+        for name, found in contacts.items():
+            joint = kinematics.numbers.joints[name]
+            fx, fy = found.force_on_journal
+            # bearing and journal points are n c + n delta apart; each force acts at its centre
+            # with the moment of its own radius
+            for reference, force, moment in (
+                (joint.journal, (fx, fy), found.moment_on_journal),
+                (joint.bearing, (-fx, -fy), found.moment_on_bearing),
+            ):
+                body, point = reference.split(".")
+                if body == WORLD:
+                    continue
+                arm = kinematics.arm(body, point).world()
+                x, y, turning = self._sums.get(body, (0.0, 0.0, 0.0))
+                self._sums[body] = (
+                    x + force[0],
+                    y + force[1],
+                    turning + moment + cross(arm, force),
+                )
+
+    def about_reference(self, body: str) -> tuple[Scalar, Scalar, Scalar]:
+        """Return force (N) and moment (N m) about a body's reference point."""
+        return self._sums.get(body, (0.0, 0.0, 0.0))
