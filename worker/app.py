@@ -12,7 +12,7 @@ from kombu.entity import Queue
 from storage.settings import Settings
 from worker.bell import wake_relay
 
-__all__ = ["QUEUES", "RUN_BLOCK", "app", "wake_relay"]
+__all__ = ["QUEUES", "RUN_BLOCK", "app", "make_app", "wake_relay"]
 
 RUN_BLOCK = "worker.run_block"
 QUEUES = ("recovered", "jobs")  # in the order in which workers look at them
@@ -25,42 +25,49 @@ def broker_url(redis_url: str | None) -> str:
     return redis_url.replace("unix://", "redis+socket://", 1)
 
 
-app = Celery("jointplay")
-app.conf.update(
-    broker_url=broker_url(Settings().redis_url),
-    result_backend=None,
-    task_ignore_result=True,
-    task_store_errors_even_if_ignored=False,
-    task_acks_late=False,
-    task_reject_on_worker_lost=False,
-    worker_prefetch_multiplier=1,
-    worker_disable_prefetch=True,
-    worker_cancel_long_running_tasks_on_connection_loss=False,
-    broker_connection_retry_on_startup=True,
-    broker_connection_max_retries=None,
-    broker_transport_options={
-        "visibility_timeout": 3600,
-        "unacked_restore_interval": 10,
-        "unacked_restore_throttle": 1,
-        "socket_connect_timeout": 5,
-        "socket_keepalive": True,
-        "health_check_interval": 10,
-        "socket_timeout": 5,
-        "global_keyprefix": "jointplay:",
-        "client_name": "jointplay-worker",
-        "queue_order_strategy": "priority",
-    },
-    task_queues=[Queue(name) for name in QUEUES],  # type: ignore[no-untyped-call]
-    task_default_queue=QUEUES[-1],
-    task_serializer="json",
-    accept_content=["json"],
-    task_create_missing_queues=False,
-    task_publish_retry=False,
-    task_time_limit=None,
-    task_soft_time_limit=None,
-    worker_max_tasks_per_child=200,
-    worker_max_memory_per_child=1_500_000,
-    worker_soft_shutdown_timeout=20,
-    worker_send_task_events=False,
-    worker_hijack_root_logger=False,
-)
+def make_app(redis_url: str | None) -> Celery:
+    """Return an application that speaks to this Redis."""
+    made = Celery("jointplay")
+    made.conf.update(
+        broker_url=broker_url(redis_url),
+        result_backend=None,
+        task_ignore_result=True,
+        task_store_errors_even_if_ignored=False,
+        task_acks_late=False,
+        task_reject_on_worker_lost=False,
+        worker_prefetch_multiplier=1,
+        worker_disable_prefetch=True,
+        worker_cancel_long_running_tasks_on_connection_loss=False,
+        broker_connection_retry_on_startup=True,
+        broker_connection_max_retries=None,
+        broker_transport_options={
+            "visibility_timeout": 3600,
+            "unacked_restore_interval": 10,
+            "unacked_restore_throttle": 1,
+            "socket_connect_timeout": 5,
+            "socket_keepalive": True,
+            "health_check_interval": 10,
+            "socket_timeout": 5,
+            "global_keyprefix": "jointplay:",
+            "client_name": "jointplay-worker",
+            "queue_order_strategy": "priority",
+            "max_retries": 1,  # of a publisher: the relay comes back by itself
+        },
+        task_queues=[Queue(name) for name in QUEUES],  # type: ignore[no-untyped-call]
+        task_default_queue=QUEUES[-1],
+        task_serializer="json",
+        accept_content=["json"],
+        task_create_missing_queues=False,
+        task_publish_retry=False,
+        task_time_limit=None,
+        task_soft_time_limit=None,
+        worker_max_tasks_per_child=200,
+        worker_max_memory_per_child=1_500_000,
+        worker_soft_shutdown_timeout=20,
+        worker_send_task_events=False,
+        worker_hijack_root_logger=False,
+    )
+    return made
+
+
+app = make_app(Settings().redis_url)

@@ -16,7 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from storage.catalogue import Catalogue
 from storage.settings import Settings
-from worker.app import RUN_BLOCK, app
+from worker.app import RUN_BLOCK, make_app
 from worker.bell import Doorman
 
 _DUTY = "relay"
@@ -30,6 +30,7 @@ class Relay:
     def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
         self._catalogue = catalogue
         self._settings = settings
+        self._app = make_app(settings.redis_url)
         self._name = f"{socket.gethostname()}:{os.getpid()}"
         self._reaped = 0.0
         self._duty_until = 0.0
@@ -56,7 +57,7 @@ class Relay:
         sent = []
         try:
             for wake_up in due:
-                app.send_task(RUN_BLOCK, args=[wake_up.block], queue=wake_up.queue)
+                self._app.send_task(RUN_BLOCK, args=[wake_up.block], queue=wake_up.queue)
                 sent.append(wake_up.block)
         except OperationalError as error:
             _log.warning("Redis does not answer, trying again: %s", error)
@@ -65,6 +66,7 @@ class Relay:
 
     def lay_down(self) -> None:
         """Let another relay take over at once."""
+        self._app.close()
         self._catalogue.lay_down_duty(_DUTY, self._name)
 
 

@@ -1,4 +1,4 @@
-"""A whole service as children of this process: for the demo, for tests, for a notebook."""
+"""A whole service as a child of this process: for the demo, for tests, for a notebook."""
 
 import os
 import subprocess

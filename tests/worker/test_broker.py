@@ -1,0 +1,68 @@
+import os
+import stat
+from pathlib import Path
+
+import pytest
+from redis import Redis
+
+from jointplay.serving import StartFailed
+from jointplay.serving.broker import Broker, answers, server_binary, socket_path
+
+
+def test_it_keeps_its_queue_on_disk_and_refuses_to_drop_any(broker: Broker) -> None:
+    redis = Redis.from_url(broker.url, decode_responses=True)
+    assert redis.config_get("appendonly")["appendonly"] == "yes"
+    assert redis.config_get("maxmemory-policy")["maxmemory-policy"] == "noeviction"
+    assert redis.config_get("port")["port"] == "0"
+    redis.close()
+
+
+def test_nobody_else_may_talk_to_it(broker: Broker) -> None:
+    path = Path(broker.url.removeprefix("unix://"))
+    assert stat.S_IMODE(path.stat().st_mode) == 0o700
+    assert stat.S_IMODE(path.parent.stat().st_mode) == 0o700
+
+
+def test_a_queue_survives_a_restart(tmp_path: Path) -> None:
+    for expected in (None, b"kept"):
+        broker = Broker(tmp_path / "broker", tmp_path / "broker.log")
+        broker.start()
+        redis = Redis.from_url(broker.url)
+        assert redis.get("what") == expected
+        redis.set("what", b"kept")
+        redis.close()
+        broker.stop()
+        assert not answers(broker.url)
+
+
+def test_a_long_path_gets_a_short_socket(tmp_path: Path) -> None:
+    folder = tmp_path / ("long" * 30)
+    broker = Broker(folder, tmp_path / "broker.log")
+    path = Path(broker.url.removeprefix("unix://"))
+    broker.start()
+    assert answers(broker.url)
+    assert len(os.fsencode(path)) <= 100
+    broker.stop()
+    assert not path.parent.exists()
+    assert socket_path(tmp_path / "b") == tmp_path / "b" / "redis.sock"
+
+
+def test_a_server_on_the_path_is_taken_first(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    ours = tmp_path / "redis-server"
+    ours.symlink_to(server_binary())
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert server_binary() == ours
+    preferred = tmp_path / "valkey-server"
+    preferred.symlink_to(ours)
+    assert server_binary() == preferred
+
+
+def test_a_server_that_cannot_start_says_why(tmp_path: Path) -> None:
+    folder = tmp_path / "broker"
+    broker = Broker(folder, tmp_path / "broker.log")
+    (folder / "appendonlydir").write_text("not a folder")
+    with pytest.raises(StartFailed, match="ended at once"):
+        broker.start()
+    broker.stop()

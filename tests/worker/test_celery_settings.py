@@ -1,0 +1,36 @@
+"""Settings whose absence lost tasks or left workers deaf when they were measured."""
+
+import subprocess
+import sys
+
+from worker.app import app, broker_url
+
+
+def test_messages_are_acknowledged_early_and_never_prefetched() -> None:
+    assert app.conf.task_acks_late is False
+    assert app.conf.task_reject_on_worker_lost is False
+    assert app.conf.worker_disable_prefetch is True
+    assert app.conf.worker_prefetch_multiplier == 1
+
+
+def test_a_silent_network_is_noticed() -> None:
+    options = app.conf.broker_transport_options
+    assert options["socket_timeout"] == 5
+    assert options["health_check_interval"] == 10
+
+
+def test_results_travel_through_the_catalogue_alone() -> None:
+    assert app.conf.result_backend is None
+    assert app.conf.task_ignore_result is True
+    assert app.conf.accept_content == ["json"]
+
+
+def test_a_socket_url_is_put_in_celerys_words() -> None:
+    assert broker_url("unix:///run/redis.sock") == "redis+socket:///run/redis.sock"
+    assert broker_url("redis://host:6379/0") == "redis://host:6379/0"
+
+
+def test_the_app_loads_no_task_code() -> None:
+    script = "import sys, worker.app; print('numba' in sys.modules, 'worker.tasks' in sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == ["False", "False"]

@@ -1,0 +1,124 @@
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+from redis import Redis
+
+from jointplay.serving.broker import Broker
+from storage.catalogue import Catalogue, NewJob
+from storage.settings import Settings
+from worker.bell import Bell, Doorman
+from worker.relay import Relay
+
+NEW = NewJob("simulate", {}, "d" * 64, "1")
+FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"
+
+
+@pytest.fixture
+def relay(catalogue: Catalogue, settings: Settings) -> Iterator[Relay]:
+    relay = Relay(catalogue, settings)
+    yield relay
+    relay.lay_down()
+
+
+def until(condition: Callable[[], bool], act: Callable[[], None], patience: float = 20) -> None:
+    deadline = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < deadline
+        act()
+
+
+def test_a_message_carries_a_blocks_id_and_nothing_else(
+    relay: Relay, catalogue: Catalogue, redis: Redis
+) -> None:
+    job = catalogue.submit(NEW).job.id
+    relay.turn()
+    message = redis.lindex(FRESH, 0)
+    assert isinstance(message, bytes)
+    assert f"{job}-0".encode() in message.replace(b"\\u002d", b"-")
+    assert b"spec" not in message
+
+
+def test_what_redis_forgot_is_told_again(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
+    for _ in range(3):
+        catalogue.submit(NEW)
+    relay.turn()
+    assert redis.llen(FRESH) == 3
+    redis.flushall()
+    until(lambda: redis.llen(FRESH) == 3, relay.turn)
+
+
+def test_a_claimed_block_is_told_no_more(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
+    job = catalogue.submit(NEW).job.id
+    other = catalogue.submit(NEW).job.id
+    relay.turn()
+    catalogue.claim_block(f"{job}-0", "worker", 30)
+    redis.flushall()
+    until(lambda: redis.llen(FRESH) > 0, relay.turn)
+    assert redis.llen(FRESH) == 1
+    assert other in str(redis.lindex(FRESH, 0))
+
+
+def test_the_block_of_a_silent_worker_is_queued_ahead_of_others(
+    relay: Relay, catalogue: Catalogue, redis: Redis
+) -> None:
+    job = catalogue.submit(NEW).job.id
+    catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
+    until(lambda: redis.llen(RECOVERED) == 1, relay.turn)
+    assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost"]
+
+
+def test_a_broker_that_dies_is_waited_for(
+    relay: Relay, catalogue: Catalogue, broker: Broker, redis: Redis
+) -> None:
+    catalogue.submit(NEW)
+    relay.turn()
+    assert broker.child.pid is not None
+    os.kill(broker.child.pid, signal.SIGKILL)
+    until(lambda: not broker.child.alive, lambda: None)
+    catalogue.submit(NEW)
+    relay.turn()  # cannot send, must not raise
+    broker.start()
+    redis.flushall()
+    until(lambda: redis.llen(FRESH) == 2, relay.turn)
+
+
+def test_only_one_relay_is_on_duty(
+    relay: Relay, catalogue: Catalogue, settings: Settings, redis: Redis
+) -> None:
+    relay.turn()
+    other = Relay(catalogue, settings)
+    other._name = "another machine"
+    catalogue.submit(NEW)
+    other.turn()
+    assert redis.llen(FRESH) == 0
+    relay.lay_down()
+    other.turn()
+    assert redis.llen(FRESH) == 1
+    other.lay_down()
+
+
+def test_the_bell_ends_the_relays_wait(broker: Broker) -> None:
+    bell = Bell(broker.url)
+    heard = threading.Event()
+    with Doorman(broker.url) as doorman:
+
+        def listen() -> None:
+            doorman.wait(60)
+            heard.set()
+
+        listener = threading.Thread(target=listen)
+        listener.start()
+        until(heard.is_set, lambda: (bell.ring(), heard.wait(0.05)))  # type: ignore[arg-type]
+        listener.join()
+
+
+def test_without_redis_a_wait_is_just_a_wait() -> None:
+    began = time.monotonic()
+    with Doorman("unix:///nowhere.sock") as doorman:
+        doorman.wait(0.2)
+    Bell("unix:///nowhere.sock").ring()
+    assert 0.2 <= time.monotonic() - began < 10
