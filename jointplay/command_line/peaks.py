@@ -22,6 +22,14 @@ def with_units(source: "Source") -> dict[str, "Peak"]:
     }
 
 
+def headline(source: "Source") -> list[str]:
+    """Return the channels to look at first: declared outputs and contact forces, else all."""
+    stored = [channel.name for channel in source.channels]
+    outputs = [output["name"] for output in source.attributes["scene"].get("outputs", [])]
+    forces = [f"{joint}.normal_force" for joint in source.joints]
+    return [name for name in outputs + forces if name in stored] or stored
+
+
 def print_peaks(peaks: Mapping[str, "Peak"]) -> None:
     """Print one line for each channel."""
     if not peaks:

@@ -1,7 +1,9 @@
 """What the service says about itself: health, scenes, problems, the OpenAPI document."""
 
+import json
 import re
 import shutil
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -104,3 +106,20 @@ def test_every_operation_says_what_it_answers_and_what_it_does(openapi):
             for status, answer in operation["responses"].items():
                 if status.startswith(("4", "5")):
                     assert list(answer["content"]) == ["application/problem+json"], (path, status)
+
+
+def test_the_problem_that_the_documentation_shows_is_the_one_that_is_sent(http):
+    documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
+    shown = json.loads(re.findall(r"```json\n(.*?)```", documentation, re.DOTALL)[0])
+    scene = {"preset": "seven-bar-press", "parameters": {"clearance": -1.0}}
+    job = {"kind": "simulate", "scene": scene, "duration": 2.0}
+    assert http.post("/v1/jobs", json=job).json() == shown
+
+
+def test_the_documentation_lists_every_address(openapi):
+    documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
+    for path in openapi["paths"]:
+        last = path.replace("{name}.{form}", "{name}.png").replace("{job_id}", "{id}")
+        if last.startswith("/problems"):
+            continue
+        assert last in documentation or last.split("figures")[-1] in documentation, path

@@ -1,0 +1,117 @@
+"""``jointplay run`` with the real solver, and what can be done with what it leaves."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jointplay.command_line.application import run
+from storage.results import ResultReader
+
+PRESS = ["run", "seven-bar-press", "--duration", "0.05", "--output-step", "1e-3"]
+
+
+@pytest.fixture(scope="module")
+def press(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A twentieth of a second of the press: the first impacts at both joints."""
+    output = tmp_path_factory.mktemp("press") / "OUT"
+    assert run([*PRESS, "--set", "clearance=3e-4", "-o", str(output)]) == 0
+    return output
+
+
+def test_a_run_leaves_the_filled_in_job_the_store_the_peaks_and_figures(press):
+    job = json.loads((press / "job.json").read_text())
+    assert job["scene"]["parameters"]["clearance"] == 3e-4
+    assert job["scene"]["parameters"]["restitution"] == 0.9
+    assert job["tolerance"] == 1e-6
+    reader = ResultReader(press / "results.zarr")
+    reader.verify()
+    assert reader.complete
+    assert reader.attributes["job"] == job
+    with (press / "peaks.csv").open() as file:
+        rows = {row["channel"]: row for row in csv.DictReader(file)}
+    assert rows.keys() == reader.peaks().keys()
+    assert float(rows["A.normal_force"]["maximum"]) == reader.peaks()["A.normal_force"].maximum
+    figures = {file.name for file in (press / "figures").iterdir()}
+    assert {"orbit.png", "contact-force.png", "displacement.png"} <= figures
+
+
+def test_the_job_it_leaves_repeats_every_bit(jointplay, press, tmp_path):
+    again = tmp_path / "AGAIN"
+    ended = jointplay("run", press / "job.json", "-o", again)
+    assert ended.code == 0
+    assert "displacement" in ended.out
+    first, second = ResultReader(press / "results.zarr"), ResultReader(again / "results.zarr")
+    for (time, ours), (other_time, theirs) in (
+        (first.history(), second.history()),
+        (first.sections(), second.sections()),
+    ):
+        assert time.tobytes() == other_time.tobytes()
+        assert {name: column.tobytes() for name, column in ours.items()} == {
+            name: column.tobytes() for name, column in theirs.items()
+        }
+    assert first.impacts().tobytes() == second.impacts().tobytes()
+    assert (press / "peaks.csv").read_bytes() == (again / "peaks.csv").read_bytes()
+
+
+def test_local_results_are_exported_bit_for_bit(jointplay, press, tmp_path):
+    file = tmp_path / "press.csv"
+    ended = jointplay("export", press, "--channels", "slider7.*,A.normal_force", "-o", file)
+    assert ended.code == 0
+    with file.open() as lines:
+        header, *rows = csv.reader(lines)
+    assert header[0] == "time [s]"
+    table = np.array(rows, dtype=float)
+    time, columns = ResultReader(press / "results.zarr").history(["slider7.vx"])
+    assert (table[:, 0] == time).all()
+    assert (table[:, header.index("slider7.vx [m/s]")] == columns["slider7.vx"]).all()
+    near = jointplay("export", press, "--channels", "slider7.vX")
+    assert near.code == 2
+    assert "slider7.vx" in near.line()
+
+
+def test_local_results_are_drawn(jointplay, press, tmp_path):
+    drawn = jointplay("plot", press, "orbit", "A.penetration", "--format", "svg", "-o", tmp_path)
+    assert drawn.code == 0
+    assert {file.name for file in tmp_path.iterdir()} == {"orbit.svg", "A.penetration.svg"}
+    unknown = jointplay("plot", press, "obrit", "-o", tmp_path)
+    assert unknown.code == 2
+    assert "orbit" in unknown.line()
+
+
+def test_selected_channels_are_all_that_is_stored(jointplay, tmp_path):
+    output = tmp_path / "OUT"
+    arguments = [*PRESS, "--channels", "displacement,B.*force", "-o", output]
+    assert jointplay(*arguments).code == 0
+    stored = [channel.name for channel in ResultReader(output / "results.zarr").channels]
+    assert stored == ["B.normal_force", "B.friction_force", "displacement"]
+
+
+def test_a_run_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(tmp_path):
+    output = tmp_path / "OUT"
+    arguments = ["run", "seven-bar-press", "--duration", "100000", "--output-step", "0.5"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "jointplay", *arguments, "--channels", "displacement", "-o", output],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    ) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if "t = " in line and "t = 0 s" not in line:
+                break
+        process.send_signal(signal.SIGINT)
+        rest = process.stderr.read()
+    assert process.returncode == 4, rest
+    assert "cancelled" in rest.splitlines()[-1]
+    reader = ResultReader(output / "results.zarr")
+    assert reader.sealed
+    assert not reader.complete
+    assert 0 < reader.samples < 200_001

@@ -1,0 +1,55 @@
+"""The commands and programs of the README, run as they stand, against a real service."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from jointplay.serving import running_service
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text()
+BLOCKS = re.findall(r"^```(bash|python)\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with running_service(tmp_path_factory.mktemp("readme") / "data") as url:
+        yield url
+
+
+@pytest.mark.parametrize(("language", "text"), BLOCKS, ids=[text.split()[0] for _, text in BLOCKS])
+def test_what_the_readme_says_works(language, text, service, tmp_path):
+    if "curl" in text and shutil.which("curl") is None:
+        pytest.skip("this machine has no curl")
+    text = text.replace("http://127.0.0.1:8000", service)
+    shell = ["bash", "-euo", "pipefail", "-c"]
+    command = [*shell, text] if language == "bash" else [sys.executable, "-c", text]
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    ended = subprocess.run(
+        command,
+        cwd=tmp_path,
+        env=os.environ | {"PATH": path, "JOINTPLAY_URL": service},
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+    assert ended.returncode == 0, ended.stderr
+    for made in re.findall(r"(?:-o|>) ([\w-]+(?:\.\w+)?)(?=[;\s]|$)", text):
+        assert (tmp_path / made).exists(), made
+
+
+def test_every_file_that_the_readme_names_is_there():
+    for link in re.findall(r"\]\(([^)#]+)\)", README):
+        assert (ROOT / link).is_file(), link
+
+
+def test_every_target_that_the_readme_names_is_in_the_makefile():
+    makefile = (ROOT / "Makefile").read_text()
+    for target in re.findall(r"make ([a-z-]+) ", README):
+        assert f"\n{target}:" in makefile, target
