@@ -9,7 +9,8 @@ from typing import Any, Literal
 
 from solver.admission import Admission
 from solver.errors import InvalidInput, SimulationFailed
-from solver.simulate import Simulation, Summary
+from solver.results import Summary
+from solver.simulate import Simulation
 from solver.version import SOLVER_VERSION
 from storage.catalogue import JobError
 from storage.results import ArraySpec, Peak, ResultLayout, ResultWriter

@@ -1,0 +1,178 @@
+"""A worker that dies in mid-job costs time, never a bit of the result."""
+
+import os
+import signal
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from jointplay.serving import running_service
+from solver.admission import Admission, admit
+from solver.version import SOLVER_VERSION
+from storage.catalogue import Block, Catalogue, Job, JobState, NewJob
+from storage.results import ResultReader
+from storage.settings import Settings
+from worker.execute import execute
+
+IMPATIENT = {
+    "JOINTPLAY_LEASE": "1.5",
+    "JOINTPLAY_HEARTBEAT": "0.5",
+    "JOINTPLAY_REAPER_PERIOD": "0.2",
+    "JOINTPLAY_PROGRESS_PERIOD": "0.2",
+}
+# some 3 s of computing; more samples than one shard holds, contacts at both joints all along
+JOB = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press", "parameters": {"clearance": 5e-4, "friction": 0.1}},
+    "duration": 400.0,
+    "output_step": 4e-3,
+    "channels": ["slider7.*", "A.*"],
+    "section": {"crank_angle": 0.0},
+}
+
+
+@pytest.fixture(scope="module")
+def admission() -> Admission:
+    return admit(JOB)
+
+
+@pytest.fixture(scope="module")
+def undisturbed(admission: Admission, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("undisturbed") / "store"
+    assert execute(admission, folder, report=lambda _: "continue").state == "succeeded"
+    return folder
+
+
+def submit(catalogue: Catalogue, admission: Admission) -> str:
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    return catalogue.submit(new).job.id
+
+
+def until(condition: Callable[[], bool], patience: float = 90) -> None:
+    deadline = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def ended(catalogue: Catalogue, job: str) -> Job:
+    until(lambda: catalogue.get(job).state.terminal)
+    return catalogue.get(job)
+
+
+def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
+    """Wait until the job is computed, is beyond a fraction, and has a restart point."""
+
+    def is_there() -> bool:
+        block = catalogue.blocks(job)[0]
+        state = catalogue.get(job).state
+        assert not state.terminal, "it ended before anything could happen to it"
+        return (
+            block.lease_until is not None
+            and block.checkpoint is not None
+            and block.progress_fraction > after
+        )
+
+    until(is_there)
+    return catalogue.blocks(job)[0]
+
+
+def arrays(store: Path) -> dict[str, bytes]:
+    """Every chunk of every array, and what describes it, by its key."""
+    return {
+        str(path.relative_to(store)): path.read_bytes()
+        for path in sorted(store.rglob("*"))
+        if path.is_file() and path.parent != store
+    }
+
+
+def assert_same_bits(settings: Settings, job: Job, undisturbed: Path) -> None:
+    store = settings.result_folder(job.id, job.attempt)
+    stored, expected = arrays(store), arrays(undisturbed)
+    assert len(expected) > 50
+    assert stored.keys() == expected.keys()
+    assert [key for key in expected if stored[key] != expected[key]] == []
+    assert (store / "job.json").read_bytes() == (undisturbed / "job.json").read_bytes()
+    reader = ResultReader(store)
+    assert reader.complete
+    reader.verify()
+
+
+def pid_of(block: Block) -> int:
+    assert block.worker is not None
+    return int(block.worker.rsplit(":", 1)[1])
+
+
+def test_a_block_goes_on_where_its_killed_worker_left_it(
+    settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
+) -> None:
+    with running_service(settings.data, environment=IMPATIENT):
+        job = submit(catalogue, admission)
+        fraction = 0.0
+        for _ in range(2):
+            held = in_mid_job(catalogue, job, after=fraction)
+            os.kill(pid_of(held), signal.SIGKILL)
+            fraction = catalogue.blocks(job)[0].progress_fraction
+            until(lambda: catalogue.get(job).attempt > held.attempt)  # noqa: B023
+            until(lambda: catalogue.get(job).progress_fraction != fraction)  # noqa: B023
+            # what was recorded came with a restart point: it goes on from there, not from zero
+            assert catalogue.get(job).progress_fraction > fraction
+        finished = ended(catalogue, job)
+    assert finished.state is JobState.succeeded
+    assert finished.attempt == 3
+    assert [a.outcome for a in catalogue.attempts(job)] == ["lost", "lost", "done"]
+    assert_same_bits(settings, finished, undisturbed)
+    left = settings.result_folder(job, 1).parent
+    assert [path.name for path in left.iterdir()] == ["a3"]
+
+
+def test_a_whole_worker_killed_is_replaced(
+    settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
+) -> None:
+    with running_service(settings.data, environment=IMPATIENT):
+        job = submit(catalogue, admission)
+        child = pid_of(in_mid_job(catalogue, job))
+        stat = Path(f"/proc/{child}/stat").read_text()
+        os.kill(int(stat.rsplit(")", 1)[1].split()[1]), signal.SIGKILL)
+        finished = ended(catalogue, job)
+    assert finished.state is JobState.succeeded
+    assert finished.attempt == 2
+    assert_same_bits(settings, finished, undisturbed)
+
+
+def test_a_service_that_is_stopped_goes_on_when_it_is_started_again(
+    settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
+) -> None:
+    with running_service(settings.data):
+        job = submit(catalogue, admission)
+        until(lambda: catalogue.get(job).progress_fraction > 0)
+    stopped = catalogue.blocks(job)[0]
+    assert stopped.losses == 0  # given back, not lost: no lease has to run out
+    assert stopped.checkpoint is not None
+    with running_service(settings.data):
+        finished = ended(catalogue, job)
+    assert finished.state is JobState.succeeded
+    assert [a.outcome for a in catalogue.attempts(job)] == ["released", "done"]
+    assert_same_bits(settings, finished, undisturbed)
+
+
+def test_a_cancelled_job_keeps_what_it_computed(
+    settings: Settings, catalogue: Catalogue, admission: Admission
+) -> None:
+    with running_service(settings.data, environment=IMPATIENT):
+        job = submit(catalogue, admission)
+        in_mid_job(catalogue, job)
+        assert catalogue.request_cancel(job).state is JobState.cancelling
+        asked = time.monotonic()
+        finished = ended(catalogue, job)
+        took = time.monotonic() - asked
+    assert finished.state is JobState.cancelled
+    assert took < 5  # a slice of computing and the closing of the store
+    reader = ResultReader(settings.result_folder(job, finished.attempt))
+    assert not reader.complete
+    reader.verify()
+    when, values = reader.history(["slider7.x"], None, None)
+    assert 0 < len(when) < admission.samples
+    assert len(values["slider7.x"]) == len(when)
