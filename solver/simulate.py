@@ -28,6 +28,8 @@ SLICE_SECONDS = 0.1
 FIRST_BUDGET = 2000
 LARGEST_BUDGET = 200_000
 """Attempted steps a call."""
+MOST_STEPS = 4_000_000_000
+"""Accepted steps of one run: days of computing."""
 LANE = 0
 """The lane that a single run uses; the seven others idle, and its bits do not depend on them."""
 
@@ -110,6 +112,8 @@ class DynamicRun:
             found = self._slice()
             spent = time.perf_counter() - begun
             self.seconds += spent
+            if self.bundle.table("steps")[0, LANE] >= MOST_STEPS:
+                self.bundle.counters[Counter.STATUS, LANE] = Status.STEP_LIMIT
             budget = int(min(max(budget * SLICE_SECONDS / spent, 100), LARGEST_BUDGET, 4 * budget))
             yield found
         status = Status(self.bundle.counters[Counter.STATUS, LANE])
@@ -155,12 +159,12 @@ class DynamicRun:
             for channel, r in zip(self.admission.channels, self.columns, strict=True)
         }
         counters = self.bundle.counters[:, LANE]
-        smallest = float(self.bundle.settings[Setting.SMALLEST_SEEN, LANE])
+        steps = int(self.bundle.table("steps")[0, LANE])
         statistics: dict[str, Any] = {
-            "steps": int(counters[Counter.STEPS]),
+            "steps": steps,
             "rejections": int(counters[Counter.REJECTIONS]),
             "onsets": int(counters[Counter.ONSETS]),
-            "smallest_step": smallest if np.isfinite(smallest) else None,
+            "smallest_step": float(self.bundle.table("smallest_step")[0, LANE]) if steps else None,
             "solver_seconds": self.seconds,
             "energy": self._ledger(),
         }
@@ -239,7 +243,7 @@ class DynamicRun:
     def _failure(self, status: Status) -> SimulationFailed:
         at = self.bundle.time(LANE)
         step = float(self.bundle.table("next_step")[0, LANE])
-        steps = int(self.bundle.counters[Counter.STEPS, LANE])
+        steps = int(self.bundle.table("steps")[0, LANE])
         tolerance = self.admission.tolerance
         if status == Status.UNDERFLOW:
             return SimulationFailed(

@@ -40,6 +40,7 @@ from solver.compiler.bits import exponent_of, mantissa_of, power_of_two
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
 '''
 DECORATOR = "@njit(void(float64[::1]), **options)"
+RETURNING = "@njit(float64(float64[::1]), **options)"
 
 
 class FixedNodes:

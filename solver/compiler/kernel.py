@@ -56,12 +56,12 @@ class Kernel:
         m = self.module
         return (
             m.attempt,
+            m.set_mask,
             m.keep,
             m.commit,
             m.right_hand_side,
             m.observe,
             m.scan,
-            m.advance_scan,
             m.probe,
             m.probe_before,
         )
@@ -98,7 +98,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", len(equations.drivers))
     fixed = FixedNodes(layout)
-    steps = stepping.StepRecorder(tableau, states, ledger, joints, layout)
+    steps = stepping.StepRecorder(tableau, states, ledger, joints, mask_rows, layout)
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows)]
     source = "\n\n".join(
         [

@@ -6,10 +6,13 @@ sought inside the steps on the dense output (`solver.peaks`).
 
 from __future__ import annotations
 
-from solver.compiler.emit import DECORATOR
+from solver.compiler.emit import RETURNING
 from solver.compiler.layout import LANES, Layout
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest", "candidate")
+
+TOP, BOTTOM = 1.0, 2.0
+"""What a candidate may be: a maximum or a minimum around the start of the step."""
 
 CHAINS = 4
 """Independent maxima in the reduction over rows: one would wait for its own latency."""
@@ -29,7 +32,7 @@ def allocate(layout: Layout, rows: int) -> None:
 def source(layout: Layout, rows: int) -> str:
     """Return the source of scan(W)."""
     at = {name: layout[f"{name}0"] * LANES for name in BLOCKS}
-    accept, peak, mask = (layout[name] * LANES for name in ("accept", "peak", "mask0"))
+    peak, mask = layout["peak"] * LANES, layout["mask0"] * LANES
     lines = []
     for row in range(rows):
         slot = at["candidate"] + row * LANES
@@ -42,33 +45,31 @@ def source(layout: Layout, rows: int) -> str:
     for chain in range(1, min(CHAINS, rows)):
         lines.append(f"        found0 = found{chain} if found{chain} > found0 else found0")
     largest = "\n".join(lines)
-    return f"""{DECORATOR}
+    return f"""{RETURNING}
 def scan(W):
     for i in range({rows * LANES}):
         value = W[{at["channel"]} + i]
         before = W[{at["previous"]} + i]
         rose = W[{at["change"]} + i]
+        taken = W[{mask} + i]
         change = value - before
         step = abs(rose) if abs(rose) > abs(change) else abs(change)
         over = before + {MARGIN} * step - W[{at["highest"]} + i]
         under = W[{at["lowest"]} + i] - before + {MARGIN} * step
-        top = over if rose > 0.0 else -1.0
-        top = -1.0 if change > 0.0 else top
-        bottom = under if rose < 0.0 else -1.0
-        bottom = -1.0 if change < 0.0 else bottom
-        W[{at["candidate"]} + i] = top if top > bottom else bottom
+        top = {TOP} if over > 0.0 else 0.0
+        top = top if rose > 0.0 else 0.0
+        top = 0.0 if change > 0.0 else top
+        bottom = {BOTTOM} if under > 0.0 else 0.0
+        bottom = bottom if rose < 0.0 else 0.0
+        bottom = 0.0 if change < 0.0 else bottom
+        W[{at["candidate"]} + i] = top + bottom if taken > 0.0 else 0.0
+        W[{at["previous"]} + i] = value if taken > 0.0 else before
+        W[{at["change"]} + i] = change if taken > 0.0 else rose
     for l in range({LANES}):
 {largest}
-        W[{peak} + l] = found0 if W[{accept} + l] > 0.0 else -1.0
-
-
-{DECORATOR}
-def advance_scan(W):
-    for i in range({rows * LANES}):
-        value = W[{at["channel"]} + i]
-        before = W[{at["previous"]} + i]
-        taken = W[{mask} + i]
-        change = W[{at["change"]} + i]
-        W[{at["previous"]} + i] = value if taken > 0.0 else before
-        W[{at["change"]} + i] = value - before if taken > 0.0 else change
+        W[{peak} + l] = found0
+    largest = 0.0
+    for l in range({LANES}):
+        largest = W[{peak} + l] if W[{peak} + l] > largest else largest
+    return largest
 """

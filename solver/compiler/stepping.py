@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from solver.compiler.emit import DECORATOR, lane_function
+from solver.compiler.emit import DECORATOR, RETURNING, lane_function
 from solver.compiler.lane_functions import exp2, log2
 from solver.compiler.layout import LANES, Layout
 from solver.compiler.recorder import Expression, Recorder
@@ -30,7 +30,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory")
-    layout.add("end", "next_due", "largest_step")
+    layout.add("end", "next_due", "largest_step", "steps", "smallest_step")
     for prefix in ("", "before_"):  # two equal pieces, so that one can be copied to the other
         layout.add_block(f"{prefix}y", states)
         for s in range(1, stages + 1):
@@ -57,8 +57,15 @@ class StepRecorder:
     """Records the functions of one method for a number of states, ledger terms and joints."""
 
     def __init__(
-        self, tableau: Tableau, states: int, ledger: int, joints: int, layout: Layout
+        self,
+        tableau: Tableau,
+        states: int,
+        ledger: int,
+        joints: int,
+        mask_rows: int,
+        layout: Layout,
     ) -> None:
+        self.mask_rows = mask_rows
         self.tableau = tableau
         self.states, self.ledger, self.joints = states, ledger, joints
         self.layout = layout
@@ -71,7 +78,7 @@ class StepRecorder:
     def source(self) -> str:
         """Return the source of attempt, commit, probe and probe_before."""
         parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
-        parts += [self._judge(), self._attempt(), self._keep(), self._commit()]
+        parts += [self._judge(), self._attempt(), self._keep(), self._mask(), self._commit()]
         parts += [self._probe("probe", ""), self._probe("probe_before", "before_")]
         return "\n\n".join(parts)
 
@@ -180,7 +187,20 @@ class StepRecorder:
         calls = []
         for s in range(2, self.tableau.stages + 1):
             calls += [f"    stage_{s}(W)", "    right_hand_side(W)"]
-        return "\n".join([DECORATOR, "def attempt(W):", *calls, "    judge(W)", ""])
+        flag = self.layout["flag"] * LANES
+        return "\n".join(
+            [
+                RETURNING,
+                "def attempt(W):",
+                *calls,
+                "    judge(W)",
+                "    flags = 0.0",
+                f"    for l in range({LANES}):",
+                f"        flags += W[{flag} + l]",
+                "    return flags",
+                "",
+            ]
+        )
 
     def _keep(self) -> str:
         """Keep the dense output of the step that is being taken as the one before."""
@@ -194,6 +214,21 @@ def keep(W):
         W[{target} + i] = new if W[{mask} + i] > 0.0 else old
 """
 
+    def _mask(self) -> str:
+        """Repeat `accept` for every row of the mask."""
+        accept, mask = self.layout["accept"] * LANES, self.layout["mask0"] * LANES
+        rows = [f"        W[{mask + i * LANES} + l] = taken" for i in range(self.mask_rows)]
+        return "\n".join(
+            [
+                DECORATOR,
+                "def set_mask(W):",
+                f"    for l in range({LANES}):",
+                f"        taken = W[{accept} + l]",
+                *rows,
+                "",
+            ]
+        )
+
     def _commit(self) -> str:
         """Take the step in accepting lanes."""
         v = self.variable
@@ -205,6 +240,8 @@ def keep(W):
         outputs = [taken(v("arrival"), "time"), ("step", v("next_step"))]
         outputs.append(taken(v("new_memory"), "memory"))
         outputs += [taken(v("time"), "before_time"), taken(v("tried"), "before_step")]
+        outputs.append(("steps", v("steps") + accept))
+        outputs.append(taken(minimum(v("tried"), v("smallest_step")), "smallest_step"))
         for i in range(self.states):
             outputs.append(taken(v(f"stage{i}"), f"y{i}"))
             outputs.append(taken(v(f"slope{i}"), f"k1_{i}"))

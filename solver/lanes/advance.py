@@ -23,6 +23,7 @@ from solver.lanes.rows import emit
 from solver.lanes.state import Counter, Setting, Status
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
+FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))
 PROBE_FUNCTION = types.FunctionType(void(float64[::1], float64[::1], int64))
 REJECTED, DUE, ONSET, RELEASE = 1, 2, 4, 8
 """What a lane's flag is the sum of; see `solver.compiler.stepping`."""
@@ -104,13 +105,43 @@ def settle(
     return full
 
 
+@kernel()
+def count_active(slots: Slots, work: np.ndarray) -> int:
+    """Return how many lanes run."""
+    running = 0
+    for l in range(LANES):
+        if work[slots.active * LANES + l] > 0.0:
+            running += 1
+    return running
+
+
+@kernel()
+def still_landing(counters: np.ndarray) -> bool:
+    """Whether a lane is about to land on an onset."""
+    for l in range(LANES):
+        if counters[Counter.LANDING, l] >= 0:
+            return True
+    return False
+
+
+@kernel()
+def masks(which: int, slots: Slots, work: np.ndarray) -> bool:
+    """Whether the mask holds the lanes that are positive in a slot."""
+    for l in range(LANES):
+        if (work[slots.mask * LANES + l] > 0.0) != (work[which * LANES + l] > 0.0):
+            return False
+    return True
+
+
 SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
 TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 
 
 @kernel(
     int64(
-        *[LANE_FUNCTION] * 7,
+        FLAG_FUNCTION,
+        *[LANE_FUNCTION] * 5,
+        FLAG_FUNCTION,
         *[PROBE_FUNCTION] * 2,
         SLOTS,
         *[float64[::1]] * 2,
@@ -122,12 +153,12 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 )
 def advance(
     attempt: object,
+    set_mask: object,
     keep: object,
     commit: object,
     right_hand_side: object,
     observe: object,
     scan: object,
-    advance_scan: object,
     probe: object,
     probe_before: object,
     slots: Slots,
@@ -144,7 +175,7 @@ def advance(
 
     Parameters
     ----------
-    attempt, keep, commit, right_hand_side, observe, scan, advance_scan, probe, probe_before
+    attempt, set_mask, keep, commit, right_hand_side, observe, scan, probe, probe_before
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     slots
         Where quantities live in `work` and `spare`, both (slots * LANES,).
@@ -160,60 +191,48 @@ def advance(
     int
         How many lanes still run.
     """
-    mask_value = np.full(LANES, -1.0)
+    running = count_active(slots, work)
+    landing = still_landing(counters)
+    masked = False
     for _ in range(budget):
-        running = 0
-        for l in range(LANES):
-            if work[slots.active * LANES + l] > 0.0:
-                running += 1
         if running == 0:
-            return 0
-        attempt(work)
+            break
+        flags = attempt(work)
+        quiet = flags == 0.0 and not landing and masked
         full = False
-        for l in range(LANES):
-            flag = int(work[slots.flag * LANES + l])
-            if flag == 0 and counters[Counter.LANDING, l] < 0:
-                continue
-            if work[slots.active * LANES + l] == 0.0:
-                continue
-            full |= attend(
-                flag, l, slots, work, spare, settings, counters,
-                sample_rows, section_rows, probe, right_hand_side,
-            )  # fmt: skip
-        observe(work)
-        scan(work)
-        changed = False
-        for l in range(LANES):
-            accept = work[slots.accept * LANES + l]
-            changed |= accept != mask_value[l]
-            mask_value[l] = accept
-            if accept > 0.0 and work[slots.peak * LANES + l] > 0.0:
-                refine_peaks(
-                    l, slots, work, spare, counters, settings,
-                    probe, probe_before, right_hand_side, observe,
-                )  # fmt: skip
-        if changed:
-            for i in range(slots.mask_rows):
-                for l in range(LANES):
-                    work[(slots.mask + i) * LANES + l] = mask_value[l]
-        keep(work)
-        advance_scan(work)
-        commit(work)
-        for l in range(LANES):
-            if mask_value[l] > 0.0:
-                counters[Counter.STEPS, l] += 1
-                tried = work[slots.tried * LANES + l]
-                if tried < settings[Setting.SMALLEST_SEEN, l]:
-                    settings[Setting.SMALLEST_SEEN, l] = tried
+        if not quiet:
+            for l in range(LANES):
                 flag = int(work[slots.flag * LANES + l])
-                if flag != 0 or counters[Counter.LANDING, l] >= 0:
-                    full |= settle(flag, l, slots, work, settings, counters, impact_rows)
-                if counters[Counter.STEPS, l] >= counters[Counter.MOST_STEPS, l]:
-                    stop(l, Status.STEP_LIMIT, slots, work, counters)
+                if work[slots.active * LANES + l] > 0.0 and (
+                    flag != 0 or counters[Counter.LANDING, l] >= 0
+                ):
+                    full |= attend(
+                        flag, l, slots, work, spare, settings, counters,
+                        sample_rows, section_rows, probe, right_hand_side,
+                    )  # fmt: skip
+            if not masks(slots.accept, slots, work):
+                set_mask(work)
+        observe(work)
+        if scan(work) > 0.0:
+            for l in range(LANES):
+                if work[slots.peak * LANES + l] > 0.0:
+                    refine_peaks(
+                        l, slots, work, spare, counters, settings,
+                        probe, probe_before, right_hand_side, observe,
+                    )  # fmt: skip
+        keep(work)
+        commit(work)
+        if quiet:
+            continue
+        for l in range(LANES):
+            if work[slots.accept * LANES + l] == 0.0:
+                continue
+            flag = int(work[slots.flag * LANES + l])
+            if flag != 0 or counters[Counter.LANDING, l] >= 0:
+                full |= settle(flag, l, slots, work, settings, counters, impact_rows)
+        running = count_active(slots, work)
+        landing = still_landing(counters)
+        masked = masks(slots.active, slots, work)
         if full:
             break
-    running = 0
-    for l in range(LANES):
-        if work[slots.active * LANES + l] > 0.0:
-            running += 1
     return running

@@ -24,7 +24,6 @@ Floats = NDArray[np.float64]
 
 ROWS_AT_ONCE = 512
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
-MOST_STEPS = 4_000_000_000
 STEPS_IN_A_PERIOD = 100
 """Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
 RESTART = 1e-3
@@ -149,6 +148,7 @@ class Bundle:
         scene = problem.scene
         self.table("step")[0, lane] = FIRST_STEP * period
         self.table("largest_step")[0, lane] = period / STEPS_IN_A_PERIOD
+        self.table("smallest_step")[0, lane] = period
         self.table("end")[0, lane] = problem.duration
         setting = self.settings[:, lane]
         setting[Setting.PERIOD] = period
@@ -159,7 +159,6 @@ class Bundle:
         setting[Setting.OUTPUT_STEP] = problem.output_step
         setting[Setting.SECTION_OFFSET] = problem.section_offset
         setting[Setting.SMALLEST_STEP] = SMALLEST_STEP * period
-        setting[Setting.SMALLEST_SEEN] = math.inf
         for k, driver in enumerate(scene.drivers.values()):
             self.table(f"phase{k}")[0, lane] = driver.position
             travel = driver.speed * period
@@ -169,7 +168,6 @@ class Bundle:
             )
         counter = self.counters[:, lane]
         counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
-        counter[Counter.MOST_STEPS] = MOST_STEPS
 
     def _start(self) -> None:
         """Evaluate the start: first slopes, contacts that begin closed, first records."""

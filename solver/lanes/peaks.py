@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.compiler.layout import LANES
+from solver.compiler.scanning import TOP
 from solver.compiler.slots import Slots
 from solver.jit import kernel
 from solver.lanes.state import Counter, Setting
@@ -31,38 +32,35 @@ def refine_peaks(
     Candidate channels are evaluated at eight instants in the step before and eight in this one; a
     parabola through the best of them and its neighbours gives the extreme.
     """
-    times = np.empty(POINTS)
-    values = np.empty((slots.rows, POINTS))
-    since = float(counters[Counter.PERIOD, l]) * settings[Setting.PERIOD, l]
-    times[0] = work[slots.before_time * LANES + l]
+    rows = np.empty(slots.rows, dtype=np.int64)
+    count = 0
     for r in range(slots.rows):
-        row = r * LANES + l
-        previous = work[slots.previous * LANES + row]
-        values[r, 0] = previous - work[slots.change * LANES + row]
+        if work[(slots.candidate + r) * LANES + l] > 0.0:
+            rows[count] = r
+            count += 1
+    times = np.empty(POINTS)
+    values = np.empty((count, POINTS))
+    since = float(counters[Counter.PERIOD, l]) * settings[Setting.PERIOD, l]
     for half in range(2):
         for i in range(LANES):
-            spare[slots.theta * LANES + i] = (i + 1) / LANES
-        if half == 0:
-            dense(l, slots, work, spare, probe_before, right_hand_side)
-        else:
-            dense(l, slots, work, spare, probe, right_hand_side)
+            spare[slots.theta * LANES + i] = i / LANES
+        dense(l, slots, work, spare, probe_before if half == 0 else probe, right_hand_side)
         observe(spare)
         for i in range(LANES):
-            times[half * LANES + i + 1] = spare[slots.stage_time * LANES + i]
-        for r in range(slots.rows):
-            for i in range(LANES):
-                values[r, half * LANES + i + 1] = spare[(slots.channel + r) * LANES + i]
-    for r in range(slots.rows):
-        row = r * LANES + l
-        if not work[slots.candidate * LANES + row] > 0.0:
-            continue
-        if work[slots.change * LANES + row] > 0.0:
-            time, value = extreme(times, values[r], 1.0)
+            times[half * LANES + i] = spare[slots.stage_time * LANES + i]
+            for n in range(count):
+                values[n, half * LANES + i] = spare[(slots.channel + rows[n]) * LANES + i]
+    times[POINTS - 1] = work[slots.arrival * LANES + l]
+    for n in range(count):
+        row = rows[n] * LANES + l
+        values[n, POINTS - 1] = work[slots.channel * LANES + row]
+        if work[slots.candidate * LANES + row] == TOP:
+            time, value = extreme(times, values[n], 1.0)
             if value > work[slots.highest * LANES + row]:
                 work[slots.highest * LANES + row] = value
                 work[slots.highest_time * LANES + row] = since + time
         else:
-            time, value = extreme(times, values[r], -1.0)
+            time, value = extreme(times, values[n], -1.0)
             if value < work[slots.lowest * LANES + row]:
                 work[slots.lowest * LANES + row] = value
                 work[slots.lowest_time * LANES + row] = since + time
@@ -71,24 +69,33 @@ def refine_peaks(
 @kernel()
 def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float, float]:
     """Time and value of the largest (sense 1) or smallest (sense -1) of sampled values."""
+    last = len(values) - 1
     best = 0
-    for i in range(1, len(values)):
+    for i in range(1, last + 1):
         if sense * values[i] > sense * values[best]:
             best = i
-    if best == 0 or best == len(values) - 1:
+    if best == 0 or best == last:
         return times[best], values[best]
-    left, right = times[best - 1] - times[best], times[best + 1] - times[best]
-    if not (left < 0.0 < right):
+    here = bend(times, values, best)
+    left = bend(times, values, max(best - 1, 1))
+    right = bend(times, values, min(best + 1, last - 1))
+    smooth = sense * here < 0.0 and abs(left - here) + abs(right - here) < abs(here)
+    if not smooth:  # a kink, as where contact ends: no parabola fits, and none is needed
         return times[best], values[best]
-    down, up = values[best - 1] - values[best], values[best + 1] - values[best]
-    curvature = (up / right - down / left) / (right - left)
-    slope = up / right - curvature * right
-    if curvature == 0.0:
-        return times[best], values[best]
-    shift = -0.5 * slope / curvature
-    if not left <= shift <= right:
+    after = times[best + 1] - times[best]
+    slope = (values[best + 1] - values[best]) / after - here * after
+    shift = -0.5 * slope / here
+    if not times[best - 1] - times[best] <= shift <= after:
         return times[best], values[best]
     return times[best] + shift, values[best] + 0.5 * slope * shift
+
+
+@kernel()
+def bend(times: np.ndarray, values: np.ndarray, i: int) -> float:
+    """Half the second derivative at sample i: the parabola through it and its neighbours."""
+    left, right = times[i - 1] - times[i], times[i + 1] - times[i]
+    down, up = values[i - 1] - values[i], values[i + 1] - values[i]
+    return (up / right - down / left) / (right - left)
 
 
 @kernel()

@@ -23,16 +23,14 @@ class Counter(IntEnum):
     SAMPLES = 3
     SECTION = 4
     SECTIONS = 5
-    STEPS = 6
-    MOST_STEPS = 7
-    REJECTIONS = 8
-    ONSETS = 9
-    LANDING = 10
-    LANDINGS = 11
-    SAMPLE_ROWS = 12
-    SECTION_ROWS = 13
-    IMPACT_ROWS = 14
-    COUNT = 15
+    REJECTIONS = 6
+    ONSETS = 7
+    LANDING = 8
+    LANDINGS = 9
+    SAMPLE_ROWS = 10
+    SECTION_ROWS = 11
+    IMPACT_ROWS = 12
+    COUNT = 13
 
 
 class Setting(IntEnum):
@@ -45,8 +43,7 @@ class Setting(IntEnum):
     OUTPUT_STEP = 4
     SECTION_OFFSET = 5
     SMALLEST_STEP = 6
-    SMALLEST_SEEN = 7
-    FIRST_DRIVER = 8
+    FIRST_DRIVER = 7
 
 
 def row_width(drivers: int, states: int, joints: int) -> int:
