@@ -38,6 +38,14 @@ application.command()(export.export)
 application.command()(plot.plot)
 application.add_typer(scene.application, name="scene")
 
+_WRONG_PATH = (
+    FileNotFoundError,
+    FileExistsError,
+    IsADirectoryError,
+    NotADirectoryError,
+    PermissionError,
+)
+
 
 def run(arguments: list[str] | None = None) -> int:
     """Run one command and return its exit code; what users cause ends in one line on stderr."""
@@ -55,6 +63,8 @@ def run(arguments: list[str] | None = None) -> int:
         if told is None:
             raise  # a fault of ours: the traceback is what helps
         return _told(*told)
+    if code == Exit.INTERRUPTED:  # typer's own way to say Ctrl-C
+        return _told(Exit.INTERRUPTED, "interrupted")
     return int(code or Exit.OK)
 
 
@@ -68,7 +78,8 @@ def _classified(error: Exception) -> tuple[Exit, str] | None:
     if isinstance(error, Stopped):
         return error.code, str(error)
     if isinstance(error, OSError) and error.filename is not None:
-        return Exit.BAD_INPUT, f"{error.filename}: {error.strerror}."
+        code = Exit.BAD_INPUT if isinstance(error, _WRONG_PATH) else Exit.FAILED
+        return code, f"{error.filename}: {error.strerror}."
     return _bad_document(error) or _service_failure(error) or _bad_results(error)
 
 

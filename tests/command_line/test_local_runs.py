@@ -93,6 +93,21 @@ def test_selected_channels_are_all_that_is_stored(jointplay, tmp_path):
     assert stored == ["B.normal_force", "B.friction_force", "displacement"]
 
 
+def test_a_run_that_fails_ends_with_three_says_what_to_try_and_keeps_the_rest(jointplay, tmp_path):
+    output = tmp_path / "OUT"
+    stiffest = ["--set", "friction=1", "--tolerance", "1e-13"]  # a step in the friction law:
+    stiffest += ["--set", "static_velocity=1e-12", "--set", "dynamic_velocity=1e-12"]
+    ended = jointplay(*PRESS, *stiffest, "-o", output)
+    assert ended.code == 3
+    line = ended.err.splitlines()[-1]
+    assert "step" in line
+    assert "larger tolerance" in line
+    reader = ResultReader(output / "results.zarr")
+    assert not reader.complete
+    assert 0 < reader.samples < 51
+    assert reader.history(["displacement"])[0][-1] < 0.05
+
+
 def test_a_run_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(tmp_path):
     output = tmp_path / "OUT"
     arguments = ["run", "seven-bar-press", "--duration", "100000", "--output-step", "0.5"]

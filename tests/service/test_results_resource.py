@@ -5,6 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
+from service.results import schemas
 from storage.catalogue import BlockState, JobError
 
 RESULTS = ["history", "peaks", "poincare", "impacts", "figures", "figures/orbit.png"]
@@ -17,6 +18,22 @@ def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[
     assert answer.headers["Content-Type"] == kind
     document: dict[str, Any] = answer.json()
     return document
+
+
+@pytest.mark.parametrize(
+    ("result", "model"),
+    [
+        ("history", schemas.History),
+        ("poincare", schemas.Poincare),
+        ("peaks", schemas.Peaks),
+        ("impacts", schemas.Impacts),
+        ("figures", schemas.Figures),
+    ],
+)
+def test_results_are_as_the_openapi_document_says(http, finished_job, result, model):
+    answer = http.get(f"/v1/jobs/{finished_job}/{result}")
+    document = model.model_validate_json(answer.content, strict=True)
+    assert document.model_dump(mode="json") == answer.json()  # nothing more, nothing less
 
 
 def test_history_has_the_stored_numbers_with_their_units(http, finished_job):

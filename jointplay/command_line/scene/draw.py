@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line import job_document
+from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.scene.assembled import SCENE, assemble_scene
 
@@ -28,6 +29,6 @@ def draw(
     file = output or Path(f"{scene.document['name']}.png")
     if file.suffix not in {".png", ".svg"}:
         raise Stopped(Exit.BAD_INPUT, f"-o {file}: name a file that ends in .png or .svg.")
-    form = "svg" if file.suffix == ".svg" else "png"
+    form: Form = "svg" if file.suffix == ".svg" else "png"
     file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
     typer.echo(file)

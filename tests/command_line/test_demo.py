@@ -1,0 +1,68 @@
+"""``jointplay demo``: from nothing to figures, and nothing left behind."""
+
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from solver import presets
+
+DEMO = [sys.executable, "-m", "jointplay", "demo", "seven-bar-press", "-o"]
+
+
+def processes_of(folder: Path) -> list[str]:
+    """Command lines of all processes that mention the demo's folder."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            command = process.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue  # it ended meanwhile
+        if str(folder) in command:
+            found.append(command)
+    return found
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    if not Path("/proc/self/cmdline").exists():
+        pytest.skip("needs /proc to see that nothing is left")
+    return tmp_path / "demo"
+
+
+def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything(folder):
+    ended = subprocess.run([*DEMO, str(folder)], capture_output=True, text=True, timeout=240)
+    assert ended.returncode == 0, ended.stderr
+    reported = presets.document("seven-bar-press")["reported"]
+    lines = [line for line in ended.stdout.splitlines() if " of " in line]
+    assert len(lines) == len(reported) > 0
+    for line, entry in zip(lines, reported, strict=True):
+        ours = float(re.split(r"\s{2,}", line)[4])
+        assert f"{entry['value']:g}" in line
+        if entry["channel"] == "displacement":
+            # the source's contact parameters are not known; any plausible ones move it by 0.06 mm
+            assert ours == pytest.approx(entry["value"], abs=0.11e-3)  # + half its last digit
+    cases = [path for path in folder.iterdir() if path.name != "service"]
+    assert len(cases) == 4
+    for case in cases:
+        assert (case / "displacement.png").read_bytes().startswith(b"\x89PNG")
+    assert processes_of(folder) == []
+
+
+def test_an_interrupted_demo_stops_everything_too(folder):
+    with subprocess.Popen(
+        [*DEMO, str(folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        for line in process.stdout:
+            if "submitting" in line:
+                break
+        assert processes_of(folder) != []
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 130
+        assert process.stderr.read().splitlines()[-1] == "jointplay: interrupted"
+    assert processes_of(folder) == []
