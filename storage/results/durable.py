@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 PARTIAL: Final = ".partial"
+_NEW_FILE: Final = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
 _NOT_LINKABLE: Final = frozenset({errno.EXDEV, errno.EPERM, errno.EMLINK, errno.EOPNOTSUPP})
 
 
@@ -22,7 +23,7 @@ class Record:
 
 @dataclass
 class DurableFolder:
-    """Writes whole files below a folder; `commit` makes everything written so far durable.
+    """Writes whole files below a folder, many at a time.
 
     A file appears under its name only when all of it is on the disk. `records` holds size and
     checksum of every file written, by key (path below the folder, with slashes).
@@ -30,30 +31,40 @@ class DurableFolder:
 
     root: Path
     records: dict[str, Record] = field(default_factory=dict)
+    _partial: dict[str, None] = field(default_factory=dict)  # in order, each once
+    _folders: set[str] = field(default_factory=set)
     _unsynced: set[str] = field(default_factory=set)
 
     def write(self, key: str, content: bytes) -> None:
-        """Write one file, fsync it and move it to its name; its folder is made if need be."""
-        path = f"{self.root}/{key}"
-        self._note_folders(key)
-        try:
-            descriptor = _create(path + PARTIAL)
-        except FileNotFoundError:
-            os.makedirs(os.path.dirname(path))
-            descriptor = _create(path + PARTIAL)
-        try:
-            _write_all(descriptor, content)
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
-        os.replace(path + PARTIAL, path)
+        """Write one file, to appear with the next `commit`; its folder is made if need be."""
+        self._put(key, content)
+        self._partial[key] = None
         self.records[key] = Record(len(content), sha256(content).hexdigest())
+
+    def commit(self) -> None:
+        """Make everything durable that was written since the last commit.
+
+        All files first, then all their names: the first fsync then does most of the work of a
+        journalling file system for all that follow.
+        """
+        for key in self._partial:
+            _sync(f"{self.root}/{key}{PARTIAL}")
+        for key in self._partial:
+            self._appear(key)
+        self._partial.clear()
+        for folder in sorted(self._unsynced):
+            _sync(f"{self.root}/{folder}" if folder else str(self.root))
+        self._unsynced.clear()
+
+    def draft(self, key: str, content: bytes) -> None:
+        """Write one file that readers see whole, but that a power cut may take away."""
+        self._put(key, content)
+        self._appear(key)
 
     def adopt(self, key: str, source: Path) -> None:
         """Take a finished file over from `source`: a second name for it, or else a copy."""
         path = self.root / key
-        self._note_folders(key)
-        path.parent.mkdir(parents=True, exist_ok=True)
+        self._make_folder(key)
         try:
             os.link(source, path)
         except OSError as error:
@@ -64,12 +75,6 @@ class DurableFolder:
             _sync(partial)
             os.replace(partial, path)
 
-    def commit(self) -> None:
-        """Make the names of everything written since the last commit durable."""
-        for folder in sorted(self._unsynced):
-            _sync(f"{self.root}/{folder}" if folder else str(self.root))
-        self._unsynced.clear()
-
     def record(self, key: str) -> Record:
         """Size and checksum of a file; read from the disk where it was not written here."""
         known = self.records.get(key)
@@ -77,10 +82,27 @@ class DurableFolder:
             known = self.records[key] = measure(self.root / key)
         return known
 
-    def _note_folders(self, key: str) -> None:
-        while key:
-            key = key.rpartition("/")[0]
-            self._unsynced.add(key)
+    def _put(self, key: str, content: bytes) -> None:
+        self._make_folder(key)
+        descriptor = os.open(f"{self.root}/{key}{PARTIAL}", _NEW_FILE, 0o666)
+        try:
+            _write_all(descriptor, content)
+        finally:
+            os.close(descriptor)
+
+    def _appear(self, key: str) -> None:
+        path = f"{self.root}/{key}"
+        os.replace(path + PARTIAL, path)
+
+    def _make_folder(self, key: str) -> None:
+        """Make the folder of a file; a new folder's name must become durable as well."""
+        folder = key.rpartition("/")[0]
+        self._unsynced.add(folder)
+        while folder and folder not in self._folders:
+            os.makedirs(f"{self.root}/{folder}", exist_ok=True)
+            self._folders.add(folder)
+            folder = folder.rpartition("/")[0]
+            self._unsynced.add(folder)
 
 
 def measure(path: Path) -> Record:
@@ -92,10 +114,6 @@ def measure(path: Path) -> Record:
             digest.update(block)
             size += len(block)
     return Record(size, digest.hexdigest())
-
-
-def _create(path: str) -> int:
-    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666)
 
 
 def _write_all(descriptor: int, content: bytes) -> None:

@@ -1,6 +1,5 @@
 """Write the results of one attempt, from empty store to sealed store."""
 
-import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -54,7 +53,7 @@ class ResultWriter:
             raise StoreExists(f"{path} holds results already; choose another folder")
         path.mkdir(parents=True, exist_ok=True)
         writer = cls(path, layout)
-        writer._write_documents()
+        writer._show()
         return writer
 
     @classmethod
@@ -101,7 +100,7 @@ class ResultWriter:
             table.take_over(taken_over_from, durable)
         state.replay(taken_over_from, writer._tables)
         if writer._impacts.durable:
-            writer._show_impacts()
+            writer._show()
         return writer
 
     @property
@@ -173,7 +172,7 @@ class ResultWriter:
             durable = self._impacts.durable
             self._impacts.append([impacts[str(name)] for name in IMPACT.names or ()])
             if self._impacts.durable != durable:
-                self._show_impacts()
+                self._show()
 
     def checkpoint(self) -> bytes:
         """Bring everything appended so far to the disk and return a restart point.
@@ -238,31 +237,24 @@ class ResultWriter:
         self._peaks.append(list(rows.T))
         for table in self._tables:
             table.finish()
+        self._remove_scaffolding()
         shown = [table.rows for table in self._tables]
         for key, document in metadata.documents(self._layout, shown, attributes).items():
             self._folder.write(key, metadata.serialise(document))
-        self._remove_scaffolding()
         self._folder.commit()
         manifest.seal(self._folder)
         self._sealed = True
 
-    def _write_documents(self) -> None:
-        """Write all metadata of an empty store, the root's last; made durable by `seal`."""
-        layout = self._layout
-        shown = [layout.samples, layout.sections, 0, len(layout.channels)]
-        for key, document in metadata.documents(layout, shown, {}).items():
-            path = f"{self._path}/{key}"
-            os.makedirs(os.path.dirname(path), exist_ok=True)
-            with open(path, "wb", buffering=0) as file:
-                file.write(metadata.serialise(document))
+    def _show(self) -> None:
+        """Let readers of the growing store see all samples to come and the impacts so far.
 
-    def _show_impacts(self) -> None:
-        """Let readers of the growing store see the impacts that are in shards by now."""
+        The groups' documents hold those of the arrays; each array's own is written by `seal`.
+        """
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
         for key, document in metadata.documents(layout, shown, {}).items():
-            if key.startswith("impacts/") or key == metadata.FILE:
-                self._folder.write(key, metadata.serialise(document))
+            if document["node_type"] == "group":
+                self._folder.draft(key, metadata.serialise(document))
 
     def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:
         expected = (len(time), len(self._layout.channels))

@@ -1,6 +1,9 @@
 """A store that is being written shows what is durable and nothing else."""
 
+import errno
+import os
 import tracemalloc
+from itertools import count
 
 import numpy as np
 import pytest
@@ -105,6 +108,28 @@ def test_a_sealed_store_takes_nothing_more(run, writer):
 def test_a_store_is_written_once(tmp_path, run, writer):
     with pytest.raises(StoreExists, match="choose another folder"):
         ResultWriter.create(tmp_path / "store", run.layout)
+
+
+@pytest.mark.parametrize("written", [0, 1, 5, 8])
+def test_a_full_disk_loses_no_row_that_was_taken(tmp_path, run, writer, monkeypatch, written):
+    run.append(writer, 0.0, 0.2)
+    write, calls = os.write, count()
+
+    def write_until_full(descriptor, content):
+        if next(calls) >= written:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(descriptor, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "write", write_until_full)
+        with pytest.raises(OSError, match="No space left"):
+            run.append(writer, 0.2, 0.9)
+    kept = writer.samples
+    assert kept >= 8
+    writer.seal(peaks=run.peaks, summary={}, complete=False)  # somebody made room
+    reader = ResultReader(tmp_path / "store")
+    reader.verify()
+    np.testing.assert_array_equal(reader.history()[1]["slider7.q1"], run.samples[:kept, 1])
 
 
 def nothing(channels=2):

@@ -41,7 +41,7 @@ runs = st.builds(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(run=runs, events=st.lists(event, max_size=8))
 def test_any_slicing_and_any_kill_gives_the_files_of_an_undisturbed_run(run, events):
     with tempfile.TemporaryDirectory() as folder:

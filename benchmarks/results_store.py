@@ -1,0 +1,114 @@
+"""What the results store costs: creating, filling, sealing, reading.
+
+    python benchmarks/results_store.py [FOLDER]
+
+FOLDER is where the stores are written for the measurement (default: the system's temporary
+folder); its disk decides what fsync costs.
+"""
+
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultReader, ResultWriter
+
+CHANNELS = 95
+REPEATS = 7
+
+
+def layout(samples: int, sections: int) -> ResultLayout:
+    channels = tuple(
+        ArraySpec(f"body{index // 9}.coordinate{index % 9}", "m", "position of a centre of mass")
+        for index in range(CHANNELS)
+    )
+    return ResultLayout(channels, samples, sections, ("A", "B"), {"job": {"kind": "simulate"}})
+
+
+def rows(count: int) -> tuple[np.ndarray, np.ndarray]:
+    time = np.linspace(0.0, 2.0, count)
+    noise = np.random.default_rng(0).normal(scale=1e-9, size=(count, CHANNELS))
+    return time, np.sin(time[:, None] * np.arange(1, CHANNELS + 1)) + noise
+
+
+def show(what: str, seconds: float) -> None:
+    print(f"{what:<58}{1e3 * seconds:10.2f} ms")
+
+
+def timed(action: Callable[[], object]) -> float:
+    begin = perf_counter()
+    action()
+    return perf_counter() - begin
+
+
+def default_history(folder: Path) -> None:
+    """Store 2001 samples, 2 sections, 100 impacts: one revolution of a press."""
+    time, samples = rows(2001)
+    peaks = {channel.name: Peak(0.0, 0.0, 1.0, 1.0) for channel in layout(1, 0).channels}
+    costs: dict[str, list[float]] = {}
+    for repeat in range(REPEATS):
+        path = folder / f"small{repeat}"
+        begin = perf_counter()
+        writer = ResultWriter.create(path, layout(2001, 2))
+        created = perf_counter()
+        impacts = np.zeros(100, IMPACT)
+        writer.append(0, time, samples, 0, time[:2], samples[:2], impacts)
+        appended = perf_counter()
+        writer.seal(peaks=peaks, summary={})
+        sealed = perf_counter()
+        reader = ResultReader(path)
+        opened = perf_counter()
+        reader.history()
+        read = perf_counter()
+        for name, cost in (
+            ("create (95 channels, all metadata)", created - begin),
+            ("append 2001 samples: one shard an array, fsynced", appended - created),
+            ("seal: sections, impacts, peaks, manifest, fsynced", sealed - appended),
+            ("open for reading", opened - sealed),
+            ("read all channels", read - opened),
+        ):
+            costs.setdefault(name, []).append(cost)
+    for name, values in costs.items():
+        show(f"2001 samples: {name}", min(values))
+    show("2001 samples: read one channel", timed(lambda: reader.history(["body0.coordinate3"])))
+    show("2001 samples: verify against the manifest", timed(reader.verify))
+    size = (folder / "small0/zarr.json").stat().st_size
+    print(f"2001 samples: size of the root's zarr.json{size / 1e3:33.1f} kB")
+
+
+def long_history(folder: Path) -> None:
+    """Append a million samples in slices of 5000."""
+    samples, piece = 1_000_000, 5000
+    time, values = rows(piece)
+    writer = ResultWriter.create(folder / "long", layout(samples, 0))
+    nothing = np.empty(0), np.empty((0, CHANNELS)), np.empty(0, IMPACT)
+
+    def fill() -> None:
+        for first in range(0, samples, piece):
+            writer.append(first, time + first, values, 0, *nothing)
+
+    show("1e6 samples: append, 760 MB", timed(fill))
+    show("1e6 samples: checkpoint, 17 000 rows waiting", timed(writer.checkpoint))
+    show("1e6 samples: seal", timed(lambda: writer.seal(peaks={}, summary={})))
+    reader = ResultReader(folder / "long")
+    name = ["body0.coordinate3"]
+    show("1e6 samples: slice of 1000", timed(lambda: reader.history(name, 500_000, 501_000)))
+    show("1e6 samples: one whole channel", timed(lambda: reader.history(name)))
+
+
+def main() -> None:
+    parent = sys.argv[1] if len(sys.argv) > 1 else None
+    folder = Path(tempfile.mkdtemp(prefix="results_store_", dir=parent))
+    try:
+        default_history(folder)
+        long_history(folder)
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()
