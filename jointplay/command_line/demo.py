@@ -33,7 +33,8 @@ def demo(
     from jointplay.serving import running_service
     from solver import presets
 
-    cases = cases_of(_published(presets.document(preset, pointer="PRESET")))
+    scene = _published(presets.document(preset, pointer="PRESET"))
+    cases = cases_of(scene)
     data = output / "service"
     shutil.rmtree(data, ignore_errors=True)  # what an earlier demo left
     typer.echo("starting broker, API and workers")
@@ -42,7 +43,8 @@ def demo(
         jobs = _finished(client, [client.submit(case.job(preset)).id for case in cases])
         peaks = [client.peaks(job.id) for job in jobs]
         _fetch_figures(client, cases, jobs, output)
-    typer.echo("\n".join(["everything is stopped", "", *table(cases, peaks)]))
+    typer.echo(f"everything is stopped\n\nsource: {scene['source']}")
+    typer.echo("\n".join(table(cases, peaks)))
     typer.echo(f"figures are in {output}/")
 
 

@@ -21,6 +21,7 @@ from service.problems.document import (
 from solver.errors import InvalidInput, LimitExceeded
 
 _log = logging.getLogger(__name__)
+_MOST_ERRORS = 100  # in one document; their count is in its detail
 _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
 
@@ -98,9 +99,10 @@ def _(error: InvalidInput) -> RequestRefused:
     kind = kinds.LIMIT_EXCEEDED if isinstance(error, LimitExceeded) else kinds.INVALID_JOB
     errors = [
         ErrorDetail(pointer=clipped(one.pointer), detail=clipped(one.detail))
-        for one in error.problems
+        for one in error.problems[:_MOST_ERRORS]
     ]
-    detail = errors[0].detail if len(errors) == 1 else f"{len(errors)} fields are wrong."
+    count = len(error.problems)
+    detail = errors[0].detail if count == 1 else f"{count} fields are wrong."
     return RequestRefused(kind, detail, errors)
 
 

@@ -6,7 +6,6 @@ from jointplay.channel_choice import NoSuchChannel, choose
 from service.problems import ErrorDetail, RequestRefused, kinds
 
 MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON
-_MOST_ERRORS = 20
 
 
 class Window(BaseModel):
@@ -47,10 +46,7 @@ def chosen_channels(text: str | None, names: list[str]) -> list[str]:
     try:
         return choose(text, names)
     except NoSuchChannel as error:
-        errors = [
-            ErrorDetail(parameter="channels", detail=sentence)
-            for sentence in error.sentences[:_MOST_ERRORS]
-        ]
+        errors = [ErrorDetail(parameter="channels", detail=one) for one in error.sentences]
         raise RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors) from None
 
 
