@@ -38,21 +38,31 @@ def export(
     Example: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`
     """
     if not output_folder.is_job_id(results):
-        pieces = _local(Path(results), channels, start, stop, form)
+        source, names = _local(Path(results), channels)
     else:
-        pieces = _fetched(results, channels, start, stop, form, url)
+        source, names = _fetched(results, channels, start, stop, url)
+    pieces = _text(source, names, start, stop, form)
     if output is None:
         sys.stdout.writelines(pieces)
         return
-    first = next(pieces)  # what is wrong shows here, before a file is made
-    with output.open("w", encoding="utf-8") as file:
-        file.write(first)
-        file.writelines(pieces)
+    first, last = source.between(start, stop)
+    _write(pieces, output, values=(last - first) * (len(names) + 1))
 
 
-def _local(
-    folder: Path, channels: str | None, start: float | None, stop: float | None, form: Form
-) -> Iterator[str]:
+def _write(pieces: Iterator[str], output: Path, values: int) -> None:
+    """Write the text to a file; a comma a value tells how far it is."""
+    from jointplay.command_line.progress import progress
+
+    written = 0
+    with output.open("w", encoding="utf-8") as file, progress(output.name) as report:
+        for piece in pieces:
+            file.write(piece)
+            written += piece.count(",")
+            report(min(written / max(values, 1), 0.99), "")
+        report(1.0, "")
+
+
+def _local(folder: Path, channels: str | None) -> "tuple[Source, list[str]]":
     from jointplay.channel_choice import NoSuchChannel, choose
     from storage.results import ResultReader
 
@@ -61,17 +71,12 @@ def _local(
         names = choose(channels, [channel.name for channel in reader.channels])
     except NoSuchChannel as error:
         raise Stopped(Exit.BAD_INPUT, f"--channels: {error}") from None
-    return _written(reader, names, start, stop, form)
+    return reader, names
 
 
 def _fetched(
-    job_id: str,
-    channels: str | None,
-    start: float | None,
-    stop: float | None,
-    form: Form,
-    url: str,
-) -> Iterator[str]:
+    job_id: str, channels: str | None, start: float | None, stop: float | None, url: str
+) -> "tuple[Source, list[str]]":
     from jointplay.dataset import Channel, Dataset
 
     with connection.connect(url) as client:
@@ -84,10 +89,10 @@ def _fetched(
         values={name: one.values for name, one in history.channels.items()},
         complete=history.complete,
     )
-    return _written(dataset, list(history.channels), None, None, form)
+    return dataset, list(history.channels)
 
 
-def _written(
+def _text(
     source: "Source", names: list[str], start: float | None, stop: float | None, form: Form
 ) -> Iterator[str]:
     from jointplay import export as formats

@@ -7,6 +7,7 @@ import typer
 
 from jointplay.command_line import connection, output_folder
 from jointplay.command_line.drawing import Form
+from jointplay.command_line.progress import progress
 
 
 def plot(
@@ -42,9 +43,12 @@ def plot(
 def _fetch(job_id: str, names: list[str] | None, folder: Path, form: Form, url: str) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    with connection.connect(url) as client:
-        for name in names or client.figures(job_id):
+    with connection.connect(url) as client, progress("figures") as report:
+        wanted = names or client.figures(job_id)
+        for done, name in enumerate(wanted):
+            report(done / len(wanted), name)
             path = folder / f"{name}.{form}"
             path.write_bytes(client.figure(job_id, name, form))
             written.append(path)
+        report(1.0, "")
     return written
