@@ -61,7 +61,7 @@ def _orbit(axes: Axes, x: Floats, y: Floats, radius: float) -> None:
         rasterized=len(x) > page.MOST_VECTOR_POINTS,
         label="journal centre",
     )
-    axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=3.0, label="first sample")
+    axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=2.5, label="first sample")
     axes.plot(
         radius * np.cos(angle),
         radius * np.sin(angle),

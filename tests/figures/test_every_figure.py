@@ -15,6 +15,7 @@ from matplotlib.text import Text
 from PIL import Image
 
 from jointplay import figures
+from jointplay.dataset import Peak
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 
@@ -35,8 +36,12 @@ def name(request):
 
 def drawn(motion, name):
     """The figure, laid out as it is saved."""
+    return drawn_with(motion, name, CHOICES.get(name))
+
+
+def drawn_with(motion, name, selection):
     with page.style():
-        figure = figures.draw(motion, name, CHOICES.get(name))
+        figure = figures.draw(motion, name, selection)
         figure.draw_without_rendering()
     return figure
 
@@ -244,6 +249,18 @@ def test_a_long_history_keeps_its_extremes():
     assert len(time) <= 4002
     assert shown.max() == 9.0
     assert time[shown.argmax()] == motion.time[54_321]
+
+
+def test_extremes_that_no_sample_comes_near_are_marked(motion):
+    def marked(selection=None):
+        (axes,) = drawn_with(peaks, "stroke", selection).axes
+        (marks,) = [line for line in axes.lines if line.get_label() == "extreme between samples"]
+        return np.column_stack(marks.get_data()).tolist()
+
+    low, high = motion.values["stroke"].min(), motion.values["stroke"].max()
+    peaks = replace(motion, extremes={"stroke": Peak(low - 0.2, 0.3, high + 1e-5, 1.2)})
+    assert marked() == [[0.3, low - 0.2]]  # the maximum is as good as on a sample
+    assert marked(Selection(start=1.3)) == []
 
 
 def test_the_phase_portrait_shows_every_section_of_the_window(motion):
