@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
-_SCALABLE = re.compile(r"(m|s|N|J|W|N m|m/s|m/s\^2|rad|rad/s)")
-_NEVER_LARGER = ("m", "s", "rad")  # kilometres and kiloseconds are no unit of a mechanism
+_SCALABLE = re.compile(r"m|s|N|J|W|N m|m/s|m/s\^2|rad|rad/s")
+_NEVER_LARGER = ("m", "s", "rad", "rad/s", "m/s")  # no mechanism is measured in kilometres
 _LARGEST_PLAIN = 1e4
 _SMALLEST_PLAIN = 0.1
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -50,7 +50,7 @@ def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
         if largest >= (factor if factor > 1.0 else _SMALLEST_PLAIN * factor)
     ]
     factor, prefix = fitting[-1] if fitting else _PREFIXES[0]
-    if factor > 1.0 and unit.startswith(_NEVER_LARGER):
+    if factor > 1.0 and unit in _NEVER_LARGER:
         factor, prefix = 1.0, ""
     return Scale(factor, prefix + pretty)
 

@@ -15,6 +15,7 @@ from jointplay.figures.quantity import scale
         ("m", 3e4, "m"),
         ("m/s", 0.02, "mm/s"),
         ("m/s^2", 592.9, "m/s²"),
+        ("m/s^2", 2.2e5, "km/s²"),
         ("N", 1569.0, "N"),
         ("N", 2.5e5, "kN"),
         ("N m", 4e6, "MN·m"),
