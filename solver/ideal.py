@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from solver.admission import Admission, section_offset
 from solver.assembly import ASSEMBLED, assemble, shortest_link
 from solver.drive import characteristic_time
 from solver.errors import SimulationFailed
+from solver.extremes import refine_extreme
 from solver.mechanics.absolute import AbsoluteMechanism, Row
 from solver.mechanics.motion import BodyMotion, Motion
 from solver.mechanics.observe import channel_values
@@ -102,9 +103,13 @@ class IdealRun:
         values = self.channels(times)
         peaks = {}
         for c, name in enumerate(self.names):
-            low = self._extreme(times, values[:, c], c, -1.0)
-            high = self._extreme(times, values[:, c], c, 1.0)
-            peaks[name] = Peak(low[1], low[0], high[1], high[0])
+            column = values[:, c]
+            if column.min() == column.max():
+                peaks[name] = Peak(float(column[0]), 0.0, float(column[0]), 0.0)
+                continue
+            low_time, low = refine_extreme(self._channel(c), times, column, -1.0)
+            high_time, high = refine_extreme(self._channel(c), times, column, 1.0)
+            peaks[name] = Peak(low, low_time, high, high_time)
         statistics: dict[str, Any] = {
             "steps": 0,
             "rejections": 0,
@@ -122,6 +127,9 @@ class IdealRun:
         values = channel_values(self.numbers, self.motion(times))
         columns = [np.broadcast_to(values[name], times.shape) for name in self.names]
         return np.stack(columns, axis=1)
+
+    def _channel(self, column: int) -> Callable[[Floats], Floats]:
+        return lambda times: self.channels(times)[:, column]
 
     def motion(self, times: Floats) -> Motion:
         """Return the mechanism's motion and all forces at times in s."""
@@ -223,26 +231,6 @@ class IdealRun:
                 lost,
             )
         return q
-
-    def _extreme(
-        self, times: Floats, values: Floats, column: int, sense: float
-    ) -> tuple[float, float]:
-        """Refine a sampled extreme: a parabola's vertex is evaluated, then taken as middle."""
-        best = int((sense * values).argmax())
-        at, value = float(times[best]), float(values[best])
-        spacing = float(times[1] - times[0])
-        for _ in range(3):
-            around = np.clip(np.array([at - spacing, at, at + spacing]), times[0], times[-1])
-            a, b, c = (float(x) for x in self.channels(around)[:, column])
-            curvature = a - 2.0 * b + c
-            if at in (times[0], times[-1]) or curvature == 0.0:
-                break
-            at = float(np.clip(at + 0.5 * spacing * (a - c) / curvature, times[0], times[-1]))
-            refined = float(self.channels(np.array([at]))[0, column])
-            if sense * refined >= sense * value:
-                value = refined
-            spacing *= 0.1
-        return at, value
 
 
 def _columns(array: Floats) -> list[Floats]:

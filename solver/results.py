@@ -52,6 +52,12 @@ class Peak:
     maximum: float
     maximum_time: float
 
+    def scaled(self, factor: float, offset: float) -> Peak:
+        """Return the extremes of factor * channel + offset."""
+        low = (factor * self.minimum + offset, self.minimum_time)
+        high = (factor * self.maximum + offset, self.maximum_time)
+        return Peak(*low, *high) if factor >= 0.0 else Peak(*high, *low)
+
 
 @dataclass(frozen=True)
 class Summary:

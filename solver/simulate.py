@@ -17,7 +17,7 @@ from solver.errors import SimulationFailed
 from solver.ideal import IdealRun
 from solver.integrators import TSITOURAS5
 from solver.lanes.bundle import Bundle, LaneProblem
-from solver.lanes.observation import observe_rows
+from solver.lanes.prescribed import prescribed_peaks
 from solver.lanes.state import Counter, Setting, Status
 from solver.mechanics.tree import spanning_tree
 from solver.results import IMPACT, Floats, Peak, Slice, Summary
@@ -96,7 +96,7 @@ class DynamicRun:
             offset,
         )
         self.bundle = Bundle(self.kernel, [problem])
-        rows = self.kernel.channels
+        rows = self.kernel.rows
         self.columns = np.array([rows.index(c.name) for c in admission.channels], dtype=np.int64)
         self.first_energy = self._energy()
         self.seconds = 0.0
@@ -147,17 +147,7 @@ class DynamicRun:
 
     def summary(self) -> Summary:
         """See `Simulation.summary`."""
-        rows = len(self.kernel.channels)
-        highest, lowest = (self.bundle.table(f"{b}0", rows)[:, LANE] for b in ("highest", "lowest"))
-        high_time, low_time = (
-            self.bundle.table(f"{b}_time0", rows)[:, LANE] for b in ("highest", "lowest")
-        )
-        peaks = {
-            channel.name: Peak(
-                float(lowest[r]), float(low_time[r]), float(highest[r]), float(high_time[r])
-            )
-            for channel, r in zip(self.admission.channels, self.columns, strict=True)
-        }
+        peaks = self._peaks()
         counters = self.bundle.counters[:, LANE]
         steps = int(self.bundle.table("steps")[0, LANE])
         statistics: dict[str, Any] = {
@@ -169,6 +159,24 @@ class DynamicRun:
             "energy": self._ledger(),
         }
         return Summary(peaks, statistics)
+
+    def _peaks(self) -> dict[str, Peak]:
+        rows, table = self.kernel.rows, self.bundle.table
+        records = [
+            table(f"{block}0", rows.scanned)[:, LANE]
+            for block in ("lowest", "lowest_time", "highest", "highest_time")
+        ]
+        found = {
+            name: Peak(*(float(column[r]) for column in records))
+            for r, name in enumerate(rows.watched)
+        }
+        for name, (source, factor, offset) in rows.multiples.items():
+            found[name] = found[source].scaled(factor, offset)
+        names = [channel.name for channel in self.admission.channels]
+        unwatched = [name for name in names if name not in found]
+        if unwatched:
+            found |= prescribed_peaks(self.bundle, LANE, unwatched, self.bundle.time(LANE))
+        return {name: found[name] for name in names}
 
     def _slice(self) -> Slice:
         counters = self.bundle.counters
@@ -199,24 +207,13 @@ class DynamicRun:
 
     def _observe(self, buffer: Floats, counter: Counter) -> tuple[Floats, Floats]:
         rows = buffer[LANE, : self.bundle.counters[counter, LANE]]
-        out = np.empty((len(rows), len(self.columns)))
-        if len(rows):
-            observe_rows(
-                self.kernel.module.right_hand_side,
-                self.kernel.module.observe,
-                self.kernel.slots,
-                self.bundle.work,
-                self.bundle.spare,
-                LANE,
-                rows,
-                self.columns,
-                out,
-            )
+        out = self.bundle.observe(LANE, rows, self.columns)
         return out, rows[:, 0] * self.bundle.settings[Setting.PERIOD, LANE] + rows[:, 1]
 
     def _energy(self) -> dict[str, float]:
-        rows = self.kernel.channels
-        values = self.bundle.table("channel0", len(rows))[:, LANE]
+        rows = self.kernel.rows
+        self.kernel.module.observe_rest(self.bundle.work)
+        values = self.bundle.table("channel0", len(rows.names))[:, LANE]
         return {
             "kinetic": float(values[rows.index("energy.kinetic")]),
             "potential": float(values[rows.index("energy.potential")]),

@@ -41,6 +41,7 @@ options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz"
 '''
 DECORATOR = "@njit(void(float64[::1]), **options)"
 RETURNING = "@njit(float64(float64[::1]), **options)"
+PROBING = "@njit(void(float64[::1], float64[::1], int64), **options)"
 
 
 class FixedNodes:

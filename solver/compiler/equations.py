@@ -18,7 +18,8 @@ class Equations:
     """What kernels evaluate, as expressions of the variables.
 
     The variables are ``stage0…`` (coordinates, then their speeds), ``stage_time`` (s within the
-    period), ``phase<k>`` (driver k's position at local time zero), ``mode<j>`` and
+    period), ``phase<k>`` (driver k's position at local time zero), ``wound<k>``
+    (its whole turns before that, rad, for angles that are shown; trigonometry needs no turns), ``mode<j>`` and
     ``impact_rate<j>`` of joint j with play, in document order.
     """
 
@@ -74,6 +75,8 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         observed = mechanism.motion(modes, rates, known)
     lift = recorder.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
+    for body, wound in _windings(scene, tree, recorder).items():
+        channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(observed))
     return Equations(
         recorder,
@@ -88,3 +91,20 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         ),
         channels,
     )
+
+
+def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Expression]:
+    """Whole turns of bodies whose angle drivers prescribe, as seen from the ground."""
+    drivers = list(scene.drivers)
+    found: dict[str, Expression] = {}
+    for branch in tree.branches:
+        wound = found.get(branch.parent)
+        if branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates:
+            continue
+        if branch.kind == "revolute" and branch.driver is not None:
+            own = recorder.variable(f"wound{drivers.index(branch.driver)}")
+            own = own if branch.outward else -own
+            wound = own if wound is None else wound + own
+        if wound is not None:
+            found[branch.body] = wound
+    return found

@@ -16,6 +16,7 @@ from solver.compiler.equations import Equations, record
 from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
+from solver.compiler.rows import Rows, arrange
 from solver.compiler.slots import Slots, slots_of
 from solver.integrators.tableau import Tableau
 from solver.mechanics.tree import Tree
@@ -28,12 +29,7 @@ LEDGER = 3
 
 @dataclass(frozen=True)
 class Kernel:
-    """Compiled functions over one work array, and what the slots mean.
-
-    `channels` lists the rows of the ``channel`` block: every channel of the scene, then
-    ``stored`` (elastic energy), then the normal force of each joint with play once more, for the
-    peak of each contact.
-    """
+    """Compiled functions over one work array, and what the slots mean."""
 
     module: ModuleType
     layout: Layout
@@ -41,7 +37,8 @@ class Kernel:
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     play: tuple[str, ...]
-    channels: tuple[str, ...]
+    rows: Rows
+    """What the ``channel`` block holds."""
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
 
@@ -62,6 +59,7 @@ class Kernel:
             m.right_hand_side,
             m.observe,
             m.scan,
+            m.lend,
             m.probe,
             m.probe_before,
         )
@@ -90,23 +88,26 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     states, joints = 2 * len(equations.coordinates), len(equations.play)
     ledger = LEDGER + joints
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
-    rows = _rows(equations)
-    scanning.allocate(layout, len(rows))
+    rows = arrange(scene, equations)
+    scanning.allocate(layout, rows.scanned, len(rows.rest))
     # `accept` once more for every row, so that one flat loop, which vectorises, can be masked
-    mask_rows = max(len(rows), states * (tableau.stages + 1))
+    mask_rows = max(rows.scanned, states * (tableau.stages + 1))
     layout.add_block("mask", mask_rows)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", len(equations.drivers))
+    layout.add_block("wound", len(equations.drivers))
     fixed = FixedNodes(layout)
     steps = stepping.StepRecorder(tableau, states, ledger, joints, mask_rows, layout)
-    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows)]
+    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     source = "\n\n".join(
         [
             HEADER,
             lane_function("right_hand_side", _slopes(equations), layout, fixed),
-            lane_function("observe", observed, layout, fixed),
+            lane_function("observe", observed[: rows.scanned], layout, fixed),
+            lane_function("observe_rest", observed[rows.scanned :], layout, fixed),
             steps.source(),
-            scanning.source(layout, len(rows)),
+            scanning.source(layout, rows.scanned),
+            stepping.lend_function(layout["numbers"], layout.size),
         ]
     )
     module = load(source)
@@ -114,17 +115,13 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     return Kernel(
         module,
         layout,
-        slots_of(layout, states, ledger, joints, drivers, len(rows), mask_rows),
+        slots_of(layout, states, ledger, joints, drivers, rows.scanned, mask_rows),
         equations.coordinates,
         equations.drivers,
         equations.play,
         rows,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
     )
-
-
-def _rows(equations: Equations) -> tuple[str, ...]:
-    return (*equations.channels, *(f"{name}.normal_force" for name in equations.play))
 
 
 def _slopes(equations: Equations) -> list[tuple[str, Expression]]:

@@ -11,21 +11,22 @@ from solver.compiler.layout import LANES, Layout
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest", "candidate")
 
-TOP, BOTTOM = 1.0, 2.0
-"""What a candidate may be: a maximum or a minimum around the start of the step."""
-
 CHAINS = 4
 """Independent maxima in the reduction over rows: one would wait for its own latency."""
 
-MARGIN = 0.5
-"""How far an extreme inside the steps may lie beyond the step end, in the larger of the adjacent
-changes. A sine sampled every 1.5 rad, the limit of stability, needs 0.2."""
+MARGIN = 0.2
+"""How far an extreme inside the steps may lie beyond the step end, in the sum of the adjacent
+changes. A sine sampled every 1.5 rad, the limit of stability, needs 0.2; finer ones 1/8."""
 
 
-def allocate(layout: Layout, rows: int) -> None:
-    """Give slots to `rows` channel values, their predecessors, changes and records."""
+def allocate(layout: Layout, rows: int, rest: int) -> None:
+    """Give slots to `rows` channel values, their predecessors, changes and records.
+
+    `rest` further channel values are not scanned.
+    """
     layout.add("peak")
-    for block in (*BLOCKS, "highest_time", "lowest_time"):
+    layout.add_block("channel", rows + rest)
+    for block in (*BLOCKS[1:], "highest_time", "lowest_time"):
         layout.add_block(block, rows)
 
 
@@ -53,16 +54,12 @@ def scan(W):
         rose = W[{at["change"]} + i]
         taken = W[{mask} + i]
         change = value - before
-        step = abs(rose) if abs(rose) > abs(change) else abs(change)
-        over = before + {MARGIN} * step - W[{at["highest"]} + i]
-        under = W[{at["lowest"]} + i] - before + {MARGIN} * step
-        top = {TOP} if over > 0.0 else 0.0
-        top = top if rose > 0.0 else 0.0
-        top = 0.0 if change > 0.0 else top
-        bottom = {BOTTOM} if under > 0.0 else 0.0
-        bottom = bottom if rose < 0.0 else 0.0
-        bottom = 0.0 if change < 0.0 else bottom
-        W[{at["candidate"]} + i] = top + bottom if taken > 0.0 else 0.0
+        above = W[{at["highest"]} + i] - before
+        below = before - W[{at["lowest"]} + i]
+        nearest = above if above < below else below
+        within = {MARGIN} * (abs(rose) + abs(change)) - nearest
+        found = 0.0 if rose * change > 0.0 else within
+        W[{at["candidate"]} + i] = found if taken > 0.0 else 0.0
         W[{at["previous"]} + i] = value if taken > 0.0 else before
         W[{at["change"]} + i] = change if taken > 0.0 else rose
     for l in range({LANES}):

@@ -42,6 +42,7 @@ class Slots(NamedTuple):
     impact_rate: int
     before_time: int
     phase: int
+    wound: int
     channel: int
     previous: int
     change: int
@@ -105,6 +106,7 @@ BLOCKS = (
     "mode",
     "impact_rate",
     "phase",
+    "wound",
     "channel",
     "previous",
     "change",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from solver.compiler.emit import DECORATOR, RETURNING, lane_function
+from solver.compiler.emit import DECORATOR, PROBING, RETURNING, lane_function
 from solver.compiler.lane_functions import exp2, log2
 from solver.compiler.layout import LANES, Layout
 from solver.compiler.recorder import Expression, Recorder
@@ -281,6 +281,15 @@ def keep(W):
         return probe_function(name, outputs, self.layout)
 
 
+def lend_function(first: int, last: int) -> str:
+    """Return the source of lend(W, S, lane): give all lanes of S one lane's numbers."""
+    slots = range(first, last)
+    loads = [f"    v{s} = W[{s * LANES} + lane]" for s in slots]
+    stores = [f"        S[{s * LANES} + l] = v{s}" for s in slots]
+    lines = ["def lend(W, S, lane):", *loads, f"    for l in range({LANES}):", *stores]
+    return "\n".join([PROBING, *lines]) + "\n"
+
+
 def probe_function(name: str, outputs: list[tuple[str, Expression]], layout: Layout) -> str:
     """Return the source of (W, S, lane): read one lane of W (theta of S), write all lanes of S.
 
@@ -296,6 +305,5 @@ def probe_function(name: str, outputs: list[tuple[str, Expression]], layout: Lay
             loads.append(f"    {target} = {value.replace('+ l]', '+ lane]')}")
         else:
             lines.append("        " + f"{target} = {value}".replace("W[", "S["))
-    decorator = "@njit(void(float64[::1], float64[::1], int64), **options)"
     header = header.replace("(W)", "(W, S, lane)")
-    return "\n".join([decorator, header, *loads, loop, *lines]) + "\n"
+    return "\n".join([PROBING, header, *loads, loop, *lines]) + "\n"

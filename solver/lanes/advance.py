@@ -40,6 +40,7 @@ def attend(
     counters: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
+    lend: object,
     probe: object,
     right_hand_side: object,
 ) -> bool:
@@ -52,7 +53,7 @@ def attend(
             stop(l, Status.UNDERFLOW, slots, work, counters)
         return False
     if flag & ONSET or counters[Counter.LANDING, l] >= 0:
-        landed = land(l, slots, work, spare, settings, counters, probe, right_hand_side)
+        landed = land(l, slots, work, spare, counters, lend, probe, right_hand_side)
         if not landed:
             work[slots.accept * LANES + l] = 0.0
             return False
@@ -142,7 +143,7 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
         FLAG_FUNCTION,
         *[LANE_FUNCTION] * 5,
         FLAG_FUNCTION,
-        *[PROBE_FUNCTION] * 2,
+        *[PROBE_FUNCTION] * 3,
         SLOTS,
         *[float64[::1]] * 2,
         TABLE,
@@ -159,6 +160,7 @@ def advance(
     right_hand_side: object,
     observe: object,
     scan: object,
+    lend: object,
     probe: object,
     probe_before: object,
     slots: Slots,
@@ -175,7 +177,7 @@ def advance(
 
     Parameters
     ----------
-    attempt, set_mask, keep, commit, right_hand_side, observe, scan, probe, probe_before
+    attempt, set_mask, keep, commit, right_hand_side, observe, scan, lend, probe, probe_before
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     slots
         Where quantities live in `work` and `spare`, both (slots * LANES,).
@@ -208,7 +210,7 @@ def advance(
                 ):
                     full |= attend(
                         flag, l, slots, work, spare, settings, counters,
-                        sample_rows, section_rows, probe, right_hand_side,
+                        sample_rows, section_rows, lend, probe, right_hand_side,
                     )  # fmt: skip
             if not masks(slots.accept, slots, work):
                 set_mask(work)
@@ -218,7 +220,7 @@ def advance(
                 if work[slots.peak * LANES + l] > 0.0:
                     refine_peaks(
                         l, slots, work, spare, counters, settings,
-                        probe, probe_before, right_hand_side, observe,
+                        lend, probe, probe_before, right_hand_side, observe,
                     )  # fmt: skip
         keep(work)
         commit(work)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.lanes.advance import advance
+from solver.lanes.observation import observe_rows
 from solver.lanes.periods import plan
 from solver.lanes.start import mechanism_size, start_state
 from solver.assembly import assemble, shortest_link
@@ -56,7 +57,7 @@ class Bundle:
         self.kernel = kernel
         self.problems = tuple(problems)
         size = kernel.layout.size * LANES
-        self.work, self.spare = np.zeros(size), np.zeros(size)
+        self.work, self.spare = aligned_zeros(size), aligned_zeros(size)
         drivers, joints = len(kernel.drivers), len(kernel.play)
         self.settings = np.zeros((Setting.FIRST_DRIVER + 2 * drivers, LANES))
         self.counters = np.zeros((Counter.COUNT, LANES), dtype=np.int64)
@@ -94,6 +95,24 @@ class Bundle:
                 budget,
             )
         )
+
+    def observe(self, lane: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
+        """Return channels (rows, columns) of a lane at rows of dense state."""
+        module = self.kernel.module
+        out = np.empty((len(rows), len(columns)))
+        observe_rows(
+            module.right_hand_side,
+            module.observe,
+            module.observe_rest,
+            self.kernel.slots,
+            self.work,
+            self.spare,
+            lane,
+            rows,
+            columns,
+            out,
+        )
+        return out
 
     def time(self, lane: int) -> float:
         """Return the simulated time that a lane has reached, s."""
@@ -161,18 +180,16 @@ class Bundle:
         setting[Setting.SMALLEST_STEP] = SMALLEST_STEP * period
         for k, driver in enumerate(scene.drivers.values()):
             self.table(f"phase{k}")[0, lane] = driver.position
-            travel = driver.speed * period
+            travel = driver.speed * period / (2.0 * math.pi if turning else 1.0)
             setting[Setting.FIRST_DRIVER + 2 * k] = driver.position
-            setting[Setting.FIRST_DRIVER + 2 * k + 1] = (
-                travel / (2.0 * math.pi) if turning else travel
-            )
+            setting[Setting.FIRST_DRIVER + 2 * k + 1] = round(travel) if common else travel
         counter = self.counters[:, lane]
         counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
 
     def _start(self) -> None:
         """Evaluate the start: first slopes, contacts that begin closed, first records."""
         kernel, module = self.kernel, self.kernel.module
-        states, joints, rows = kernel.states, len(kernel.play), len(kernel.channels)
+        states, joints, rows = kernel.states, len(kernel.play), kernel.rows.scanned
         self.table("stage0", states)[:] = self.table("y0", states)
         for j in range(joints):
             self.table(f"impact_rate{j}")[:] = self.table(f"impact_floor{j}")
@@ -191,6 +208,7 @@ class Bundle:
             self.table(f"gap_start{j}")[:] = self.table(f"gap{j}")
             self.table(f"gap_rate_start{j}")[:] = self.table(f"gap_rate{j}")
         module.observe(self.work)
+        module.observe_rest(self.work)
         for block in ("previous0", "highest0", "lowest0"):
             self.table(block, rows)[:] = self.table("channel0", rows)
         if joints:
@@ -199,3 +217,11 @@ class Bundle:
         self.table("active")[0] = self.counters[Counter.STATUS] == Status.RUNNING
         for lane in range(len(self.problems)):
             plan(lane, kernel.slots, self.work, self.settings, self.counters)
+
+
+def aligned_zeros(size: int) -> Floats:
+    """Return zeros that begin on a cache line: else every row of eight lanes straddles two."""
+    line = 64
+    padded = np.zeros(size + line // 8)
+    skip = (-padded.ctypes.data % line) // 8
+    return padded[skip : skip + size]

@@ -25,8 +25,8 @@ def land(
     slots: Slots,
     work: np.ndarray,
     spare: np.ndarray,
-    settings: np.ndarray,
     counters: np.ndarray,
+    lend: object,
     probe: object,
     right_hand_side: object,
 ) -> bool:
@@ -44,7 +44,7 @@ def land(
         gap = work[(slots.gap + 4 * j) * LANES + l]
         if j == target and abs(gap) <= LANDED:
             continue
-        found = first_onset(j, l, slots, work, spare, probe, right_hand_side)
+        found = first_onset(j, l, slots, work, spare, lend, probe, right_hand_side)
         if found < onset:
             onset, joint = found, j
     if target >= 0:

@@ -17,6 +17,7 @@ SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
     void(
         LANE_FUNCTION,
         LANE_FUNCTION,
+        LANE_FUNCTION,
         SLOTS,
         float64[::1],
         float64[::1],
@@ -29,6 +30,7 @@ SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
 def observe_rows(
     right_hand_side: object,
     observe: object,
+    observe_rest: object,
     slots: Slots,
     work: np.ndarray,
     spare: np.ndarray,
@@ -52,9 +54,9 @@ def observe_rows(
             row = rows[first + min(i, count - 1)]
             spare[slots.stage_time * LANES + i] = row[1]
             at = 2
-            for k in range(slots.drivers):
+            for k in range(2 * slots.drivers):
                 spare[(slots.phase + k) * LANES + i] = row[at + k]
-            at += slots.drivers
+            at += 2 * slots.drivers
             for k in range(slots.states):
                 spare[(slots.stage + k) * LANES + i] = row[at + k]
             at += slots.states
@@ -63,6 +65,7 @@ def observe_rows(
                 spare[(slots.impact_rate + k) * LANES + i] = row[at + 2 * k + 1]
         right_hand_side(spare)
         observe(spare)
+        observe_rest(spare)
         for i in range(count):
             for c in range(len(columns)):
                 out[first + i, c] = spare[(slots.channel + columns[c]) * LANES + i]

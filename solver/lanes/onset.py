@@ -17,17 +17,14 @@ NEWTON_STEPS = 4
 @kernel()
 def dense(
     l: int,
-    slots: Slots,
     work: np.ndarray,
     spare: np.ndarray,
+    lend: object,
     probe: object,
     right_hand_side: object,
 ) -> None:
     """Evaluate lane l of `work` at the eight instants in `theta` of `spare`."""
-    for s in range(slots.numbers, slots.size):
-        value = work[s * LANES + l]
-        for i in range(LANES):
-            spare[s * LANES + i] = value
+    lend(work, spare, l)
     probe(work, spare, l)
     right_hand_side(spare)
 
@@ -39,6 +36,7 @@ def first_onset(
     slots: Slots,
     work: np.ndarray,
     spare: np.ndarray,
+    lend: object,
     probe: object,
     right_hand_side: object,
 ) -> float:
@@ -52,7 +50,7 @@ def first_onset(
     for level in range(4):
         for i in range(LANES):
             spare[slots.theta * LANES + i] = low + (high - low) * (i + 1) / LANES
-        dense(l, slots, work, spare, probe, right_hand_side)
+        dense(l, work, spare, lend, probe, right_hand_side)
         before_rate = work[(gap_slot + 3) * LANES + l] if level == 0 else 1.0
         turning = -1
         for i in range(LANES):
@@ -61,7 +59,7 @@ def first_onset(
                 left = low + (high - low) * i / LANES
                 right = low + (high - low) * (i + 1) / LANES
                 return polish(
-                    j, left, right, l, slots, work, spare, probe, right_hand_side
+                    j, left, right, l, slots, work, spare, lend, probe, right_hand_side
                 )  # fmt: skip
             if before_rate > 0.0 and rate < 0.0:
                 turning = i
@@ -83,6 +81,7 @@ def polish(
     slots: Slots,
     work: np.ndarray,
     spare: np.ndarray,
+    lend: object,
     probe: object,
     right_hand_side: object,
 ) -> float:
@@ -95,7 +94,7 @@ def polish(
             spare[slots.theta * LANES + i] = left + (right - left) * (i + 1) / LANES
         if step > 0:
             spare[slots.theta * LANES + 0] = root
-        dense(l, slots, work, spare, probe, right_hand_side)
+        dense(l, work, spare, lend, probe, right_hand_side)
         if step > 0:
             gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
             better = root - gap / (rate * tried) if rate > 0.0 else root

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from solver.compiler.layout import LANES
-from solver.compiler.scanning import TOP
 from solver.compiler.slots import Slots
 from solver.jit import kernel
 from solver.lanes.state import Counter, Setting
@@ -22,6 +21,7 @@ def refine_peaks(
     spare: np.ndarray,
     counters: np.ndarray,
     settings: np.ndarray,
+    lend: object,
     probe: object,
     probe_before: object,
     right_hand_side: object,
@@ -44,7 +44,8 @@ def refine_peaks(
     for half in range(2):
         for i in range(LANES):
             spare[slots.theta * LANES + i] = i / LANES
-        dense(l, slots, work, spare, probe_before if half == 0 else probe, right_hand_side)
+        chosen = probe_before if half == 0 else probe
+        dense(l, work, spare, lend, chosen, right_hand_side)
         observe(spare)
         for i in range(LANES):
             times[half * LANES + i] = spare[slots.stage_time * LANES + i]
@@ -54,16 +55,14 @@ def refine_peaks(
     for n in range(count):
         row = rows[n] * LANES + l
         values[n, POINTS - 1] = work[slots.channel * LANES + row]
-        if work[slots.candidate * LANES + row] == TOP:
-            time, value = extreme(times, values[n], 1.0)
-            if value > work[slots.highest * LANES + row]:
-                work[slots.highest * LANES + row] = value
-                work[slots.highest_time * LANES + row] = since + time
-        else:
-            time, value = extreme(times, values[n], -1.0)
-            if value < work[slots.lowest * LANES + row]:
-                work[slots.lowest * LANES + row] = value
-                work[slots.lowest_time * LANES + row] = since + time
+        time, value = extreme(times, values[n], 1.0)
+        if value > work[slots.highest * LANES + row]:
+            work[slots.highest * LANES + row] = value
+            work[slots.highest_time * LANES + row] = since + time
+        time, value = extreme(times, values[n], -1.0)
+        if value < work[slots.lowest * LANES + row]:
+            work[slots.lowest * LANES + row] = value
+            work[slots.lowest_time * LANES + row] = since + time
 
 
 @kernel()

@@ -66,17 +66,15 @@ def turn_over(
     work[slots.end * LANES + l] = product_difference(
         settings[Setting.DURATION, l], 1.0, whole, period
     )
-    if settings[Setting.COMMON, l] > 0.0:
-        return
     for k in range(slots.drivers):
         start = settings[Setting.FIRST_DRIVER + 2 * k, l]
-        turns = settings[Setting.FIRST_DRIVER + 2 * k + 1, l]  # per period; sliders: metres
-        if settings[Setting.TURNING, l] > 0.0:
-            moved = whole * turns
-            moved = 2.0 * math.pi * (moved - math.floor(moved))
-        else:
-            moved = whole * turns
-        work[(slots.phase + k) * LANES + l] = start + moved
+        travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, l]
+        if settings[Setting.TURNING, l] == 0.0:
+            work[(slots.phase + k) * LANES + l] = start + travel
+            continue
+        turns = travel if settings[Setting.COMMON, l] > 0.0 else math.floor(travel)
+        work[(slots.wound + k) * LANES + l] = 2.0 * math.pi * turns
+        work[(slots.phase + k) * LANES + l] = start + 2.0 * math.pi * (travel - turns)
 
 
 @kernel()

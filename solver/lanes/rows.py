@@ -25,9 +25,9 @@ def write_row(
     row[0] = counters[Counter.PERIOD, l]
     row[1] = spare[slots.stage_time * LANES + i]
     at = 2
-    for k in range(slots.drivers):
+    for k in range(2 * slots.drivers):  # phases, then whole turns
         row[at + k] = work[(slots.phase + k) * LANES + l]
-    at += slots.drivers
+    at += 2 * slots.drivers
     for k in range(slots.states):
         row[at + k] = spare[(slots.stage + k) * LANES + i]
     at += slots.states

@@ -47,5 +47,5 @@ class Setting(IntEnum):
 
 
 def row_width(drivers: int, states: int, joints: int) -> int:
-    """Width of a sample or section row: period, time, phases, state, then mode and impact rate."""
-    return 2 + drivers + states + 2 * joints
+    """Width of a row: period, time, phases, turns, state, then mode and impact rate of joints."""
+    return 2 + 2 * drivers + states + 2 * joints

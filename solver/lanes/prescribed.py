@@ -1,0 +1,50 @@
+"""Extremes of channels that drivers prescribe: functions of time alone, never watched on the way."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from solver.extremes import Floats, refine_extreme
+from solver.lanes.bundle import Bundle
+from solver.lanes.state import Setting, row_width
+from solver.results import Peak
+
+INSTANTS_A_PERIOD = 720
+MOST_INSTANTS = 200_000
+
+
+def prescribed_peaks(
+    bundle: Bundle, lane: int, names: list[str], reached: float
+) -> dict[str, Peak]:
+    """Return extremes of channels over 0..reached, s; a common period is looked at once."""
+    kernel = bundle.kernel
+    setting = bundle.settings[:, lane]
+    period = float(setting[Setting.PERIOD])
+    common = bool(setting[Setting.COMMON])
+    span = min(reached, period) if common else reached
+    columns = np.array([kernel.rows.index(name) for name in names], dtype=np.int64)
+    drivers = len(kernel.drivers)
+    width = row_width(drivers, kernel.states, len(kernel.play))
+
+    def evaluate(times: Floats) -> Floats:
+        rows = np.zeros((len(times), width))
+        rows[:, 1] = times
+        for k in range(drivers):
+            rows[:, 2 + k] = setting[Setting.FIRST_DRIVER + 2 * k]
+        return bundle.observe(lane, rows, columns)
+
+    count = min(int(math.ceil(INSTANTS_A_PERIOD * span / period)) + 16, MOST_INSTANTS)
+    times = np.linspace(0.0, span, count)
+    values = evaluate(times)
+    found = {}
+    for c, name in enumerate(names):
+        column = values[:, c]
+        if column.min() == column.max():
+            found[name] = Peak(float(column[0]), 0.0, float(column[0]), 0.0)
+            continue
+        low_time, low = refine_extreme(lambda t, c=c: evaluate(t)[:, c], times, column, -1.0)
+        high_time, high = refine_extreme(lambda t, c=c: evaluate(t)[:, c], times, column, 1.0)
+        found[name] = Peak(low, low_time, high, high_time)
+    return found
