@@ -1,0 +1,148 @@
+"""Hypothesis strategies: random trees of bodies, and random instants of scenes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from hypothesis import strategies as st
+
+from solver.mechanics.tree import spanning_tree
+from solver.scene.document import Scene
+from tests.solver.readable_mechanics import Instant, at_start
+
+KINDS = ("revolute", "prismatic", "fixed")
+ENDS = {
+    "revolute": ("bearing", "journal"),
+    "prismatic": ("guide", "slider"),
+    "fixed": ("base", "part"),
+}
+
+
+def numbers(low: float, high: float) -> st.SearchStrategy[float]:
+    """Return floats that are not so small that their squares vanish."""
+    return st.floats(low, high).map(lambda x: round(x, 4))
+
+
+coordinates = st.tuples(numbers(-0.4, 0.4), numbers(-0.4, 0.4)).map(list)
+angles = numbers(-3.0, 3.0)
+
+
+@st.composite
+def trees(draw: st.DrawFn) -> Scene:
+    """Draw a scene: a tree of one to five bodies on the ground, perhaps a floating pair.
+
+    Every joint has points of its own; either end may come first; half of the joints are driven.
+    A floating part hangs on the rest by a joint with play alone. Bodies and joints stand in the
+    document in any order.
+    """
+    ground: dict[str, list[float]] = {}
+    bodies: dict[str, dict[str, Any]] = {}
+    joints: dict[str, dict[str, Any]] = {}
+    drivers: dict[str, dict[str, Any]] = {}
+
+    def point(body: str, name: str) -> str:
+        points = ground if body == "ground" else bodies[body]["points"]
+        points[name] = draw(coordinates)
+        return f"{body}.{name}"
+
+    def join(name: str, kind: str, first: str, second: str) -> dict[str, Any]:
+        one, two = ENDS[kind]
+        joint: dict[str, Any] = {
+            "type": kind,
+            one: point(first, f"at{name}"),
+            two: point(second, f"on{name}"),
+        }
+        if kind == "prismatic":
+            turn = draw(st.sampled_from([[1.0, 0.0], [0.0, -2.0], [0.6, 0.8], [-0.3, 1.1]]))
+            joint["axis"] = turn
+        if kind != "revolute":
+            joint["angle"] = draw(angles)
+        return joint
+
+    def add_body() -> str:
+        name = f"body{len(bodies)}"
+        bodies[name] = {
+            "mass": draw(numbers(0.1, 4.0)),
+            "inertia": draw(numbers(0.01, 0.5)),
+            "points": {},
+        }
+        return name
+
+    count = draw(st.integers(1, 5))
+    floating_from = draw(st.integers(1, 6))
+    for i in range(count):
+        carriers = ["ground", *bodies]
+        name = add_body()
+        if i == floating_from:
+            carrier = draw(st.sampled_from(carriers))
+            ends = [carrier, name] if draw(st.booleans()) else [name, carrier]
+            joints["Play"] = {
+                **join("Play", "revolute", *ends),
+                "clearance": {
+                    "radial_clearance": draw(numbers(1e-3, 0.05)),
+                    "bearing_radius": draw(numbers(0.06, 0.5)),
+                    "contact": {
+                        "stiffness": draw(numbers(1e2, 1e5)),
+                        "exponent": draw(st.sampled_from([1.5, 1.5, 1.2, 2.0])),
+                        "restitution": draw(numbers(0.0, 1.0)),
+                    },
+                    "friction": {
+                        "coefficient": draw(st.sampled_from([0.0, 0.3])),
+                        "static_velocity": 0.05,
+                        "dynamic_velocity": 0.1,
+                        "slip_velocity": draw(st.sampled_from(["material", "as-published"])),
+                    },
+                },
+            }
+            continue
+        carrier = draw(st.sampled_from(carriers))
+        kind = draw(st.sampled_from(KINDS))
+        ends = [carrier, name] if draw(st.booleans()) else [name, carrier]
+        joints[f"J{i}"] = join(f"J{i}", kind, *ends)
+        if kind != "fixed" and draw(st.integers(0, 2)) == 0:
+            drivers[f"D{i}"] = {
+                "joint": f"J{i}",
+                "position": draw(angles),
+                "speed": draw(numbers(-5.0, 5.0)),
+            }
+    return Scene.model_validate(
+        {
+            "name": "random",
+            "gravity": [draw(numbers(-10.0, 10.0)), draw(numbers(-10.0, 10.0))],
+            "ground": {"points": ground},
+            "bodies": {name: bodies[name] for name in draw(st.permutations(list(bodies)))},
+            "joints": {name: joints[name] for name in draw(st.permutations(list(joints)))},
+            "drivers": drivers,
+        }
+    )
+
+
+@st.composite
+def instants(draw: st.DrawFn, scenes: st.SearchStrategy[Scene]) -> Instant:
+    """Draw a scene anywhere in its motion: any coordinates, speeds, driver positions, modes."""
+    scene = draw(scenes)
+    tree = spanning_tree(scene)
+    value = numbers(-2.0, 2.0)
+    return Instant(
+        scene,
+        {name: draw(value) for name in tree.coordinates},
+        {name: draw(value) for name in tree.coordinates},
+        {name: draw(value) for name in scene.drivers},
+        {name: draw(st.sampled_from([0.0, 1.0])) for name in tree.play},
+        {name: draw(numbers(0.01, 2.0)) for name in tree.play},
+    )
+
+
+@st.composite
+def near_start(draw: st.DrawFn, scene: Scene, spread: float) -> Instant:
+    """Draw a scene near its start: coordinates within `spread` (m, rad), any speeds and modes."""
+    start = at_start(scene)
+    shift, rate = numbers(-1.0, 1.0), numbers(-2.0, 2.0)
+    return replace(
+        start,
+        position={name: q + spread * draw(shift) for name, q in start.position.items()},
+        speed={name: v + draw(rate) for name, v in start.speed.items()},
+        mode={name: draw(st.sampled_from([0.0, 1.0])) for name in start.mode},
+        impact_rate={name: draw(numbers(0.01, 2.0)) for name in start.mode},
+    )

@@ -1,0 +1,84 @@
+"""The mechanics on plain floats: a scene at one instant, in either formulation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from solver import presets
+from solver.admission import admit
+from solver.assembly import assemble
+from solver.lanes.start import start_state
+from solver.mechanics.lagrange import LagrangeMechanism
+from solver.mechanics.motion import Motion
+from solver.mechanics.reduced import ReducedMechanism
+from solver.mechanics.tree import spanning_tree
+from solver.mechanics.view import view
+from solver.scene.document import Scene
+
+
+def preset(name: str, **parameters: float | str) -> Scene:
+    """Return a preset's scene with parameters set."""
+    scene = {"preset": name, "parameters": parameters}
+    return Scene.model_validate(admit({"kind": "simulate", "scene": scene, "duration": 1e-3}).scene)
+
+
+def scene_of(document: Mapping[str, Any]) -> Scene:
+    """Return the scene of a document that must be acceptable as it is."""
+    return Scene.model_validate(dict(document))
+
+
+def changed(name: str, **changes: Any) -> Scene:
+    """Return a preset's scene with top-level fields replaced."""
+    return scene_of({**presets.document(name), **changes})
+
+
+@dataclass(frozen=True)
+class Instant:
+    """Everything that a scene's accelerations depend on, and how to evaluate them.
+
+    `position`, `speed` by coordinate name; `driven` by driver; `mode` and `impact_rate` by joint
+    with play.
+    """
+
+    scene: Scene
+    position: dict[str, float]
+    speed: dict[str, float]
+    driven: dict[str, float]
+    mode: dict[str, float]
+    impact_rate: dict[str, float]
+
+    def reduced(self) -> Motion:
+        """Evaluate in joint coordinates."""
+        mechanism = ReducedMechanism(
+            spanning_tree(self.scene), view(self.scene), self.position, self.speed, self.driven
+        )
+        return mechanism.motion(self.mode, self.impact_rate)
+
+    def absolute_state(self) -> tuple[list[float], list[float]]:
+        """Return x, y, theta of every body in document order, and their rates."""
+        bodies = self.reduced().bodies
+        q = [x for name in self.scene.bodies for x in (*bodies[name].position, bodies[name].angle)]
+        v = [x for name in self.scene.bodies for x in (*bodies[name].velocity, bodies[name].spin)]
+        return q, v
+
+    def lagrange(self) -> Motion:
+        """Evaluate in absolute coordinates with multipliers, at the same state."""
+        q, v = self.absolute_state()
+        mechanism = LagrangeMechanism(self.scene, view(self.scene), q, v, self.driven)
+        return mechanism.motion(self.mode, self.impact_rate)
+
+
+def at_start(scene: Scene) -> Instant:
+    """Return the assembled start of a scene, journals concentric."""
+    tree, assembly = spanning_tree(scene), assemble(scene)
+    position, speed = start_state(scene, tree.coordinates, assembly.pose, assembly.velocity)
+    return Instant(
+        scene,
+        dict(zip(tree.coordinates, position, strict=True)),
+        dict(zip(tree.coordinates, speed, strict=True)),
+        {name: driver.position for name, driver in scene.drivers.items()},
+        dict.fromkeys(tree.play, 0.0),
+        {name: scene.joints[name].clearance.contact.impact_rate_floor for name in tree.play},  # type: ignore[union-attr]
+    )
