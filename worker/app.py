@@ -7,7 +7,7 @@ stop listening for good after Redis was silent; `socket_timeout` is safe only wi
 """
 
 from celery import Celery
-from kombu.entity import Queue
+from kombu.entity import Exchange, Queue
 
 from storage.settings import Settings
 from worker.bell import wake_relay
@@ -53,7 +53,7 @@ def make_app(redis_url: str | None) -> Celery:
             "queue_order_strategy": "priority",
             "max_retries": 1,  # of a publisher: the relay comes back by itself
         },
-        task_queues=[Queue(name) for name in QUEUES],  # type: ignore[no-untyped-call]
+        task_queues=[Queue(name, Exchange(name), name) for name in QUEUES],  # type: ignore[no-untyped-call]
         task_default_queue=QUEUES[-1],
         task_serializer="json",
         accept_content=["json"],

@@ -3,25 +3,18 @@
 import os
 import signal
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit, until
 
 from jointplay.serving import running_service
 from solver.admission import Admission, admit
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Block, Catalogue, Job, JobState, NewJob
+from storage.catalogue import Catalogue, Job, JobState
 from storage.results import ResultReader
 from storage.settings import Settings
 from worker.execute import execute
 
-IMPATIENT = {
-    "JOINTPLAY_LEASE": "1.5",
-    "JOINTPLAY_HEARTBEAT": "0.5",
-    "JOINTPLAY_REAPER_PERIOD": "0.2",
-    "JOINTPLAY_PROGRESS_PERIOD": "0.2",
-}
 # some 3 s of computing; more samples than one shard holds, contacts at both joints all along
 JOB = {
     "kind": "simulate",
@@ -45,40 +38,6 @@ def undisturbed(admission: Admission, tmp_path_factory: pytest.TempPathFactory) 
     return folder
 
 
-def submit(catalogue: Catalogue, admission: Admission) -> str:
-    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
-    return catalogue.submit(new).job.id
-
-
-def until(condition: Callable[[], bool], patience: float = 90) -> None:
-    deadline = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-
-
-def ended(catalogue: Catalogue, job: str) -> Job:
-    until(lambda: catalogue.get(job).state.terminal)
-    return catalogue.get(job)
-
-
-def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
-    """Wait until the job is computed, is beyond a fraction, and has a restart point."""
-
-    def is_there() -> bool:
-        block = catalogue.blocks(job)[0]
-        state = catalogue.get(job).state
-        assert not state.terminal, "it ended before anything could happen to it"
-        return (
-            block.lease_until is not None
-            and block.checkpoint is not None
-            and block.progress_fraction > after
-        )
-
-    until(is_there)
-    return catalogue.blocks(job)[0]
-
-
 def arrays(store: Path) -> dict[str, bytes]:
     """Every chunk of every array, and what describes it, by its key."""
     return {
@@ -98,11 +57,6 @@ def assert_same_bits(settings: Settings, job: Job, undisturbed: Path) -> None:
     reader = ResultReader(store)
     assert reader.complete
     reader.verify()
-
-
-def pid_of(block: Block) -> int:
-    assert block.worker is not None
-    return int(block.worker.rsplit(":", 1)[1])
 
 
 def test_a_block_goes_on_where_its_killed_worker_left_it(
@@ -173,6 +127,6 @@ def test_a_cancelled_job_keeps_what_it_computed(
     reader = ResultReader(settings.result_folder(job, finished.attempt))
     assert not reader.complete
     reader.verify()
-    when, values = reader.history(["slider7.x"], None, None)
+    when, values = reader.history(["slider7.x"])
     assert 0 < len(when) < admission.samples
     assert len(values["slider7.x"]) == len(when)

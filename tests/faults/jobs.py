@@ -1,0 +1,51 @@
+"""Jobs put straight into the catalogue, and what tests of faults wait for."""
+
+import time
+from collections.abc import Callable
+
+from solver.admission import Admission
+from solver.version import SOLVER_VERSION
+from storage.catalogue import Block, Catalogue, Job, NewJob
+
+IMPATIENT = {
+    "JOINTPLAY_LEASE": "1.5",
+    "JOINTPLAY_HEARTBEAT": "0.5",
+    "JOINTPLAY_REAPER_PERIOD": "0.2",
+    "JOINTPLAY_PROGRESS_PERIOD": "0.2",
+    "JOINTPLAY_REPUBLISH_AFTER": "1",
+}
+
+
+def submit(catalogue: Catalogue, admission: Admission) -> str:
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    return catalogue.submit(new).job.id
+
+
+def until(condition: Callable[[], bool], patience: float = 90) -> None:
+    deadline = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def ended(catalogue: Catalogue, job: str) -> Job:
+    until(lambda: catalogue.get(job).state.terminal)
+    return catalogue.get(job)
+
+
+def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
+    """Wait until a worker has the job, has passed a fraction of it and left a restart point."""
+
+    def is_there() -> bool:
+        block = catalogue.blocks(job)[0]
+        assert not catalogue.get(job).state.terminal, "it ended before anything could happen"
+        held = block.lease_until is not None and block.checkpoint is not None
+        return held and block.progress_fraction > after
+
+    until(is_there)
+    return catalogue.blocks(job)[0]
+
+
+def pid_of(block: Block) -> int:
+    assert block.worker is not None
+    return int(block.worker.rsplit(":", 1)[1])

@@ -1,0 +1,46 @@
+"""Redis only wakes workers: killing or wiping it delays jobs and loses none."""
+
+import os
+import signal
+from pathlib import Path
+
+from jobs import IMPATIENT, ended, in_mid_job, submit, until
+from redis import Redis
+
+from jointplay.serving import running_service
+from jointplay.serving.broker import answers
+from solver.admission import admit
+from storage.catalogue import Catalogue, JobState
+from storage.settings import Settings
+
+LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 300.0}
+SHORT = LONG | {"duration": 1.0}
+
+
+def broker_url(settings: Settings) -> str:
+    return f"unix://{settings.data / 'broker' / 'redis.sock'}"
+
+
+def broker_pid(settings: Settings) -> int:
+    with Redis.from_url(broker_url(settings)) as redis:
+        return int(redis.info("server")["process_id"])
+
+
+def test_jobs_outlive_a_wiped_and_a_killed_broker(settings: Settings, catalogue: Catalogue) -> None:
+    long, short = admit(LONG), admit(SHORT)
+    with running_service(settings.data, environment=IMPATIENT):
+        running = submit(catalogue, long)
+        in_mid_job(catalogue, running)
+        waiting = [submit(catalogue, short) for _ in range(3)]
+        with Redis.from_url(broker_url(settings)) as redis:
+            until(lambda: redis.llen("jointplay:jobs") >= 3)
+            redis.flushall()
+        os.kill(broker_pid(settings), signal.SIGKILL)
+        waiting.append(submit(catalogue, short))
+        until(lambda: answers(broker_url(settings)))
+        waiting.append(submit(catalogue, short))
+        jobs = [ended(catalogue, job) for job in [running, *waiting]]
+    assert {job.state for job in jobs} == {JobState.succeeded}
+    assert [job.attempt for job in jobs] == [1] * len(jobs)
+    log = Path(settings.data / "logs" / "serve.log").read_text()
+    assert "broker ended, starting it again" in log
