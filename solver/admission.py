@@ -20,7 +20,7 @@ from solver.job import TOLERANCES, PresetScene, SimulateJob
 from solver.mechanics.tree import Tree, spanning_tree
 from solver.scene.document import Scene
 from solver.scene.parameters import parameter_of, set_parameters
-from solver.scene.references import has_play, reference_problems
+from solver.scene.references import reference_problems
 
 LONGEST_RUN = 1e6
 """Longest duration, in periods."""

@@ -17,7 +17,7 @@ from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.compiler.rows import Rows, arrange
-from solver.compiler.slots import Slots, slots_of
+from solver.compiler.slots import slots_of
 from solver.integrators.tableau import Tableau
 from solver.mechanics.tree import Tree
 from solver.mechanics.view import view
@@ -33,7 +33,8 @@ class Kernel:
 
     module: ModuleType
     layout: Layout
-    slots: Slots
+    slots: NDArray[np.int64]
+    """Indexed by `solver.compiler.slots.Slot`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     play: tuple[str, ...]
@@ -115,7 +116,15 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     return Kernel(
         module,
         layout,
-        slots_of(layout, states, ledger, joints, drivers, rows.scanned, mask_rows),
+        slots_of(
+            layout,
+            states=states,
+            ledger=ledger,
+            joints=joints,
+            drivers=drivers,
+            rows=rows.scanned,
+            mask_rows=mask_rows,
+        ),
         equations.coordinates,
         equations.drivers,
         equations.play,

@@ -1,124 +1,85 @@
-"""The slots that the driving loop reads, as a tuple of whole numbers that kernels are not."""
+"""Where the driving loop finds quantities: one whole number each, in an array that kernels share."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
 
 from solver.compiler.layout import Layout
 
 
-class Slots(NamedTuple):
-    """First slot of each quantity in the work array, and how many there are."""
+class Slot(IntEnum):
+    """Index of the slots array: first counts, then the first slot of each quantity."""
 
-    states: int
-    ledger: int
-    joints: int
-    drivers: int
-    rows: int
-    mask_rows: int
-    size: int
-    numbers: int
-    time: int
-    step: int
-    tried: int
-    arrival: int
-    stage_time: int
-    theta: int
-    active: int
-    accept: int
-    flag: int
-    next_step: int
-    new_memory: int
-    end: int
-    next_due: int
-    peak: int
-    stage: int
-    slope: int
-    y: int
-    k1: int
-    ledger_rate: int
-    kledger1: int
-    total: int
-    gap: int
-    mode: int
-    impact_rate: int
-    before_time: int
-    phase: int
-    wound: int
-    channel: int
-    previous: int
-    change: int
-    highest: int
-    lowest: int
-    highest_time: int
-    lowest_time: int
-    candidate: int
-    mask: int
-    impact_floor: int
-    restart: int
-    onset_time: int
-    approach: int
-    onset_total: int
-
-
-def slots_of(
-    layout: Layout, states: int, ledger: int, joints: int, drivers: int, rows: int, mask_rows: int
-) -> Slots:
-    """Look the slots up by name."""
-    return Slots(
-        states=states,
-        ledger=ledger,
-        joints=joints,
-        drivers=drivers,
-        rows=rows,
-        mask_rows=mask_rows,
-        size=layout.size,
-        numbers=layout["numbers"],
-        ledger_rate=layout["ledger0"],
-        y=layout["y0"],
-        k1=layout["k1_0"],
-        kledger1=layout["kledger1_0"],
-        **{name: layout[name] for name in SINGLE},
-        **{name: layout[f"{name}0"] if f"{name}0" in layout else 0 for name in BLOCKS},
-    )
+    STATES = 0
+    LEDGER = 1
+    JOINTS = 2
+    DRIVERS = 3
+    ROWS = 4
+    MASK_ROWS = 5
+    SIZE = 6
+    NUMBERS = 7
+    TIME = 8
+    STEP = 9
+    TRIED = 10
+    ARRIVAL = 11
+    STAGE_TIME = 12
+    THETA = 13
+    ACTIVE = 14
+    ACCEPT = 15
+    FLAG = 16
+    NEXT_STEP = 17
+    NEW_MEMORY = 18
+    END = 19
+    NEXT_DUE = 20
+    PEAK = 21
+    STAGE = 22
+    SLOPE = 23
+    Y = 24
+    K1 = 25
+    LEDGER_RATE = 26
+    KLEDGER1 = 27
+    TOTAL = 28
+    GAP = 29
+    MODE = 30
+    IMPACT_RATE = 31
+    BEFORE_TIME = 32
+    PHASE = 33
+    WOUND = 34
+    CHANNEL = 35
+    PREVIOUS = 36
+    CHANGE = 37
+    HIGHEST = 38
+    LOWEST = 39
+    HIGHEST_TIME = 40
+    LOWEST_TIME = 41
+    CANDIDATE = 42
+    MASK = 43
+    IMPACT_FLOOR = 44
+    RESTART = 45
+    ONSET_TIME = 46
+    APPROACH = 47
+    ONSET_TOTAL = 48
 
 
-SINGLE = (
-    "time",
-    "step",
-    "tried",
-    "arrival",
-    "stage_time",
-    "theta",
-    "active",
-    "accept",
-    "flag",
-    "next_step",
-    "new_memory",
-    "end",
-    "next_due",
-    "peak",
-    "before_time",
-)
-BLOCKS = (
-    "stage",
-    "slope",
-    "total",
-    "gap",
-    "mode",
-    "impact_rate",
-    "phase",
-    "wound",
-    "channel",
-    "previous",
-    "change",
-    "highest",
-    "lowest",
-    "highest_time",
-    "lowest_time",
-    "candidate",
-    "mask",
-    "impact_floor",
-    "restart",
-    "onset_time",
-    "approach",
-    "onset_total",
-)
+COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "MASK_ROWS", "SIZE")
+BLOCKS = {"K1": "k1_0", "KLEDGER1": "kledger1_0", "LEDGER_RATE": "ledger0"}
+"""Quantities whose slots have other names than theirs."""
+
+
+def slots_of(layout: Layout, **counts: int) -> NDArray[np.int64]:
+    """Look all slots up by name; `counts` gives states, ledger, joints, drivers, rows, mask_rows."""
+    slots = np.zeros(len(Slot), dtype=np.int64)
+    slots[Slot.SIZE] = layout.size
+    for name, count in counts.items():
+        slots[Slot[name.upper()]] = count
+    for slot in Slot:
+        if slot.name in COUNTS:
+            continue
+        name = BLOCKS.get(slot.name, slot.name.lower())
+        for candidate in (name, f"{name}0"):
+            if candidate in layout:
+                slots[slot] = layout[candidate]
+    return slots

@@ -14,7 +14,7 @@ import numpy as np
 from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 from solver.lanes.contacts import begin_contact, end_contact, land
 from solver.lanes.peaks import end_peaks, refine_peaks
@@ -33,7 +33,7 @@ REJECTED, DUE, ONSET, RELEASE = 1, 2, 4, 8
 def attend(
     flag: int,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     settings: np.ndarray,
@@ -49,13 +49,13 @@ def attend(
         counters[Counter.REJECTIONS, l] += 1
         counters[Counter.LANDING, l] = -1
         counters[Counter.LANDINGS, l] = 0
-        if work[slots.next_step * LANES + l] < settings[Setting.SMALLEST_STEP, l]:
+        if work[slots[Slot.NEXT_STEP] * LANES + l] < settings[Setting.SMALLEST_STEP, l]:
             stop(l, Status.UNDERFLOW, slots, work, counters)
         return False
     if flag & ONSET or counters[Counter.LANDING, l] >= 0:
         landed = land(l, slots, work, spare, counters, lend, probe, right_hand_side)
         if not landed:
-            work[slots.accept * LANES + l] = 0.0
+            work[slots[Slot.ACCEPT] * LANES + l] = 0.0
             return False
     if flag & DUE:
         return emit(
@@ -68,7 +68,7 @@ def attend(
 def settle(
     flag: int,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
@@ -76,7 +76,7 @@ def settle(
 ) -> bool:
     """Look after one lane once its step is taken; whether the impact buffer is nearly full."""
     period = settings[Setting.PERIOD, l]
-    now = float(counters[Counter.PERIOD, l]) * period + work[slots.time * LANES + l]
+    now = float(counters[Counter.PERIOD, l]) * period + work[slots[Slot.TIME] * LANES + l]
     full = False
     landed = counters[Counter.LANDING, l]
     if landed >= 0:
@@ -85,33 +85,33 @@ def settle(
         counters[Counter.LANDING, l] = -1
         counters[Counter.LANDINGS, l] = 0
     if flag & RELEASE:
-        for j in range(slots.joints):
-            gap = work[(slots.gap + 4 * j) * LANES + l]
-            rate = work[(slots.gap + 4 * j + 1) * LANES + l]
-            if work[(slots.mode + j) * LANES + l] > 0.0 and gap <= 0.0 and rate < 0.0:
-                work[(slots.mode + j) * LANES + l] = 0.0
+        for j in range(slots[Slot.JOINTS]):
+            gap = work[(slots[Slot.GAP] + 4 * j) * LANES + l]
+            rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + l]
+            if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0 and gap <= 0.0 and rate < 0.0:
+                work[(slots[Slot.MODE] + j) * LANES + l] = 0.0
                 end_contact(j, now, l, slots, work, counters, impact_rows)
-        full = counters[Counter.IMPACT_ROWS, l] + slots.joints > impact_rows.shape[1]
+        full = counters[Counter.IMPACT_ROWS, l] + slots[Slot.JOINTS] > impact_rows.shape[1]
     if flag & DUE:
-        if work[slots.time * LANES + l] >= work[slots.end * LANES + l]:
+        if work[slots[Slot.TIME] * LANES + l] >= work[slots[Slot.END] * LANES + l]:
             end_peaks(l, slots, work, now)
-            for j in range(slots.joints):
-                if work[(slots.mode + j) * LANES + l] > 0.0:
+            for j in range(slots[Slot.JOINTS]):
+                if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0:
                     end_contact(j, math.nan, l, slots, work, counters, impact_rows)
             stop(l, Status.DONE, slots, work, counters)
             return full
-        if work[slots.time * LANES + l] >= period:
+        if work[slots[Slot.TIME] * LANES + l] >= period:
             turn_over(l, slots, work, settings, counters)
         plan(l, slots, work, settings, counters)
     return full
 
 
 @kernel()
-def count_active(slots: Slots, work: np.ndarray) -> int:
+def count_active(slots: np.ndarray, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0
     for l in range(LANES):
-        if work[slots.active * LANES + l] > 0.0:
+        if work[slots[Slot.ACTIVE] * LANES + l] > 0.0:
             running += 1
     return running
 
@@ -126,15 +126,14 @@ def still_landing(counters: np.ndarray) -> bool:
 
 
 @kernel()
-def masks(which: int, slots: Slots, work: np.ndarray) -> bool:
+def masks(which: int, slots: np.ndarray, work: np.ndarray) -> bool:
     """Whether the mask holds the lanes that are positive in a slot."""
     for l in range(LANES):
-        if (work[slots.mask * LANES + l] > 0.0) != (work[which * LANES + l] > 0.0):
+        if (work[slots[Slot.MASK] * LANES + l] > 0.0) != (work[which * LANES + l] > 0.0):
             return False
     return True
 
 
-SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
 TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 
 
@@ -144,7 +143,7 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
         *[LANE_FUNCTION] * 5,
         FLAG_FUNCTION,
         *[PROBE_FUNCTION] * 3,
-        SLOTS,
+        int64[::1],
         *[float64[::1]] * 2,
         TABLE,
         int64[:, ::1],
@@ -163,7 +162,7 @@ def advance(
     lend: object,
     probe: object,
     probe_before: object,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     settings: np.ndarray,
@@ -204,20 +203,20 @@ def advance(
         full = False
         if not quiet:
             for l in range(LANES):
-                flag = int(work[slots.flag * LANES + l])
-                if work[slots.active * LANES + l] > 0.0 and (
+                flag = int(work[slots[Slot.FLAG] * LANES + l])
+                if work[slots[Slot.ACTIVE] * LANES + l] > 0.0 and (
                     flag != 0 or counters[Counter.LANDING, l] >= 0
                 ):
                     full |= attend(
                         flag, l, slots, work, spare, settings, counters,
                         sample_rows, section_rows, lend, probe, right_hand_side,
                     )  # fmt: skip
-            if not masks(slots.accept, slots, work):
+            if not masks(slots[Slot.ACCEPT], slots, work):
                 set_mask(work)
         observe(work)
         if scan(work) > 0.0:
             for l in range(LANES):
-                if work[slots.peak * LANES + l] > 0.0:
+                if work[slots[Slot.PEAK] * LANES + l] > 0.0:
                     refine_peaks(
                         l, slots, work, spare, counters, settings,
                         lend, probe, probe_before, right_hand_side, observe,
@@ -227,14 +226,14 @@ def advance(
         if quiet:
             continue
         for l in range(LANES):
-            if work[slots.accept * LANES + l] == 0.0:
+            if work[slots[Slot.ACCEPT] * LANES + l] == 0.0:
                 continue
-            flag = int(work[slots.flag * LANES + l])
+            flag = int(work[slots[Slot.FLAG] * LANES + l])
             if flag != 0 or counters[Counter.LANDING, l] >= 0:
                 full |= settle(flag, l, slots, work, settings, counters, impact_rows)
         running = count_active(slots, work)
         landing = still_landing(counters)
-        masked = masks(slots.active, slots, work)
+        masked = masks(slots[Slot.ACTIVE], slots, work)
         if full:
             break
     return running

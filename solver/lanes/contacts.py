@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 from solver.lanes.onset import NO_ONSET, first_onset
 from solver.lanes.periods import stop
@@ -22,7 +22,7 @@ LANDED_AT_LAST = 1e-9
 @kernel()
 def land(
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
@@ -34,22 +34,22 @@ def land(
 
     Otherwise the step is to be redone, shortened to the first onset inside it.
     """
-    tried = work[slots.tried * LANES + l]
+    tried = work[slots[Slot.TRIED] * LANES + l]
     target = counters[Counter.LANDING, l]
     onset = NO_ONSET
     joint = -1
-    for j in range(slots.joints):
-        if work[(slots.mode + j) * LANES + l] > 0.0:
+    for j in range(slots[Slot.JOINTS]):
+        if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0:
             continue
-        gap = work[(slots.gap + 4 * j) * LANES + l]
+        gap = work[(slots[Slot.GAP] + 4 * j) * LANES + l]
         if j == target and abs(gap) <= LANDED:
             continue
         found = first_onset(j, l, slots, work, spare, lend, probe, right_hand_side)
         if found < onset:
             onset, joint = found, j
     if target >= 0:
-        gap = work[(slots.gap + 4 * target) * LANES + l]
-        rate = work[(slots.gap + 4 * target + 1) * LANES + l]
+        gap = work[(slots[Slot.GAP] + 4 * target) * LANES + l]
+        rate = work[(slots[Slot.GAP] + 4 * target + 1) * LANES + l]
         last = counters[Counter.LANDINGS, l] >= MOST_LANDINGS
         near = abs(gap) <= LANDED or (last and abs(gap) <= LANDED_AT_LAST)
         if near and (joint < 0 or joint == target):
@@ -71,24 +71,24 @@ def land(
         return True
     counters[Counter.LANDING, l] = joint
     counters[Counter.LANDINGS, l] += 1
-    work[slots.next_step * LANES + l] = onset * tried
+    work[slots[Slot.NEXT_STEP] * LANES + l] = onset * tried
     return False
 
 
 @kernel()
-def begin_contact(j: int, now: float, l: int, slots: Slots, work: np.ndarray) -> None:
+def begin_contact(j: int, now: float, l: int, slots: np.ndarray, work: np.ndarray) -> None:
     """Latch the impact rate of joint j, once per onset, and restart with a small step."""
-    rate = work[(slots.gap + 4 * j + 1) * LANES + l]
-    floored = max(rate, work[(slots.impact_floor + j) * LANES + l])
-    work[(slots.mode + j) * LANES + l] = 1.0
-    work[(slots.impact_rate + j) * LANES + l] = floored
-    work[(slots.onset_time + j) * LANES + l] = now
-    work[(slots.approach + j) * LANES + l] = rate
-    impulse = slots.total + slots.ledger - slots.joints + j
-    work[(slots.onset_total + j) * LANES + l] = work[impulse * LANES + l]
-    work[(slots.highest + slots.rows - slots.joints + j) * LANES + l] = 0.0
-    first = work[(slots.restart + j) * LANES + l] / floored
-    work[slots.step * LANES + l] = min(work[slots.step * LANES + l], first)
+    rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + l]
+    floored = max(rate, work[(slots[Slot.IMPACT_FLOOR] + j) * LANES + l])
+    work[(slots[Slot.MODE] + j) * LANES + l] = 1.0
+    work[(slots[Slot.IMPACT_RATE] + j) * LANES + l] = floored
+    work[(slots[Slot.ONSET_TIME] + j) * LANES + l] = now
+    work[(slots[Slot.APPROACH] + j) * LANES + l] = rate
+    impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
+    work[(slots[Slot.ONSET_TOTAL] + j) * LANES + l] = work[impulse * LANES + l]
+    work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l] = 0.0
+    first = work[(slots[Slot.RESTART] + j) * LANES + l] / floored
+    work[slots[Slot.STEP] * LANES + l] = min(work[slots[Slot.STEP] * LANES + l], first)
 
 
 @kernel()
@@ -96,19 +96,21 @@ def end_contact(
     j: int,
     now: float,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     counters: np.ndarray,
     impact_rows: np.ndarray,
 ) -> None:
     """Write the contact of joint j that ends now (not a number: it lasts beyond the run)."""
     row = impact_rows[l, counters[Counter.IMPACT_ROWS, l]]
-    impulse = slots.total + slots.ledger - slots.joints + j
+    impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
     row[0] = j
-    row[1] = work[(slots.onset_time + j) * LANES + l]
+    row[1] = work[(slots[Slot.ONSET_TIME] + j) * LANES + l]
     row[2] = now
-    row[3] = work[(slots.approach + j) * LANES + l]
-    highest = work[(slots.highest + slots.rows - slots.joints + j) * LANES + l]
-    row[4] = max(highest, work[(slots.channel + slots.rows - slots.joints + j) * LANES + l])
-    row[5] = work[impulse * LANES + l] - work[(slots.onset_total + j) * LANES + l]
+    row[3] = work[(slots[Slot.APPROACH] + j) * LANES + l]
+    highest = work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l]
+    row[4] = max(
+        highest, work[(slots[Slot.CHANNEL] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l]
+    )
+    row[5] = work[impulse * LANES + l] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + l]
     counters[Counter.IMPACT_ROWS, l] += 1

@@ -6,11 +6,10 @@ import numpy as np
 from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
-SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
 
 
 @kernel(
@@ -18,7 +17,7 @@ SLOTS = types.NamedUniTuple(int64, len(Slots._fields), Slots)
         LANE_FUNCTION,
         LANE_FUNCTION,
         LANE_FUNCTION,
-        SLOTS,
+        int64[::1],
         float64[::1],
         float64[::1],
         int64,
@@ -31,7 +30,7 @@ def observe_rows(
     right_hand_side: object,
     observe: object,
     observe_rest: object,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     l: int,
@@ -44,7 +43,7 @@ def observe_rows(
     rows : (count, width) as `solver.lanes.rows.write_row` wrote them. columns : (channels,) rows
     of the channel block. out : (count, channels).
     """
-    for s in range(slots.numbers, slots.size):
+    for s in range(slots[Slot.NUMBERS], slots[Slot.SIZE]):
         value = work[s * LANES + l]
         for i in range(LANES):
             spare[s * LANES + i] = value
@@ -52,20 +51,20 @@ def observe_rows(
         count = min(LANES, len(rows) - first)
         for i in range(LANES):
             row = rows[first + min(i, count - 1)]
-            spare[slots.stage_time * LANES + i] = row[1]
+            spare[slots[Slot.STAGE_TIME] * LANES + i] = row[1]
             at = 2
-            for k in range(2 * slots.drivers):
-                spare[(slots.phase + k) * LANES + i] = row[at + k]
-            at += 2 * slots.drivers
-            for k in range(slots.states):
-                spare[(slots.stage + k) * LANES + i] = row[at + k]
-            at += slots.states
-            for k in range(slots.joints):
-                spare[(slots.mode + k) * LANES + i] = row[at + 2 * k]
-                spare[(slots.impact_rate + k) * LANES + i] = row[at + 2 * k + 1]
+            for k in range(2 * slots[Slot.DRIVERS]):
+                spare[(slots[Slot.PHASE] + k) * LANES + i] = row[at + k]
+            at += 2 * slots[Slot.DRIVERS]
+            for k in range(slots[Slot.STATES]):
+                spare[(slots[Slot.STAGE] + k) * LANES + i] = row[at + k]
+            at += slots[Slot.STATES]
+            for k in range(slots[Slot.JOINTS]):
+                spare[(slots[Slot.MODE] + k) * LANES + i] = row[at + 2 * k]
+                spare[(slots[Slot.IMPACT_RATE] + k) * LANES + i] = row[at + 2 * k + 1]
         right_hand_side(spare)
         observe(spare)
         observe_rest(spare)
         for i in range(count):
             for c in range(len(columns)):
-                out[first + i, c] = spare[(slots.channel + columns[c]) * LANES + i]
+                out[first + i, c] = spare[(slots[Slot.CHANNEL] + columns[c]) * LANES + i]

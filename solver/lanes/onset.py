@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 
 NO_ONSET = math.inf
@@ -33,7 +33,7 @@ def dense(
 def first_onset(
     j: int,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     lend: object,
@@ -46,10 +46,10 @@ def first_onset(
     closing, the turning point is looked at more closely (a grazing contact).
     """
     low, high = 0.0, 1.0
-    gap_slot, rate_slot = slots.gap + 4 * j, slots.gap + 4 * j + 1
+    gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
     for level in range(4):
         for i in range(LANES):
-            spare[slots.theta * LANES + i] = low + (high - low) * (i + 1) / LANES
+            spare[slots[Slot.THETA] * LANES + i] = low + (high - low) * (i + 1) / LANES
         dense(l, work, spare, lend, probe, right_hand_side)
         before_rate = work[(gap_slot + 3) * LANES + l] if level == 0 else 1.0
         turning = -1
@@ -78,7 +78,7 @@ def polish(
     left: float,
     right: float,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     lend: object,
@@ -86,14 +86,14 @@ def polish(
     right_hand_side: object,
 ) -> float:
     """Return the root of joint j's gap in a bracket: sectioning, then Newton inside the bracket."""
-    gap_slot, rate_slot = slots.gap + 4 * j, slots.gap + 4 * j + 1
-    tried = work[slots.tried * LANES + l]
+    gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
+    tried = work[slots[Slot.TRIED] * LANES + l]
     root = right
     for step in range(NEWTON_STEPS):
         for i in range(LANES):
-            spare[slots.theta * LANES + i] = left + (right - left) * (i + 1) / LANES
+            spare[slots[Slot.THETA] * LANES + i] = left + (right - left) * (i + 1) / LANES
         if step > 0:
-            spare[slots.theta * LANES + 0] = root
+            spare[slots[Slot.THETA] * LANES + 0] = root
         dense(l, work, spare, lend, probe, right_hand_side)
         if step > 0:
             gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
@@ -103,9 +103,11 @@ def polish(
             continue
         for i in range(LANES):
             if spare[gap_slot * LANES + i] > 0.0:
-                right = spare[slots.theta * LANES + i]
+                right = spare[slots[Slot.THETA] * LANES + i]
                 left = (
-                    right - (right - left) / LANES if i == 0 else spare[slots.theta * LANES + i - 1]
+                    right - (right - left) / LANES
+                    if i == 0
+                    else spare[slots[Slot.THETA] * LANES + i - 1]
                 )
                 gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
                 root = right - gap / (rate * tried) if rate > 0.0 else right

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 from solver.lanes.state import Counter, Setting
 from solver.lanes.onset import dense
@@ -16,7 +16,7 @@ POINTS = 2 * LANES + 1
 @kernel()
 def refine_peaks(
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
@@ -32,10 +32,10 @@ def refine_peaks(
     Candidate channels are evaluated at eight instants in the step before and eight in this one; a
     parabola through the best of them and its neighbours gives the extreme.
     """
-    rows = np.empty(slots.rows, dtype=np.int64)
+    rows = np.empty(slots[Slot.ROWS], dtype=np.int64)
     count = 0
-    for r in range(slots.rows):
-        if work[(slots.candidate + r) * LANES + l] > 0.0:
+    for r in range(slots[Slot.ROWS]):
+        if work[(slots[Slot.CANDIDATE] + r) * LANES + l] > 0.0:
             rows[count] = r
             count += 1
     times = np.empty(POINTS)
@@ -43,26 +43,26 @@ def refine_peaks(
     since = float(counters[Counter.PERIOD, l]) * settings[Setting.PERIOD, l]
     for half in range(2):
         for i in range(LANES):
-            spare[slots.theta * LANES + i] = i / LANES
+            spare[slots[Slot.THETA] * LANES + i] = i / LANES
         chosen = probe_before if half == 0 else probe
         dense(l, work, spare, lend, chosen, right_hand_side)
         observe(spare)
         for i in range(LANES):
-            times[half * LANES + i] = spare[slots.stage_time * LANES + i]
+            times[half * LANES + i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
             for n in range(count):
-                values[n, half * LANES + i] = spare[(slots.channel + rows[n]) * LANES + i]
-    times[POINTS - 1] = work[slots.arrival * LANES + l]
+                values[n, half * LANES + i] = spare[(slots[Slot.CHANNEL] + rows[n]) * LANES + i]
+    times[POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + l]
     for n in range(count):
         row = rows[n] * LANES + l
-        values[n, POINTS - 1] = work[slots.channel * LANES + row]
+        values[n, POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
         time, value = extreme(times, values[n], 1.0)
-        if value > work[slots.highest * LANES + row]:
-            work[slots.highest * LANES + row] = value
-            work[slots.highest_time * LANES + row] = since + time
+        if value > work[slots[Slot.HIGHEST] * LANES + row]:
+            work[slots[Slot.HIGHEST] * LANES + row] = value
+            work[slots[Slot.HIGHEST_TIME] * LANES + row] = since + time
         time, value = extreme(times, values[n], -1.0)
-        if value < work[slots.lowest * LANES + row]:
-            work[slots.lowest * LANES + row] = value
-            work[slots.lowest_time * LANES + row] = since + time
+        if value < work[slots[Slot.LOWEST] * LANES + row]:
+            work[slots[Slot.LOWEST] * LANES + row] = value
+            work[slots[Slot.LOWEST_TIME] * LANES + row] = since + time
 
 
 @kernel()
@@ -98,14 +98,14 @@ def bend(times: np.ndarray, values: np.ndarray, i: int) -> float:
 
 
 @kernel()
-def end_peaks(l: int, slots: Slots, work: np.ndarray, now: float) -> None:
+def end_peaks(l: int, slots: np.ndarray, work: np.ndarray, now: float) -> None:
     """Let the values at the run's last instant count as extremes."""
-    for r in range(slots.rows):
+    for r in range(slots[Slot.ROWS]):
         row = r * LANES + l
-        value = work[slots.channel * LANES + row]
-        if value > work[slots.highest * LANES + row]:
-            work[slots.highest * LANES + row] = value
-            work[slots.highest_time * LANES + row] = now
-        if value < work[slots.lowest * LANES + row]:
-            work[slots.lowest * LANES + row] = value
-            work[slots.lowest_time * LANES + row] = now
+        value = work[slots[Slot.CHANNEL] * LANES + row]
+        if value > work[slots[Slot.HIGHEST] * LANES + row]:
+            work[slots[Slot.HIGHEST] * LANES + row] = value
+            work[slots[Slot.HIGHEST_TIME] * LANES + row] = now
+        if value < work[slots[Slot.LOWEST] * LANES + row]:
+            work[slots[Slot.LOWEST] * LANES + row] = value
+            work[slots[Slot.LOWEST_TIME] * LANES + row] = now

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from solver.compiler.layout import LANES
-from solver.compiler.slots import Slots
+from solver.compiler.slots import Slot
 from solver.jit import kernel
 from solver.lanes.periods import due_time
 from solver.lanes.state import Counter
@@ -16,30 +16,30 @@ def write_row(
     row: np.ndarray,
     i: int,
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
 ) -> None:
     """Write the dense state in lane i of `spare`: period, time, phases, state, modes, rates."""
     row[0] = counters[Counter.PERIOD, l]
-    row[1] = spare[slots.stage_time * LANES + i]
+    row[1] = spare[slots[Slot.STAGE_TIME] * LANES + i]
     at = 2
-    for k in range(2 * slots.drivers):  # phases, then whole turns
-        row[at + k] = work[(slots.phase + k) * LANES + l]
-    at += 2 * slots.drivers
-    for k in range(slots.states):
-        row[at + k] = spare[(slots.stage + k) * LANES + i]
-    at += slots.states
-    for k in range(slots.joints):
-        row[at + 2 * k] = spare[(slots.mode + k) * LANES + i]
-        row[at + 2 * k + 1] = spare[(slots.impact_rate + k) * LANES + i]
+    for k in range(2 * slots[Slot.DRIVERS]):  # phases, then whole turns
+        row[at + k] = work[(slots[Slot.PHASE] + k) * LANES + l]
+    at += 2 * slots[Slot.DRIVERS]
+    for k in range(slots[Slot.STATES]):
+        row[at + k] = spare[(slots[Slot.STAGE] + k) * LANES + i]
+    at += slots[Slot.STATES]
+    for k in range(slots[Slot.JOINTS]):
+        row[at + 2 * k] = spare[(slots[Slot.MODE] + k) * LANES + i]
+        row[at + 2 * k + 1] = spare[(slots[Slot.IMPACT_RATE] + k) * LANES + i]
 
 
 @kernel()
 def emit(
     l: int,
-    slots: Slots,
+    slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     settings: np.ndarray,
@@ -52,7 +52,7 @@ def emit(
 
     A full buffer postpones the step: the same attempt is made again once there is room.
     """
-    arrival = work[slots.arrival * LANES + l]
+    arrival = work[slots[Slot.ARRIVAL] * LANES + l]
     for kind in range(2):
         rows = sample_rows if kind == 0 else section_rows
         next_index = Counter.SAMPLE if kind == 0 else Counter.SECTION
@@ -64,15 +64,18 @@ def emit(
                                   settings, counters)  # fmt: skip
                 if moment > arrival:
                     break
-                start, tried = work[slots.time * LANES + l], work[slots.tried * LANES + l]
+                start, tried = (
+                    work[slots[Slot.TIME] * LANES + l],
+                    work[slots[Slot.TRIED] * LANES + l],
+                )
                 theta = (moment - start) / tried if tried > 0.0 else 0.0
-                spare[slots.theta * LANES + count] = min(max(theta, 0.0), 1.0)
+                spare[slots[Slot.THETA] * LANES + count] = min(max(theta, 0.0), 1.0)
                 count += 1
             if count == 0:
                 break
             if counters[filled, l] + count > rows.shape[1]:
-                work[slots.accept * LANES + l] = 0.0
-                work[slots.next_step * LANES + l] = work[slots.step * LANES + l]
+                work[slots[Slot.ACCEPT] * LANES + l] = 0.0
+                work[slots[Slot.NEXT_STEP] * LANES + l] = work[slots[Slot.STEP] * LANES + l]
                 return True
             probe(work, spare, l)
             for i in range(count):
