@@ -9,13 +9,17 @@ from typing import Any, Final
 
 import google_crc32c
 import numpy as np
-from numcodecs.blosc import SHUFFLE, Blosc
+from numcodecs import blosc
 from numpy.typing import NDArray
 
 COMPRESSOR: Final = "zstd"
 COMPRESSION_LEVEL: Final = 3
 _ABSENT: Final = 2**64 - 1
-_codec: Final = Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=SHUFFLE)
+_codec: Final = blosc.Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
+
+# a forked worker has none of the threads that its parent's compressor started, and with threads
+# of its own the bytes of a long chunk would depend on their number
+blosc.use_threads = False
 
 
 def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) -> bytes:

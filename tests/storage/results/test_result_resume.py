@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_up_runs import (
+    MEMORY,
     PLAIN_FILES,
     SMALL_FILES,
     MadeUpRun,
@@ -41,10 +42,10 @@ runs = st.builds(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(run=runs, events=st.lists(event, max_size=8))
 def test_any_slicing_and_any_kill_gives_the_files_of_an_undisturbed_run(run, events):
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
         undisturbed = run.write(Path(folder, "undisturbed"))
         attempts = [Path(folder, "a1")]
         writer = ResultWriter.create(attempts[-1], run.layout)

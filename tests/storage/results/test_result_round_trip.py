@@ -1,7 +1,9 @@
 """What was appended is what is read, by our reader and by stock zarr."""
 
 import json
+import tempfile
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +11,14 @@ import zarr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-from made_up_runs import PLAIN_FILES, SMALL_FILES, MadeUpRun, made_up_impacts, made_up_layout
+from made_up_runs import (
+    MEMORY,
+    PLAIN_FILES,
+    SMALL_FILES,
+    MadeUpRun,
+    made_up_impacts,
+    made_up_layout,
+)
 
 from storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 
@@ -60,22 +69,22 @@ def test_values_come_back_bit_for_bit(store, run):
         np.float64, st.tuples(st.integers(0, 30), st.integers(1, 3)), elements=st.floats(width=64)
     )
 )
-def test_every_double_survives(tmp_path_factory, samples):
+def test_every_double_survives(samples):
     rows, channels = samples.shape
     run = MadeUpRun(made_up_layout(rows, 0, channels), made_up_impacts(0))
     run.samples = samples
-    store = run.write(tmp_path_factory.mktemp("doubles") / "store")
-    _, found = ResultReader(store).history()
+    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+        _, found = ResultReader(run.write(Path(folder, "store"))).history()
     assert np.column_stack(list(found.values())).tobytes() == samples.tobytes()
 
 
 @settings(max_examples=30, deadline=None)
 @given(attributes=json_documents, summary=json_documents)
-def test_attributes_and_summary_come_back(tmp_path_factory, attributes, summary):
-    store = tmp_path_factory.mktemp("attributes")
+def test_attributes_and_summary_come_back(attributes, summary):
     layout = made_up_layout(0, 0, attributes={"job": attributes})
-    ResultWriter.create(store, layout).seal(peaks={}, summary=summary)
-    found = ResultReader(store).attributes
+    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+        ResultWriter.create(Path(folder), layout).seal(peaks={}, summary=summary)
+        found = ResultReader(Path(folder)).attributes
     assert found["job"] == attributes
     assert found["summary"] == summary
 
