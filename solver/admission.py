@@ -186,8 +186,8 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
             [
                 Problem(
                     "/scene/joints",
-                    f"The mechanism is over-constrained: {count} of {assembly.constraints} constraint"
-                    " equations are redundant; remove a joint or driver, or give one joint"
+                    f"The mechanism is over-constrained: {count} of {assembly.constraints}"
+                    " constraint equations are redundant; remove a joint or driver, or give one joint"
                     " clearance.",
                 )
             ]
@@ -310,16 +310,16 @@ def _limits(
         problems.append(
             Problem(
                 "/duration",
-                f"{job.duration:g} s are {job.duration / unit:.3g} periods of {unit:.3g} s; the limit"
-                f" is {LONGEST_RUN:g} periods ({LONGEST_RUN * unit:.3g} s).",
+                f"{job.duration:g} s are {job.duration / unit:.3g} periods of {unit:.3g} s; the"
+                f" limit is {LONGEST_RUN:g} periods ({LONGEST_RUN * unit:.3g} s).",
             )
         )
     if samples > MOST_SAMPLES or stored > MOST_BYTES:
         problems.append(
             Problem(
                 "/output_step",
-                f"{samples:.3g} samples of {channel_count} channels are about {stored / 1e9:.3g} GB;"
-                f" the limits are {MOST_SAMPLES:g} samples and {MOST_BYTES / 1e9:g} GB. Choose a"
+                f"{samples:.3g} samples of {channel_count} channels are about {stored / 1e9:.3g}"
+                f" GB; the limits are {MOST_SAMPLES:g} samples and {MOST_BYTES / 1e9:g} GB. Choose a"
                 f" larger output_step than {output_step:g} s, or fewer channels.",
             )
         )

@@ -117,7 +117,7 @@ def assemble(scene: Scene) -> Assembly:
     for columns in (positions, np.full(count, True), np.full(count, True)):
         # given angular velocities first carry the centres of mass along; the last pass removes
         # the rounding of the one before
-        rates = np.array([row.rate for row in ideal.rows(pose, velocity, driven)], dtype=float)
+        rates = np.array([row.rate for row in ideal.rows(pose, velocity, driven)], np.float64)
         if len(rates):
             scaled = (jacobian * scale)[:, columns]
             step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
@@ -143,7 +143,7 @@ def _arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
     for i, row in enumerate(rows):
         for k, entry in row.jacobian.items():
             jacobian[i, k] = entry
-    return np.array([row.value for row in rows], dtype=float), jacobian
+    return np.array([row.value for row in rows], np.float64), jacobian
 
 
 def _rank(scaled_jacobian: Floats) -> int:

@@ -42,7 +42,7 @@ def common_period(scene: Scene) -> Period:
             return Period(
                 None,
                 f"The drivers' speeds {first:g} and {speed:g} rad/s have no common period, so there"
-                " is no Poincare section; choose speeds whose ratio is a fraction of whole numbers.",
+                " is no Poincare section; choose speeds in a ratio of whole numbers.",
             )
         # the first driver makes `turns` turns until every other one has made whole turns
         whole = Fraction(ratio.denominator)

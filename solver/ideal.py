@@ -1,4 +1,4 @@
-"""The ideal mechanism: no freedom is left, so it is kinematics and inverse dynamics, no integration.
+"""The ideal mechanism: nothing moves freely, so kinematics and inverse dynamics suffice.
 
 Many instants at once: the same constraint rows as everywhere, on arrays of instants. Newton's
 iteration starts from a neighbouring instant; the mechanism repeats after a period.
@@ -27,7 +27,7 @@ from solver.mechanics.view import view
 from solver.results import IMPACT, Floats, Peak, Slice, Summary
 from solver.scene.document import Scene
 
-INSTANTS_A_PERIOD = 360
+INSTANTS_A_PERIOD = 96
 """Poses solved one after the other; all others start from the nearest of them."""
 MOST_ITERATIONS = 25
 SCAN_A_PERIOD = 2000
@@ -48,7 +48,7 @@ class IdealRun:
         self.names = [channel.name for channel in admission.channels]
         self.samples_done = 0
         self.seconds = 0.0
-        self.table = np.empty((0, 0))
+        self.table: Floats = np.empty((0, 0))
         self.start = assemble(scene)
 
     def slices(self) -> Iterator[Slice]:
@@ -62,7 +62,7 @@ class IdealRun:
             if last == samples:
                 times[-1] = job["duration"]
             values = self.channels(times)
-            section_times = np.empty(0)
+            section_times: Floats = np.empty(0)
             if last == samples and self.admission.period is not None:
                 offset = section_offset(
                     self.scene, self.admission.period, job["section"]["crank_angle"]
@@ -98,7 +98,7 @@ class IdealRun:
         """See `Simulation.summary`; extremes are found on the exact motion."""
         duration = self.admission.job["duration"]
         span = min(duration, self.unit) if self.admission.period else duration
-        count = max(int(math.ceil(SCAN_A_PERIOD * span / self.unit)), 16)
+        count = max(math.ceil(SCAN_A_PERIOD * span / self.unit), 16)
         times = np.linspace(0.0, span, min(count, 200_000) + 1)
         values = self.channels(times)
         peaks = {}
@@ -134,7 +134,7 @@ class IdealRun:
     def motion(self, times: Floats) -> Motion:
         """Return the mechanism's motion and all forces at times in s."""
         driven = self._driven(times)
-        q = self._poses(times, driven)
+        q, turned = self._poses(times, driven)
         n = q.shape[1]
         still = np.zeros_like(q)
         rows = self.mechanism.rows(_columns(q), _columns(still), driven)
@@ -149,7 +149,7 @@ class IdealRun:
         bodies = {
             name: BodyMotion(
                 (q[:, 3 * i], q[:, 3 * i + 1]),
-                q[:, 3 * i + 2],
+                q[:, 3 * i + 2] + turned[:, 3 * i + 2],
                 (v[:, 3 * i], v[:, 3 * i + 1]),
                 v[:, 3 * i + 2],
                 (a[:, 3 * i], a[:, 3 * i + 1]),
@@ -164,7 +164,7 @@ class IdealRun:
         return Motion(list(_columns(a)), bodies, {}, forces, efforts, speeds)
 
     def _inertia_and_gravity(self, accelerations: Floats) -> Floats:
-        """g - M q̈ of eq. (23), which the multipliers balance."""
+        """Return g - M q̈ of eq. (23), which the multipliers balance."""
         gx, gy = self.numbers.gravity
         force = np.empty_like(accelerations)
         for i, name in enumerate(self.mechanism.bodies):
@@ -183,19 +183,25 @@ class IdealRun:
             for name, driver in self.scene.drivers.items()
         }
 
-    def _poses(self, times: Floats, driven: dict[str, Floats]) -> Floats:
+    def _poses(self, times: Floats, driven: dict[str, Floats]) -> tuple[Floats, Floats]:
+        """Return poses within a period, and the whole turns that angles have made before."""
         if not self.table.size:
             self.table = self._follow()
         spacing = self.unit / INSTANTS_A_PERIOD
         period = self.admission.period
         local = times if period is None else times - np.floor(times / period) * period
         nearest = np.clip(np.rint(local / spacing).astype(int), 0, len(self.table) - 1)
-        return self._newton(self.table[nearest], driven, times)
+        poses = self._newton(self.table[nearest], driven, times)
+        turned = np.zeros_like(poses)
+        if period is not None:  # angles go on turning; trigonometry does not need to know
+            turns = np.rint((self.table[-1] - self.table[0]) / (2.0 * math.pi))
+            turned = 2.0 * math.pi * np.floor(times / period)[:, None] * turns
+        return poses, turned
 
     def _follow(self) -> Floats:
         """Solve poses along the motion, each from the one before."""
         span = self.unit if self.admission.period else self.admission.job["duration"]
-        count = int(math.ceil(span / self.unit * INSTANTS_A_PERIOD)) + 1
+        count = math.ceil(span / self.unit * INSTANTS_A_PERIOD) + 1
         poses = np.empty((count, len(self.start.pose)))
         pose, before = self.start.pose, self.start.pose
         for k in range(count):
@@ -246,5 +252,5 @@ def _jacobian(rows: list[Row], count: int, n: int) -> Floats:
 
 
 def _solve(matrix: Floats, right: Floats) -> Floats:
-    solution: Floats = np.linalg.solve(matrix, right[..., None])[..., 0]
-    return solution
+    solution = np.linalg.solve(matrix, right[..., None])[..., 0]
+    return np.asarray(solution, np.float64)

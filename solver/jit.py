@@ -10,7 +10,11 @@ from solver.compiler.cache import cache_folder
 cache_folder()  # names Numba's cache before any kernel is declared
 
 
-def kernel(*signature: Any) -> Callable[[Any], Any]:
+LaneFunction = Callable[..., Any]
+"""A generated function of work arrays: first-class inside kernels."""
+
+
+def kernel(signature: Any = None) -> Callable[[Any], Any]:
     """Compile a function: at once with a signature, else on first use."""
-    decorator: Callable[[Any], Any] = numba.njit(*signature, cache=True, error_model="numpy")
+    decorator: Callable[[Any], Any] = numba.njit(signature, cache=True, error_model="numpy")
     return decorator

@@ -15,7 +15,7 @@ from solver.assembly import assemble
 from solver.compiler.kernel import LEDGER, Kernel, compile_kernel
 from solver.errors import SimulationFailed
 from solver.ideal import IdealRun
-from solver.integrators import TSITOURAS5
+from solver.integrators import METHODS
 from solver.lanes.bundle import Bundle, LaneProblem
 from solver.lanes.prescribed import prescribed_peaks
 from solver.lanes.state import Counter, Setting, Status
@@ -81,7 +81,7 @@ class DynamicRun:
         self.admission = admission
         job = admission.job
         tree = spanning_tree(scene)
-        self.kernel: Kernel = compile_kernel(scene, tree, job["formulation"], TSITOURAS5)
+        self.kernel: Kernel = compile_kernel(scene, tree, job["formulation"], METHODS["tsitouras5"])
         offset = 0.0
         if admission.period is not None:
             angle = job["section"]["crank_angle"]

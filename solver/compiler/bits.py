@@ -20,7 +20,7 @@ def _word(value: int) -> ir.Constant:
 
 @intrinsic
 def exponent_of(_typing: Any, x: Any) -> Any:
-    """e with x = m 2^e, 1 <= m < 2, for a normal positive x."""
+    """E with x = m 2^e, 1 <= m < 2, for a normal positive x."""
 
     def generate(_context, builder, _signature, arguments):
         bits = builder.bitcast(arguments[0], WORD)
@@ -32,7 +32,7 @@ def exponent_of(_typing: Any, x: Any) -> Any:
 
 @intrinsic
 def mantissa_of(_typing: Any, x: Any) -> Any:
-    """m with x = m 2^e, 1 <= m < 2, for a normal positive x."""
+    """M with x = m 2^e, 1 <= m < 2, for a normal positive x."""
 
     def generate(_context, builder, _signature, arguments):
         bits = builder.bitcast(arguments[0], WORD)

@@ -19,8 +19,8 @@ class Equations:
 
     The variables are ``stage0…`` (coordinates, then their speeds), ``stage_time`` (s within the
     period), ``phase<k>`` (driver k's position at local time zero), ``wound<k>``
-    (its whole turns before that, rad, for angles that are shown; trigonometry needs no turns), ``mode<j>`` and
-    ``impact_rate<j>`` of joint j with play, in document order.
+    (its whole turns before that, rad, for angles that are shown; trigonometry needs no turns),
+    ``mode<j>`` and ``impact_rate<j>`` of joint j with play, in document order.
     """
 
     recorder: Recorder

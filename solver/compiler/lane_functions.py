@@ -128,6 +128,9 @@ def exp2(x: Any) -> Any:
 
 
 def power(x: Any, exponent: Any) -> Any:
-    """x ** exponent for x >= 0; zero stays zero. Relative error about 1e-15 * exponent * |log2 x|."""
+    """Return x ** exponent for x >= 0; zero stays zero.
+
+    The relative error is about 1e-16 * exponent * |log2 x|.
+    """
     above = select_positive(x - SMALLEST, x, SMALLEST)
     return select_positive(x - SMALLEST, exp2(exponent * log2(above)), 0.0)

@@ -202,8 +202,9 @@ class Expression:
         return lane_functions.sine_cosine(self)
 
     def power(self, exponent: object) -> Expression:
-        """x ** exponent for x >= 0 by our own lane functions."""
+        """X ** exponent for x >= 0 by our own lane functions."""
         lifted = self.recorder.lift(exponent)
         if self.fixed and lifted.fixed:
             return self.recorder.apply("pow", self, lifted)
-        return lane_functions.power(self, lifted)
+        result: Expression = lane_functions.power(self, lifted)
+        return result

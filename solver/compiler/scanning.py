@@ -1,7 +1,7 @@
-"""The scan for extremes: per channel and lane, did a local extreme just pass that may be a record?
+"""The scan for extremes: which channels of which lanes just passed one that may be a record.
 
 It looks at the values at step ends only to find candidates; the extremes themselves are then
-sought inside the steps on the dense output (`solver.peaks`).
+sought inside the steps on the dense output (`solver.lanes.peaks`).
 """
 
 from __future__ import annotations
@@ -43,8 +43,10 @@ def source(layout: Layout, rows: int) -> str:
         else:
             lines.append(f"        other = W[{slot} + l]")
             lines.append(f"        {chain} = other if other > {chain} else {chain}")
-    for chain in range(1, min(CHAINS, rows)):
-        lines.append(f"        found0 = found{chain} if found{chain} > found0 else found0")
+    lines += [
+        f"        found0 = found{other} if found{other} > found0 else found0"
+        for other in range(1, min(CHAINS, rows))
+    ]
     largest = "\n".join(lines)
     return f"""{RETURNING}
 def scan(W):

@@ -1,4 +1,4 @@
-"""Where the driving loop finds quantities: one whole number each, in an array that kernels share."""
+"""Where the driving loop finds quantities: whole numbers in an array, indexed by `Slot`."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ BLOCKS = {"K1": "k1_0", "KLEDGER1": "kledger1_0", "LEDGER_RATE": "ledger0"}
 
 
 def slots_of(layout: Layout, **counts: int) -> NDArray[np.int64]:
-    """Look all slots up by name; `counts` gives states, ledger, joints, drivers, rows, mask_rows."""
+    """Look all slots up by name; `counts` gives the numbers of states, joints and so on."""
     slots = np.zeros(len(Slot), dtype=np.int64)
     slots[Slot.SIZE] = layout.size
     for name, count in counts.items():

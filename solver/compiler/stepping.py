@@ -89,7 +89,8 @@ class StepRecorder:
         v = self.variable
         remaining = v("end") - v("time")
         limited = minimum(minimum(v("step"), v("largest_step")), remaining)
-        return select_positive(v("active"), limited, self.recorder.constant(0.0))
+        tried: Expression = select_positive(v("active"), limited, self.recorder.constant(0.0))
+        return tried
 
     def _stage(self, s: int) -> str:
         """Stage s of the step: y + h Σ a k, and keep the slope of the stage before."""
@@ -158,7 +159,7 @@ class StepRecorder:
         return self._function("judge", outputs)
 
     def _contact_flags(self, j: int) -> tuple[Expression, Expression]:
-        """Apart: has the gap closed, or nearly, inside the step? In contact: has it opened?"""
+        """Flag a gap that closed, or nearly, inside the step; and one in contact that opened."""
         v, number = self.variable, self.recorder.constant
         gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
         start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")

@@ -15,7 +15,7 @@ from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
+from solver.jit import LaneFunction, kernel
 from solver.lanes.contacts import begin_contact, end_contact, land
 from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import plan, stop, turn_over
@@ -32,7 +32,7 @@ REJECTED, DUE, ONSET, RELEASE = 1, 2, 4, 8
 @kernel()
 def attend(
     flag: int,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
@@ -40,26 +40,26 @@ def attend(
     counters: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
-    lend: object,
-    probe: object,
-    right_hand_side: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    right_hand_side: LaneFunction,
 ) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
     if flag & REJECTED:
-        counters[Counter.REJECTIONS, l] += 1
-        counters[Counter.LANDING, l] = -1
-        counters[Counter.LANDINGS, l] = 0
-        if work[slots[Slot.NEXT_STEP] * LANES + l] < settings[Setting.SMALLEST_STEP, l]:
-            stop(l, Status.UNDERFLOW, slots, work, counters)
+        counters[Counter.REJECTIONS, lane] += 1
+        counters[Counter.LANDING, lane] = -1
+        counters[Counter.LANDINGS, lane] = 0
+        if work[slots[Slot.NEXT_STEP] * LANES + lane] < settings[Setting.SMALLEST_STEP, lane]:
+            stop(lane, Status.UNDERFLOW, slots, work, counters)
         return False
-    if flag & ONSET or counters[Counter.LANDING, l] >= 0:
-        landed = land(l, slots, work, spare, counters, lend, probe, right_hand_side)
+    if flag & ONSET or counters[Counter.LANDING, lane] >= 0:
+        landed = land(lane, slots, work, spare, counters, lend, probe, right_hand_side)
         if not landed:
-            work[slots[Slot.ACCEPT] * LANES + l] = 0.0
+            work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
             return False
     if flag & DUE:
         return emit(
-            l, slots, work, spare, settings, counters, sample_rows, section_rows, probe
+            lane, slots, work, spare, settings, counters, sample_rows, section_rows, probe
         )  # fmt: skip
     return False
 
@@ -67,7 +67,7 @@ def attend(
 @kernel()
 def settle(
     flag: int,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     settings: np.ndarray,
@@ -75,34 +75,34 @@ def settle(
     impact_rows: np.ndarray,
 ) -> bool:
     """Look after one lane once its step is taken; whether the impact buffer is nearly full."""
-    period = settings[Setting.PERIOD, l]
-    now = float(counters[Counter.PERIOD, l]) * period + work[slots[Slot.TIME] * LANES + l]
+    period = settings[Setting.PERIOD, lane]
+    now = float(counters[Counter.PERIOD, lane]) * period + work[slots[Slot.TIME] * LANES + lane]
     full = False
-    landed = counters[Counter.LANDING, l]
+    landed = counters[Counter.LANDING, lane]
     if landed >= 0:
-        begin_contact(landed, now, l, slots, work)
-        counters[Counter.ONSETS, l] += 1
-        counters[Counter.LANDING, l] = -1
-        counters[Counter.LANDINGS, l] = 0
+        begin_contact(landed, now, lane, slots, work)
+        counters[Counter.ONSETS, lane] += 1
+        counters[Counter.LANDING, lane] = -1
+        counters[Counter.LANDINGS, lane] = 0
     if flag & RELEASE:
         for j in range(slots[Slot.JOINTS]):
-            gap = work[(slots[Slot.GAP] + 4 * j) * LANES + l]
-            rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + l]
-            if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0 and gap <= 0.0 and rate < 0.0:
-                work[(slots[Slot.MODE] + j) * LANES + l] = 0.0
-                end_contact(j, now, l, slots, work, counters, impact_rows)
-        full = counters[Counter.IMPACT_ROWS, l] + slots[Slot.JOINTS] > impact_rows.shape[1]
+            gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
+            rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + lane]
+            if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and gap <= 0.0 and rate < 0.0:
+                work[(slots[Slot.MODE] + j) * LANES + lane] = 0.0
+                end_contact(j, now, lane, slots, work, counters, impact_rows)
+        full = counters[Counter.IMPACT_ROWS, lane] + slots[Slot.JOINTS] > impact_rows.shape[1]
     if flag & DUE:
-        if work[slots[Slot.TIME] * LANES + l] >= work[slots[Slot.END] * LANES + l]:
-            end_peaks(l, slots, work, now)
+        if work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]:
+            end_peaks(lane, slots, work, now)
             for j in range(slots[Slot.JOINTS]):
-                if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0:
-                    end_contact(j, math.nan, l, slots, work, counters, impact_rows)
-            stop(l, Status.DONE, slots, work, counters)
+                if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
+                    end_contact(j, math.nan, lane, slots, work, counters, impact_rows)
+            stop(lane, Status.DONE, slots, work, counters)
             return full
-        if work[slots[Slot.TIME] * LANES + l] >= period:
-            turn_over(l, slots, work, settings, counters)
-        plan(l, slots, work, settings, counters)
+        if work[slots[Slot.TIME] * LANES + lane] >= period:
+            turn_over(lane, slots, work, settings, counters)
+        plan(lane, slots, work, settings, counters)
     return full
 
 
@@ -110,8 +110,8 @@ def settle(
 def count_active(slots: np.ndarray, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0
-    for l in range(LANES):
-        if work[slots[Slot.ACTIVE] * LANES + l] > 0.0:
+    for lane in range(LANES):
+        if work[slots[Slot.ACTIVE] * LANES + lane] > 0.0:
             running += 1
     return running
 
@@ -119,17 +119,18 @@ def count_active(slots: np.ndarray, work: np.ndarray) -> int:
 @kernel()
 def still_landing(counters: np.ndarray) -> bool:
     """Whether a lane is about to land on an onset."""
-    for l in range(LANES):
-        if counters[Counter.LANDING, l] >= 0:
-            return True
-    return False
+    landing = 0
+    for lane in range(LANES):
+        if counters[Counter.LANDING, lane] >= 0:
+            landing += 1
+    return landing > 0
 
 
 @kernel()
 def masks(which: int, slots: np.ndarray, work: np.ndarray) -> bool:
     """Whether the mask holds the lanes that are positive in a slot."""
-    for l in range(LANES):
-        if (work[slots[Slot.MASK] * LANES + l] > 0.0) != (work[which * LANES + l] > 0.0):
+    for lane in range(LANES):
+        if (work[slots[Slot.MASK] * LANES + lane] > 0.0) != (work[which * LANES + lane] > 0.0):
             return False
     return True
 
@@ -152,16 +153,16 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
     )
 )
 def advance(
-    attempt: object,
-    set_mask: object,
-    keep: object,
-    commit: object,
-    right_hand_side: object,
-    observe: object,
-    scan: object,
-    lend: object,
-    probe: object,
-    probe_before: object,
+    attempt: LaneFunction,
+    set_mask: LaneFunction,
+    keep: LaneFunction,
+    commit: LaneFunction,
+    right_hand_side: LaneFunction,
+    observe: LaneFunction,
+    scan: LaneFunction,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    probe_before: LaneFunction,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
@@ -202,35 +203,35 @@ def advance(
         quiet = flags == 0.0 and not landing and masked
         full = False
         if not quiet:
-            for l in range(LANES):
-                flag = int(work[slots[Slot.FLAG] * LANES + l])
-                if work[slots[Slot.ACTIVE] * LANES + l] > 0.0 and (
-                    flag != 0 or counters[Counter.LANDING, l] >= 0
+            for lane in range(LANES):
+                flag = int(work[slots[Slot.FLAG] * LANES + lane])
+                if work[slots[Slot.ACTIVE] * LANES + lane] > 0.0 and (
+                    flag != 0 or counters[Counter.LANDING, lane] >= 0
                 ):
                     full |= attend(
-                        flag, l, slots, work, spare, settings, counters,
+                        flag, lane, slots, work, spare, settings, counters,
                         sample_rows, section_rows, lend, probe, right_hand_side,
                     )  # fmt: skip
             if not masks(slots[Slot.ACCEPT], slots, work):
                 set_mask(work)
         observe(work)
         if scan(work) > 0.0:
-            for l in range(LANES):
-                if work[slots[Slot.PEAK] * LANES + l] > 0.0:
+            for lane in range(LANES):
+                if work[slots[Slot.PEAK] * LANES + lane] > 0.0:
                     refine_peaks(
-                        l, slots, work, spare, counters, settings,
+                        lane, slots, work, spare, counters, settings,
                         lend, probe, probe_before, right_hand_side, observe,
                     )  # fmt: skip
         keep(work)
         commit(work)
         if quiet:
             continue
-        for l in range(LANES):
-            if work[slots[Slot.ACCEPT] * LANES + l] == 0.0:
+        for lane in range(LANES):
+            if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
                 continue
-            flag = int(work[slots[Slot.FLAG] * LANES + l])
-            if flag != 0 or counters[Counter.LANDING, l] >= 0:
-                full |= settle(flag, l, slots, work, settings, counters, impact_rows)
+            flag = int(work[slots[Slot.FLAG] * LANES + lane])
+            if flag != 0 or counters[Counter.LANDING, lane] >= 0:
+                full |= settle(flag, lane, slots, work, settings, counters, impact_rows)
         running = count_active(slots, work)
         landing = still_landing(counters)
         masked = masks(slots[Slot.ACTIVE], slots, work)

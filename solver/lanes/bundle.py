@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.lanes.advance import advance
-from solver.lanes.observation import observe_rows
-from solver.lanes.periods import plan
-from solver.lanes.start import mechanism_size, start_state
 from solver.assembly import assemble, shortest_link
 from solver.compiler.kernel import LEDGER, Kernel
 from solver.compiler.layout import LANES
 from solver.drive import characteristic_time, common_period
+from solver.lanes.advance import advance
+from solver.lanes.observation import observe_rows
+from solver.lanes.periods import plan
+from solver.lanes.start import mechanism_size, start_state
 from solver.lanes.state import Counter, Setting, Status, row_width
 from solver.scene.document import Revolute, Scene
 

@@ -7,7 +7,7 @@ SPLITTER = 134217729.0  # 2^27 + 1 (Dekker 1971)
 
 @kernel()
 def product_difference(a: float, b: float, c: float, d: float) -> float:
-    """A * b - c * d, as if the products were exact: each is split into a head and its rounding."""
+    """Return a * b - c * d with the rounding of both products taken into account."""
     first, second = a * b, c * d
     return (first - second) + (_rounding(a, b, first) - _rounding(c, d, second))
 

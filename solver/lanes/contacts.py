@@ -6,7 +6,7 @@ import numpy as np
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
+from solver.jit import LaneFunction, kernel
 from solver.lanes.onset import NO_ONSET, first_onset
 from solver.lanes.periods import stop
 from solver.lanes.state import Counter, Status
@@ -21,44 +21,44 @@ LANDED_AT_LAST = 1e-9
 
 @kernel()
 def land(
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
-    lend: object,
-    probe: object,
-    right_hand_side: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    right_hand_side: LaneFunction,
 ) -> bool:
     """Whether this step may be taken: it has no onset inside, or ends on one.
 
     Otherwise the step is to be redone, shortened to the first onset inside it.
     """
-    tried = work[slots[Slot.TRIED] * LANES + l]
-    target = counters[Counter.LANDING, l]
+    tried = work[slots[Slot.TRIED] * LANES + lane]
+    target = counters[Counter.LANDING, lane]
     onset = NO_ONSET
     joint = -1
     for j in range(slots[Slot.JOINTS]):
-        if work[(slots[Slot.MODE] + j) * LANES + l] > 0.0:
+        if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
             continue
-        gap = work[(slots[Slot.GAP] + 4 * j) * LANES + l]
+        gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
         if j == target and abs(gap) <= LANDED:
             continue
-        found = first_onset(j, l, slots, work, spare, lend, probe, right_hand_side)
+        found = first_onset(j, lane, slots, work, spare, lend, probe, right_hand_side)
         if found < onset:
             onset, joint = found, j
     if target >= 0:
-        gap = work[(slots[Slot.GAP] + 4 * target) * LANES + l]
-        rate = work[(slots[Slot.GAP] + 4 * target + 1) * LANES + l]
-        last = counters[Counter.LANDINGS, l] >= MOST_LANDINGS
+        gap = work[(slots[Slot.GAP] + 4 * target) * LANES + lane]
+        rate = work[(slots[Slot.GAP] + 4 * target + 1) * LANES + lane]
+        last = counters[Counter.LANDINGS, lane] >= MOST_LANDINGS
         near = abs(gap) <= LANDED or (last and abs(gap) <= LANDED_AT_LAST)
         if near and (joint < 0 or joint == target):
             return True
         if last:
-            stop(l, Status.ONSET_LOST, slots, work, counters)
+            stop(lane, Status.ONSET_LOST, slots, work, counters)
             return False
         if gap < 0.0 and rate <= 0.0 and joint < 0:
-            counters[Counter.LANDING, l] = -1  # it only came near, and is on its way back
+            counters[Counter.LANDING, lane] = -1  # it only came near, and is on its way back
             return True
         if joint < 0 or joint == target:
             # Newton on the landing itself: the redone step differs from the dense output
@@ -69,48 +69,49 @@ def land(
             onset = min(max(onset, 0.1), 2.0)
     if joint < 0:
         return True
-    counters[Counter.LANDING, l] = joint
-    counters[Counter.LANDINGS, l] += 1
-    work[slots[Slot.NEXT_STEP] * LANES + l] = onset * tried
+    counters[Counter.LANDING, lane] = joint
+    counters[Counter.LANDINGS, lane] += 1
+    work[slots[Slot.NEXT_STEP] * LANES + lane] = onset * tried
     return False
 
 
 @kernel()
-def begin_contact(j: int, now: float, l: int, slots: np.ndarray, work: np.ndarray) -> None:
+def begin_contact(j: int, now: float, lane: int, slots: np.ndarray, work: np.ndarray) -> None:
     """Latch the impact rate of joint j, once per onset, and restart with a small step."""
-    rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + l]
-    floored = max(rate, work[(slots[Slot.IMPACT_FLOOR] + j) * LANES + l])
-    work[(slots[Slot.MODE] + j) * LANES + l] = 1.0
-    work[(slots[Slot.IMPACT_RATE] + j) * LANES + l] = floored
-    work[(slots[Slot.ONSET_TIME] + j) * LANES + l] = now
-    work[(slots[Slot.APPROACH] + j) * LANES + l] = rate
+    rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + lane]
+    floored = max(rate, work[(slots[Slot.IMPACT_FLOOR] + j) * LANES + lane])
+    work[(slots[Slot.MODE] + j) * LANES + lane] = 1.0
+    work[(slots[Slot.IMPACT_RATE] + j) * LANES + lane] = floored
+    work[(slots[Slot.ONSET_TIME] + j) * LANES + lane] = now
+    work[(slots[Slot.APPROACH] + j) * LANES + lane] = rate
     impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
-    work[(slots[Slot.ONSET_TOTAL] + j) * LANES + l] = work[impulse * LANES + l]
-    work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l] = 0.0
-    first = work[(slots[Slot.RESTART] + j) * LANES + l] / floored
-    work[slots[Slot.STEP] * LANES + l] = min(work[slots[Slot.STEP] * LANES + l], first)
+    work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane] = work[impulse * LANES + lane]
+    work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane] = 0.0
+    first = work[(slots[Slot.RESTART] + j) * LANES + lane] / floored
+    work[slots[Slot.STEP] * LANES + lane] = min(work[slots[Slot.STEP] * LANES + lane], first)
 
 
 @kernel()
 def end_contact(
     j: int,
     now: float,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     counters: np.ndarray,
     impact_rows: np.ndarray,
 ) -> None:
     """Write the contact of joint j that ends now (not a number: it lasts beyond the run)."""
-    row = impact_rows[l, counters[Counter.IMPACT_ROWS, l]]
+    row = impact_rows[lane, counters[Counter.IMPACT_ROWS, lane]]
     impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
     row[0] = j
-    row[1] = work[(slots[Slot.ONSET_TIME] + j) * LANES + l]
+    row[1] = work[(slots[Slot.ONSET_TIME] + j) * LANES + lane]
     row[2] = now
-    row[3] = work[(slots[Slot.APPROACH] + j) * LANES + l]
-    highest = work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l]
+    row[3] = work[(slots[Slot.APPROACH] + j) * LANES + lane]
+    highest = work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane]
     row[4] = max(
-        highest, work[(slots[Slot.CHANNEL] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + l]
+        highest,
+        work[(slots[Slot.CHANNEL] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane],
     )
-    row[5] = work[impulse * LANES + l] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + l]
-    counters[Counter.IMPACT_ROWS, l] += 1
+    row[5] = work[impulse * LANES + lane] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane]
+    counters[Counter.IMPACT_ROWS, lane] += 1

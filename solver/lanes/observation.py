@@ -7,7 +7,7 @@ from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
+from solver.jit import LaneFunction, kernel
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 
@@ -27,24 +27,24 @@ LANE_FUNCTION = types.FunctionType(void(float64[::1]))
     )
 )
 def observe_rows(
-    right_hand_side: object,
-    observe: object,
-    observe_rest: object,
+    right_hand_side: LaneFunction,
+    observe: LaneFunction,
+    observe_rest: LaneFunction,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    l: int,
+    lane: int,
     rows: np.ndarray,
     columns: np.ndarray,
     out: np.ndarray,
 ) -> None:
-    """Evaluate channels of lane l at rows of dense state, eight at a time.
+    """Evaluate channels of lane lane at rows of dense state, eight at a time.
 
     rows : (count, width) as `solver.lanes.rows.write_row` wrote them. columns : (channels,) rows
     of the channel block. out : (count, channels).
     """
     for s in range(slots[Slot.NUMBERS], slots[Slot.SIZE]):
-        value = work[s * LANES + l]
+        value = work[s * LANES + lane]
         for i in range(LANES):
             spare[s * LANES + i] = value
     for first in range(0, len(rows), LANES):

@@ -8,7 +8,7 @@ import numpy as np
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
+from solver.jit import LaneFunction, kernel
 
 NO_ONSET = math.inf
 NEWTON_STEPS = 4
@@ -16,29 +16,29 @@ NEWTON_STEPS = 4
 
 @kernel()
 def dense(
-    l: int,
+    lane: int,
     work: np.ndarray,
     spare: np.ndarray,
-    lend: object,
-    probe: object,
-    right_hand_side: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    right_hand_side: LaneFunction,
 ) -> None:
-    """Evaluate lane l of `work` at the eight instants in `theta` of `spare`."""
-    lend(work, spare, l)
-    probe(work, spare, l)
+    """Evaluate lane lane of `work` at the eight instants in `theta` of `spare`."""
+    lend(work, spare, lane)
+    probe(work, spare, lane)
     right_hand_side(spare)
 
 
 @kernel()
 def first_onset(
     j: int,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    lend: object,
-    probe: object,
-    right_hand_side: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    right_hand_side: LaneFunction,
 ) -> float:
     """Return the share of the step after which joint j's gap first closes; infinite: it does not.
 
@@ -50,8 +50,8 @@ def first_onset(
     for level in range(4):
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = low + (high - low) * (i + 1) / LANES
-        dense(l, work, spare, lend, probe, right_hand_side)
-        before_rate = work[(gap_slot + 3) * LANES + l] if level == 0 else 1.0
+        dense(lane, work, spare, lend, probe, right_hand_side)
+        before_rate = work[(gap_slot + 3) * LANES + lane] if level == 0 else 1.0
         turning = -1
         for i in range(LANES):
             gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
@@ -59,7 +59,7 @@ def first_onset(
                 left = low + (high - low) * i / LANES
                 right = low + (high - low) * (i + 1) / LANES
                 return polish(
-                    j, left, right, l, slots, work, spare, lend, probe, right_hand_side
+                    j, left, right, lane, slots, work, spare, lend, probe, right_hand_side
                 )  # fmt: skip
             if before_rate > 0.0 and rate < 0.0:
                 turning = i
@@ -77,24 +77,24 @@ def polish(
     j: int,
     left: float,
     right: float,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    lend: object,
-    probe: object,
-    right_hand_side: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    right_hand_side: LaneFunction,
 ) -> float:
     """Return the root of joint j's gap in a bracket: sectioning, then Newton inside the bracket."""
     gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
-    tried = work[slots[Slot.TRIED] * LANES + l]
+    tried = work[slots[Slot.TRIED] * LANES + lane]
     root = right
     for step in range(NEWTON_STEPS):
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = left + (right - left) * (i + 1) / LANES
         if step > 0:
             spare[slots[Slot.THETA] * LANES + 0] = root
-        dense(l, work, spare, lend, probe, right_hand_side)
+        dense(lane, work, spare, lend, probe, right_hand_side)
         if step > 0:
             gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
             better = root - gap / (rate * tried) if rate > 0.0 else root

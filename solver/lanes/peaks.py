@@ -6,28 +6,28 @@ import numpy as np
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
-from solver.lanes.state import Counter, Setting
+from solver.jit import LaneFunction, kernel
 from solver.lanes.onset import dense
+from solver.lanes.state import Counter, Setting
 
 POINTS = 2 * LANES + 1
 
 
 @kernel()
 def refine_peaks(
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
     settings: np.ndarray,
-    lend: object,
-    probe: object,
-    probe_before: object,
-    right_hand_side: object,
-    observe: object,
+    lend: LaneFunction,
+    probe: LaneFunction,
+    probe_before: LaneFunction,
+    right_hand_side: LaneFunction,
+    observe: LaneFunction,
 ) -> None:
-    """Seek the extremes that the scan suspects around the start of this step of lane l.
+    """Seek the extremes that the scan suspects around the start of this step of lane lane.
 
     Candidate channels are evaluated at eight instants in the step before and eight in this one; a
     parabola through the best of them and its neighbours gives the extreme.
@@ -35,25 +35,25 @@ def refine_peaks(
     rows = np.empty(slots[Slot.ROWS], dtype=np.int64)
     count = 0
     for r in range(slots[Slot.ROWS]):
-        if work[(slots[Slot.CANDIDATE] + r) * LANES + l] > 0.0:
+        if work[(slots[Slot.CANDIDATE] + r) * LANES + lane] > 0.0:
             rows[count] = r
             count += 1
     times = np.empty(POINTS)
     values = np.empty((count, POINTS))
-    since = float(counters[Counter.PERIOD, l]) * settings[Setting.PERIOD, l]
+    since = float(counters[Counter.PERIOD, lane]) * settings[Setting.PERIOD, lane]
     for half in range(2):
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = i / LANES
         chosen = probe_before if half == 0 else probe
-        dense(l, work, spare, lend, chosen, right_hand_side)
+        dense(lane, work, spare, lend, chosen, right_hand_side)
         observe(spare)
         for i in range(LANES):
             times[half * LANES + i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
             for n in range(count):
                 values[n, half * LANES + i] = spare[(slots[Slot.CHANNEL] + rows[n]) * LANES + i]
-    times[POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + l]
+    times[POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + lane]
     for n in range(count):
-        row = rows[n] * LANES + l
+        row = rows[n] * LANES + lane
         values[n, POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
         time, value = extreme(times, values[n], 1.0)
         if value > work[slots[Slot.HIGHEST] * LANES + row]:
@@ -98,10 +98,10 @@ def bend(times: np.ndarray, values: np.ndarray, i: int) -> float:
 
 
 @kernel()
-def end_peaks(l: int, slots: np.ndarray, work: np.ndarray, now: float) -> None:
+def end_peaks(lane: int, slots: np.ndarray, work: np.ndarray, now: float) -> None:
     """Let the values at the run's last instant count as extremes."""
     for r in range(slots[Slot.ROWS]):
-        row = r * LANES + l
+        row = r * LANES + lane
         value = work[slots[Slot.CHANNEL] * LANES + row]
         if value > work[slots[Slot.HIGHEST] * LANES + row]:
             work[slots[Slot.HIGHEST] * LANES + row] = value

@@ -20,66 +20,66 @@ SAMPLES, SECTIONS = 0, 1
 def due_time(
     kind: int,
     index: int,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
 ) -> float:
     """Local time of a sample (kind 0) or section (kind 1); infinite past the last one."""
-    period = settings[Setting.PERIOD, l]
-    whole = float(counters[Counter.PERIOD, l])
+    period = settings[Setting.PERIOD, lane]
+    whole = float(counters[Counter.PERIOD, lane])
     if kind == 0:
-        last = counters[Counter.SAMPLES, l] - 1
+        last = counters[Counter.SAMPLES, lane] - 1
         if index > last:
             return math.inf
         if index == last:
-            return work[slots[Slot.END] * LANES + l]
-        return product_difference(float(index), settings[Setting.OUTPUT_STEP, l], whole, period)
-    if index >= counters[Counter.SECTIONS, l]:
+            return work[slots[Slot.END] * LANES + lane]
+        return product_difference(float(index), settings[Setting.OUTPUT_STEP, lane], whole, period)
+    if index >= counters[Counter.SECTIONS, lane]:
         return math.inf
-    return (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, l]
+    return (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, lane]
 
 
 @kernel()
 def plan(
-    l: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
 ) -> None:
     """Set the next local time at which a lane wants attention."""
-    sample = due_time(0, counters[Counter.SAMPLE, l], l, slots, work, settings, counters)
-    section = due_time(1, counters[Counter.SECTION, l], l, slots, work, settings, counters)
+    sample = due_time(0, counters[Counter.SAMPLE, lane], lane, slots, work, settings, counters)
+    section = due_time(1, counters[Counter.SECTION, lane], lane, slots, work, settings, counters)
     soonest = min(sample, section)
-    soonest = min(soonest, settings[Setting.PERIOD, l])
-    work[slots[Slot.NEXT_DUE] * LANES + l] = min(soonest, work[slots[Slot.END] * LANES + l])
+    soonest = min(soonest, settings[Setting.PERIOD, lane])
+    work[slots[Slot.NEXT_DUE] * LANES + lane] = min(soonest, work[slots[Slot.END] * LANES + lane])
 
 
 @kernel()
 def turn_over(
-    l: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
 ) -> None:
     """Begin a new period: local time goes back, and phases on where periods are not common."""
-    period = settings[Setting.PERIOD, l]
-    counters[Counter.PERIOD, l] += 1
-    whole = float(counters[Counter.PERIOD, l])
-    work[slots[Slot.TIME] * LANES + l] -= period
-    work[slots[Slot.BEFORE_TIME] * LANES + l] -= period
-    work[slots[Slot.END] * LANES + l] = product_difference(
-        settings[Setting.DURATION, l], 1.0, whole, period
+    period = settings[Setting.PERIOD, lane]
+    counters[Counter.PERIOD, lane] += 1
+    whole = float(counters[Counter.PERIOD, lane])
+    work[slots[Slot.TIME] * LANES + lane] -= period
+    work[slots[Slot.BEFORE_TIME] * LANES + lane] -= period
+    work[slots[Slot.END] * LANES + lane] = product_difference(
+        settings[Setting.DURATION, lane], 1.0, whole, period
     )
     for k in range(slots[Slot.DRIVERS]):
-        start = settings[Setting.FIRST_DRIVER + 2 * k, l]
-        travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, l]
-        if settings[Setting.TURNING, l] == 0.0:
-            work[(slots[Slot.PHASE] + k) * LANES + l] = start + travel
+        start = settings[Setting.FIRST_DRIVER + 2 * k, lane]
+        travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, lane]
+        if settings[Setting.TURNING, lane] == 0.0:
+            work[(slots[Slot.PHASE] + k) * LANES + lane] = start + travel
             continue
-        turns = travel if settings[Setting.COMMON, l] > 0.0 else math.floor(travel)
-        work[(slots[Slot.WOUND] + k) * LANES + l] = 2.0 * math.pi * turns
-        work[(slots[Slot.PHASE] + k) * LANES + l] = start + 2.0 * math.pi * (travel - turns)
+        turns = travel if settings[Setting.COMMON, lane] > 0.0 else math.floor(travel)
+        work[(slots[Slot.WOUND] + k) * LANES + lane] = 2.0 * math.pi * turns
+        work[(slots[Slot.PHASE] + k) * LANES + lane] = start + 2.0 * math.pi * (travel - turns)
 
 
 @kernel()
-def stop(l: int, status: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray) -> None:
+def stop(lane: int, status: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray) -> None:
     """Take a lane out of the running."""
-    counters[Counter.STATUS, l] = status
-    work[slots[Slot.ACTIVE] * LANES + l] = 0.0
-    work[slots[Slot.ACCEPT] * LANES + l] = 0.0
+    counters[Counter.STATUS, lane] = status
+    work[slots[Slot.ACTIVE] * LANES + lane] = 0.0
+    work[slots[Slot.ACCEPT] * LANES + lane] = 0.0

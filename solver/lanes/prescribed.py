@@ -1,8 +1,9 @@
-"""Extremes of channels that drivers prescribe: functions of time alone, never watched on the way."""
+"""Extremes of channels that drivers prescribe: functions of time alone, sought afterwards."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -28,23 +29,26 @@ def prescribed_peaks(
     drivers = len(kernel.drivers)
     width = row_width(drivers, kernel.states, len(kernel.play))
 
-    def evaluate(times: Floats) -> Floats:
+    def every(times: Floats) -> Floats:
         rows = np.zeros((len(times), width))
         rows[:, 1] = times
         for k in range(drivers):
             rows[:, 2 + k] = setting[Setting.FIRST_DRIVER + 2 * k]
         return bundle.observe(lane, rows, columns)
 
-    count = min(int(math.ceil(INSTANTS_A_PERIOD * span / period)) + 16, MOST_INSTANTS)
+    def only(column: int) -> Callable[[Floats], Floats]:
+        return lambda instants: every(instants)[:, column]
+
+    count = min(math.ceil(INSTANTS_A_PERIOD * span / period) + 16, MOST_INSTANTS)
     times = np.linspace(0.0, span, count)
-    values = evaluate(times)
+    values = every(times)
     found = {}
     for c, name in enumerate(names):
         column = values[:, c]
         if column.min() == column.max():
             found[name] = Peak(float(column[0]), 0.0, float(column[0]), 0.0)
             continue
-        low_time, low = refine_extreme(lambda t, c=c: evaluate(t)[:, c], times, column, -1.0)
-        high_time, high = refine_extreme(lambda t, c=c: evaluate(t)[:, c], times, column, 1.0)
+        low_time, low = refine_extreme(only(c), times, column, -1.0)
+        high_time, high = refine_extreme(only(c), times, column, 1.0)
         found[name] = Peak(low, low_time, high, high_time)
     return found

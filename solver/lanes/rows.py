@@ -6,7 +6,7 @@ import numpy as np
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import kernel
+from solver.jit import LaneFunction, kernel
 from solver.lanes.periods import due_time
 from solver.lanes.state import Counter
 
@@ -15,18 +15,18 @@ from solver.lanes.state import Counter
 def write_row(
     row: np.ndarray,
     i: int,
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
 ) -> None:
     """Write the dense state in lane i of `spare`: period, time, phases, state, modes, rates."""
-    row[0] = counters[Counter.PERIOD, l]
+    row[0] = counters[Counter.PERIOD, lane]
     row[1] = spare[slots[Slot.STAGE_TIME] * LANES + i]
     at = 2
     for k in range(2 * slots[Slot.DRIVERS]):  # phases, then whole turns
-        row[at + k] = work[(slots[Slot.PHASE] + k) * LANES + l]
+        row[at + k] = work[(slots[Slot.PHASE] + k) * LANES + lane]
     at += 2 * slots[Slot.DRIVERS]
     for k in range(slots[Slot.STATES]):
         row[at + k] = spare[(slots[Slot.STAGE] + k) * LANES + i]
@@ -38,7 +38,7 @@ def write_row(
 
 @kernel()
 def emit(
-    l: int,
+    lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
@@ -46,13 +46,13 @@ def emit(
     counters: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
-    probe: object,
+    probe: LaneFunction,
 ) -> bool:
     """Write the samples and sections inside this step; whether a buffer was too full for them.
 
     A full buffer postpones the step: the same attempt is made again once there is room.
     """
-    arrival = work[slots[Slot.ARRIVAL] * LANES + l]
+    arrival = work[slots[Slot.ARRIVAL] * LANES + lane]
     for kind in range(2):
         rows = sample_rows if kind == 0 else section_rows
         next_index = Counter.SAMPLE if kind == 0 else Counter.SECTION
@@ -60,28 +60,28 @@ def emit(
         while True:
             count = 0
             while count < LANES:
-                moment = due_time(kind, counters[next_index, l] + count, l, slots, work,
+                moment = due_time(kind, counters[next_index, lane] + count, lane, slots, work,
                                   settings, counters)  # fmt: skip
                 if moment > arrival:
                     break
                 start, tried = (
-                    work[slots[Slot.TIME] * LANES + l],
-                    work[slots[Slot.TRIED] * LANES + l],
+                    work[slots[Slot.TIME] * LANES + lane],
+                    work[slots[Slot.TRIED] * LANES + lane],
                 )
                 theta = (moment - start) / tried if tried > 0.0 else 0.0
                 spare[slots[Slot.THETA] * LANES + count] = min(max(theta, 0.0), 1.0)
                 count += 1
             if count == 0:
                 break
-            if counters[filled, l] + count > rows.shape[1]:
-                work[slots[Slot.ACCEPT] * LANES + l] = 0.0
-                work[slots[Slot.NEXT_STEP] * LANES + l] = work[slots[Slot.STEP] * LANES + l]
+            if counters[filled, lane] + count > rows.shape[1]:
+                work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
+                work[slots[Slot.NEXT_STEP] * LANES + lane] = work[slots[Slot.STEP] * LANES + lane]
                 return True
-            probe(work, spare, l)
+            probe(work, spare, lane)
             for i in range(count):
-                write_row(rows[l, counters[filled, l]], i, l, slots, work, spare, counters)
-                counters[filled, l] += 1
-            counters[next_index, l] += count
+                write_row(rows[lane, counters[filled, lane]], i, lane, slots, work, spare, counters)
+                counters[filled, lane] += 1
+            counters[next_index, lane] += count
             if count < LANES:
                 break
     return False

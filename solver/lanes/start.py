@@ -29,7 +29,7 @@ def start_state(
         if kind == "s":
             at, rate = travel(scene, body, pose, velocity)
         else:
-            at, rate = (float(a[i + "x y theta".split().index(kind)]) for a in (pose, velocity))
+            at, rate = (float(a[i + ("x", "y", "theta").index(kind)]) for a in (pose, velocity))
         position.append(at)
         speed.append(rate)
     return position, speed

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 from typing import NamedTuple
 
 from solver.mechanics.frames import Pair
-from solver.mechanics.scalars import Scalar, sine_cosine, sqrt
+from solver.mechanics.scalars import Scalar, Scalars, sine_cosine, sqrt
 from solver.scene.document import Scene
 from solver.scene.references import has_play
 
@@ -57,7 +57,7 @@ class AbsoluteMechanism:
             name for name, joint in scene.joints.items() if close_play or not has_play(joint)
         )
 
-    def marker(self, reference: str, q: Sequence[Scalar], v: Sequence[Scalar]) -> Marker:
+    def marker(self, reference: str, q: Scalars, v: Scalars) -> Marker:
         """Return a point's arm, position and velocity; q, v : (3 bodies,) m, m, rad and rates."""
         body, point = reference.split(".")
         if body == "ground":
@@ -75,9 +75,7 @@ class AbsoluteMechanism:
             (v[3 * i] - spin * arm[1], v[3 * i + 1] + spin * arm[0]),
         )
 
-    def rows(
-        self, q: Sequence[Scalar], v: Sequence[Scalar], driven: Mapping[str, Scalar]
-    ) -> list[Row]:
+    def rows(self, q: Scalars, v: Scalars, driven: Mapping[str, Scalar]) -> list[Row]:
         """Return every constraint row.
 
         q, v : (3 bodies,), m, m, rad and their rates. `driven` gives each driver's position at
@@ -94,9 +92,7 @@ class AbsoluteMechanism:
             rows += writers[joint.type](name, joint, q, v, driven)
         return rows
 
-    def _coincidence(
-        self, name: str, first: Marker, second: Marker, v: Sequence[Scalar]
-    ) -> list[Row]:
+    def _coincidence(self, name: str, first: Marker, second: Marker, v: Scalars) -> list[Row]:
         rows = []
         for axis, part in ((0, "x"), (1, "y")):
             jacobian: dict[int, Scalar] = {}
@@ -127,8 +123,8 @@ class AbsoluteMechanism:
         bodies: tuple[int, int],
         offset: Scalar,
         speed: Scalar,
-        q: Sequence[Scalar],
-        v: Sequence[Scalar],
+        q: Scalars,
+        v: Scalars,
     ) -> Row:
         """θ_second - θ_first - offset = 0."""
         jacobian: dict[int, Scalar] = {}
@@ -151,8 +147,8 @@ class AbsoluteMechanism:
         self,
         name: str,
         joint: SimpleNamespace,
-        q: Sequence[Scalar],
-        v: Sequence[Scalar],
+        q: Scalars,
+        v: Scalars,
         driven: Mapping[str, Scalar],
     ) -> list[Row]:
         first, second = self.marker(joint.bearing, q, v), self.marker(joint.journal, q, v)
@@ -166,8 +162,8 @@ class AbsoluteMechanism:
         self,
         name: str,
         joint: SimpleNamespace,
-        q: Sequence[Scalar],
-        v: Sequence[Scalar],
+        q: Scalars,
+        v: Scalars,
         _driven: Mapping[str, Scalar],
     ) -> list[Row]:
         first, second = self.marker(joint.base, q, v), self.marker(joint.part, q, v)
@@ -179,8 +175,8 @@ class AbsoluteMechanism:
         self,
         name: str,
         joint: SimpleNamespace,
-        q: Sequence[Scalar],
-        v: Sequence[Scalar],
+        q: Scalars,
+        v: Scalars,
         driven: Mapping[str, Scalar],
     ) -> list[Row]:
         first, second = self.marker(joint.guide, q, v), self.marker(joint.slider, q, v)
@@ -193,7 +189,7 @@ class AbsoluteMechanism:
             rows.append(self._projection(name, "along", axis, *motion, first, second, v))
         return rows
 
-    def axis(self, joint: SimpleNamespace, guide: int, q: Sequence[Scalar]) -> Pair:
+    def axis(self, joint: SimpleNamespace, guide: int, q: Scalars) -> Pair:
         """Return the guide's unit axis in world components."""
         x, y = unit(joint.axis)
         if guide < 0:
@@ -210,7 +206,7 @@ class AbsoluteMechanism:
         speed: Scalar,
         first: Marker,
         second: Marker,
-        v: Sequence[Scalar],
+        v: Scalars,
     ) -> Row:
         """(r_second - r_first) · u - offset = 0, u fixed in the first body."""
         (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])

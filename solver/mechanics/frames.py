@@ -48,7 +48,7 @@ class FrameVector:
         return FrameVector(self.orientations, parts)
 
     def turned(self) -> FrameVector:
-        """Return v turned by a quarter turn, (x, y) -> (-y, x): the velocity that unit spin gives."""
+        """Return v after a quarter turn, (x, y) -> (-y, x): the velocity that unit spin gives."""
         return FrameVector(self.orientations, {f: (-y, x) for f, (x, y) in self.parts.items()})
 
     def dot(self, other: FrameVector) -> Scalar:

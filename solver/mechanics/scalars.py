@@ -14,6 +14,9 @@ type_of_array = np.ndarray
 Scalar = Any
 """A float, a NumPy array or a recorded expression."""
 
+Scalars = Any
+"""A sequence of scalars: a list, or an array of floats."""
+
 
 def sqrt(x: Scalar) -> Scalar:
     """Square root."""
@@ -39,12 +42,12 @@ def select_positive(x: Scalar, if_positive: Scalar, otherwise: Scalar) -> Scalar
 
 
 def positive_part(x: Scalar) -> Scalar:
-    """The larger of x and 0."""
+    """Return the larger of x and 0."""
     return select_positive(x, x, 0.0)
 
 
 def absolute(x: Scalar) -> Scalar:
-    """The magnitude of x."""
+    """Return the magnitude of x."""
     return abs(x)
 
 
@@ -54,22 +57,22 @@ def sign(x: Scalar) -> Scalar:
 
 
 def minimum(x: Scalar, y: Scalar) -> Scalar:
-    """The smaller of x and y."""
+    """Return the smaller of x and y."""
     return select_positive(x - y, y, x)
 
 
 def maximum(x: Scalar, y: Scalar) -> Scalar:
-    """The larger of x and y."""
+    """Return the larger of x and y."""
     return select_positive(x - y, x, y)
 
 
 def clamp_to_unit(x: Scalar) -> Scalar:
-    """X limited to 0..1."""
+    """Return x limited to 0..1."""
     return minimum(positive_part(x), 1.0)
 
 
 def power(x: Scalar, exponent: Scalar) -> Scalar:
-    """x ** exponent for x >= 0 and exponent > 0; the Hertz exponent 1.5 costs one square root."""
+    """Return x ** exponent for x >= 0; the Hertz exponent 1.5 costs one square root."""
     if isinstance(exponent, float) and exponent == 1.5:
         return x * sqrt(x)
     if isinstance(x, float | int | type_of_array):

@@ -45,7 +45,7 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
         ("angular_velocities", start.angular_velocities),
         ("velocities", start.velocities),
     ):
-        for body in table:  # type: ignore[attr-defined]
+        for body in table:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
     document = scene.model_dump()
@@ -74,7 +74,7 @@ def _names(scene: Scene) -> Iterator[Problem]:
         ("joints", scene.joints),
         ("drivers", scene.drivers),
     ):
-        for name in names:  # type: ignore[attr-defined]
+        for name in names:
             if name in RESERVED:
                 yield Problem(f"/{section}/{name}", f"The name '{name}' is reserved; take another.")
             elif used[name] > 1:
