@@ -187,8 +187,8 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
                 Problem(
                     "/scene/joints",
                     f"The mechanism is over-constrained: {count} of {assembly.constraints}"
-                    " constraint equations are redundant; remove a joint or driver, or give one joint"
-                    " clearance.",
+                    " constraint equations are redundant; remove a joint or driver, or give one"
+                    " joint clearance.",
                 )
             ]
         )
@@ -319,8 +319,8 @@ def _limits(
             Problem(
                 "/output_step",
                 f"{samples:.3g} samples of {channel_count} channels are about {stored / 1e9:.3g}"
-                f" GB; the limits are {MOST_SAMPLES:g} samples and {MOST_BYTES / 1e9:g} GB. Choose a"
-                f" larger output_step than {output_step:g} s, or fewer channels.",
+                f" GB; the limits are {MOST_SAMPLES:g} samples and {MOST_BYTES / 1e9:g} GB. Choose"
+                f" a larger output_step than {output_step:g} s, or fewer channels.",
             )
         )
     if problems:

@@ -62,12 +62,14 @@ class IdealRun:
             if last == samples:
                 times[-1] = job["duration"]
             values = self.channels(times)
-            section_times: Floats = np.empty(0)
+            section_times: Floats = np.empty(0, np.float64)
             if last == samples and self.admission.period is not None:
                 offset = section_offset(
                     self.scene, self.admission.period, job["section"]["crank_angle"]
                 )
-                section_times = np.arange(self.admission.sections) * self.admission.period + offset
+                section_times = offset + self.admission.period * np.arange(
+                    self.admission.sections, dtype=np.float64
+                )
             sections = self.channels(section_times)
             self.samples_done = last
             self.seconds += time.perf_counter() - begun

@@ -61,6 +61,7 @@ def scan(W):
         nearest = above if above < below else below
         within = {MARGIN} * (abs(rose) + abs(change)) - nearest
         found = 0.0 if rose * change > 0.0 else within
+        found = found if abs(rose) > 0.0 else 0.0
         W[{at["candidate"]} + i] = found if taken > 0.0 else 0.0
         W[{at["previous"]} + i] = value if taken > 0.0 else before
         W[{at["change"]} + i] = change if taken > 0.0 else rose
