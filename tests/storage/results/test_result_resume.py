@@ -22,6 +22,7 @@ from made_up_runs import (
 from storage.results import (
     CheckpointMismatch,
     CorruptStore,
+    Partition,
     ResultReader,
     ResultWriter,
     StoreExists,
@@ -116,11 +117,11 @@ def test_a_checkpoint_survives_the_two_that_follow_it(tmp_path):
 
 
 def test_a_checkpoint_is_small_whatever_waits(tmp_path):
-    run = MadeUpRun(
-        made_up_layout(samples=10_000, sections=0, partition=SMALL_FILES), made_up_impacts(0)
-    )
-    writer = ResultWriter.create(tmp_path / "store", run.layout)
+    layout = made_up_layout(samples=10_000, sections=0, partition=Partition())
+    run = MadeUpRun(layout, made_up_impacts(1000))
+    writer = ResultWriter.create(tmp_path / "store", layout)
     run.append(writer, 0.0, 0.5)
+    assert (writer.samples, writer.watermark) == (5000, 0)
     assert len(writer.checkpoint()) < 1000
 
 

@@ -37,15 +37,15 @@ json_documents = st.dictionaries(
 )
 
 
-@pytest.fixture(params=[SMALL_FILES, PLAIN_FILES], ids=["sharded", "plain"])
+@pytest.fixture(scope="module", params=[SMALL_FILES, PLAIN_FILES], ids=["sharded", "plain"])
 def run(request):
     layout = made_up_layout(samples=43, sections=7, partition=request.param)
     return MadeUpRun(layout, made_up_impacts(30))
 
 
-@pytest.fixture
-def store(tmp_path, run):
-    return run.write(tmp_path / "store")
+@pytest.fixture(scope="module")
+def store(tmp_path_factory, run):
+    return run.write(tmp_path_factory.mktemp("written") / "store")
 
 
 def test_values_come_back_bit_for_bit(store, run):
