@@ -1,10 +1,16 @@
-"""`python -m worker.warm`: compile the kernels of every preset, while an image is built."""
+"""`python -m worker.warm`: compile the kernels of every preset, while an image is built.
 
+With ``--check`` nothing may be left to compile: it proves that the kernels of an image are used
+by the processor they run on.
+"""
+
+import argparse
 import sys
 import time
 
 from solver import presets
 from solver.admission import admit
+from solver.compiler.cache import cache_folder
 from solver.simulate import Simulation
 
 
@@ -17,11 +23,25 @@ def warm(name: str) -> float:
     return time.perf_counter() - began
 
 
-def main() -> None:
-    """Warm every preset and say how long each took."""
+def compiled() -> frozenset[str]:
+    """Return the names of the compiled files there are."""
+    return frozenset(path.name for path in cache_folder().rglob("*.nbc"))
+
+
+def main() -> int:
+    """Warm every preset and say how long each took; 3 if a check finds something compiled."""
+    parser = argparse.ArgumentParser(prog="python -m worker.warm", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="fail if anything is compiled")
+    arguments = parser.parse_args()
+    before = compiled()
     for name in presets.names():
         sys.stdout.write(f"{name}: {warm(name):.1f} s\n")
+    new = compiled() - before
+    if arguments.check and new:
+        sys.stdout.write(f"{len(new)} functions had to be compiled: {', '.join(sorted(new))}\n")
+        return 3
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
