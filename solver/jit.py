@@ -1,4 +1,6 @@
-"""The one decorator of hand-written kernels: cached on disk, IEEE division, no fast mathematics."""
+"""The decorators of hand-written kernels: cached on disk, IEEE division, no fast mathematics."""
+
+from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
@@ -9,12 +11,37 @@ from solver.compiler.cache import cache_folder
 
 cache_folder()  # names Numba's cache before any kernel is declared
 
-
 LaneFunction = Callable[..., Any]
 """A generated function of work arrays: first-class inside kernels."""
 
 
-def kernel(signature: Any = None) -> Callable[[Any], Any]:
-    """Compile a function: at once with a signature, else on first use."""
-    decorator: Callable[[Any], Any] = numba.njit(signature, cache=True, error_model="numpy")
+def kernel() -> Callable[[Any], Any]:
+    """Compile a function when another kernel or Python first uses it."""
+    decorator: Callable[[Any], Any] = numba.njit(cache=True, error_model="numpy")
     return decorator
+
+
+class Deferred:
+    """A kernel of one signature, compiled or loaded at its first call: importing costs nothing."""
+
+    def __init__(self, signature: Any, function: Callable[..., Any]) -> None:
+        self.signature = signature
+        self.function = function
+        self._compiled: Callable[..., Any] | None = None
+
+    def compile(self) -> Callable[..., Any]:
+        """Return the compiled function; seconds when it is not in the cache."""
+        if self._compiled is None:
+            self._compiled = numba.njit(self.signature, cache=True, error_model="numpy")(
+                self.function
+            )
+        return self._compiled
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the kernel."""
+        return self.compile()(*arguments)
+
+
+def deferred(signature: Any) -> Callable[[Callable[..., Any]], Deferred]:
+    """Declare a kernel that Python calls with first-class functions, which need a signature."""
+    return lambda function: Deferred(signature, function)

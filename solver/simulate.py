@@ -22,6 +22,7 @@ from solver.lanes.state import Counter, Setting, Status
 from solver.mechanics.tree import spanning_tree
 from solver.results import IMPACT, Floats, Peak, Slice, Summary
 from solver.scene.document import Scene
+from solver.warm import compile_loop_aside
 
 SLICE_SECONDS = 0.1
 """Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
@@ -81,7 +82,10 @@ class DynamicRun:
         self.admission = admission
         job = admission.job
         tree = spanning_tree(scene)
+        aside = compile_loop_aside()
         self.kernel: Kernel = compile_kernel(scene, tree, job["formulation"], METHODS["tsitouras5"])
+        if aside is not None:
+            aside.wait()
         offset = 0.0
         if admission.period is not None:
             angle = job["section"]["crank_angle"]

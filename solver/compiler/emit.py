@@ -78,8 +78,15 @@ def lane_function(
         raise LimitExceeded([too_many(len(ordered))])
     lines = [DECORATOR, f"def {name}(W):", f"    for l in range({LANES}):"]
 
+    named: dict[int, str] = {}
+
     def load(slot: int) -> str:
         return f"W[{slot * LANES} + l]"
+
+    def operand(node: Expression) -> str:
+        if node.operation != "constant":
+            return named[node.index]
+        return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
 
     for node in ordered:
         if node.operation == "constant":
@@ -89,10 +96,12 @@ def lane_function(
         elif node.fixed and fixed is not None:
             text = load(fixed.slot(node))
         else:
-            text = FORMATS[node.operation].format(*(_operand(a) for a in node.arguments))
-        lines.append(f"        v{node.index} = {text}")
+            text = FORMATS[node.operation].format(*(operand(a) for a in node.arguments))
+        # numbered as they come, so that equal equations make equal sources
+        named[node.index] = f"v{len(named)}"
+        lines.append(f"        {named[node.index]} = {text}")
     for slot_name, expression in outputs:
-        lines.append(f"        {load(layout[slot_name])} = {_operand(expression)}")
+        lines.append(f"        {load(layout[slot_name])} = {operand(expression)}")
     return "\n".join(lines) + "\n"
 
 
@@ -108,10 +117,3 @@ def reachable(outputs: Iterable[Expression]) -> list[Expression]:
         if not node.fixed:
             waiting.extend(node.arguments)
     return [found[index] for index in sorted(found)]
-
-
-def _operand(node: Expression) -> str:
-    if node.operation == "constant":
-        text = repr(node.value)
-        return f"({text})" if node.value < 0.0 else text
-    return f"v{node.index}"

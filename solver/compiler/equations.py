@@ -59,6 +59,9 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         name: recorder.variable(f"phase{k}") + numbers.drivers[name].speed * time
         for k, name in enumerate(scene.drivers)
     }
+    if lagrange:  # here a driven angle is a coordinate, which goes on turning
+        for k, name in enumerate(scene.drivers):
+            driven[name] = driven[name] + recorder.variable(f"wound{k}")
     modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.play)}
     rates = {name: recorder.variable(f"impact_rate{j}") for j, name in enumerate(tree.play)}
 
@@ -75,7 +78,8 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         observed = mechanism.motion(modes, rates, known)
     lift = recorder.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
-    for body, wound in _windings(scene, tree, recorder).items():
+    windings = {} if lagrange else _windings(scene, tree, recorder)
+    for body, wound in windings.items():
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(observed))
     return Equations(

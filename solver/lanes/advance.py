@@ -15,7 +15,7 @@ from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import LaneFunction, kernel
+from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.contacts import begin_contact, end_contact, land
 from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import plan, stop, turn_over
@@ -138,7 +138,7 @@ def masks(which: int, slots: np.ndarray, work: np.ndarray) -> bool:
 TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 
 
-@kernel(
+@deferred(
     int64(
         FLAG_FUNCTION,
         *[LANE_FUNCTION] * 5,

@@ -7,12 +7,12 @@ from numba import float64, int64, types, void
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.jit import LaneFunction, kernel
+from solver.jit import LaneFunction, deferred
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 
 
-@kernel(
+@deferred(
     void(
         LANE_FUNCTION,
         LANE_FUNCTION,

@@ -1,0 +1,42 @@
+"""`python -m solver.warm`: compile the driving loop into the cache.
+
+It is the same for every scene; on a machine that has never computed, a second process compiles it
+while the first compiles the scene's own kernel.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from solver.compiler.cache import cache_folder
+from solver.lanes.advance import advance
+from solver.lanes.observation import observe_rows
+
+
+def compile_loop() -> None:
+    """Compile what every run shares, or load it from the cache."""
+    advance.compile()
+    observe_rows.compile()
+    _marker().touch()
+
+
+def compile_loop_aside() -> subprocess.Popen[bytes] | None:
+    """Start compiling the loop in a process of its own; None when it is in the cache."""
+    if _marker().exists():
+        return None
+    return subprocess.Popen(
+        [sys.executable, "-m", "solver.warm"],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+def _marker() -> Path:
+    return cache_folder() / "loop-compiled"
+
+
+if __name__ == "__main__":
+    compile_loop()
