@@ -44,8 +44,9 @@ def run(request):
 
 
 @pytest.fixture(scope="module")
-def store(tmp_path_factory, run):
-    return run.write(tmp_path_factory.mktemp("written") / "store")
+def store(run):
+    with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
+        yield run.write(Path(folder, "store"))
 
 
 def test_values_come_back_bit_for_bit(store, run):
