@@ -1,0 +1,88 @@
+"""Broker, API, relay and worker as `jointplay serve` runs them, used by commands and client."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jointplay.client import Client
+from jointplay.serving import running_service
+from storage.results import ResultReader
+
+PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with running_service(tmp_path_factory.mktemp("service") / "data") as url:
+        yield url
+
+
+def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path):
+    submitted = jointplay("submit", *PRESS, "--wait", "--url", url)
+    assert submitted.code == 0, submitted.err
+    job_id = submitted.out.strip()
+    assert jointplay("run", *PRESS, "-o", tmp_path / "OUT").code == 0
+    local = ResultReader(tmp_path / "OUT" / "results.zarr")
+    with Client(url) as client:
+        job = client.get(job_id)
+        assert job.job == local.attributes["job"]
+        history, sections = client.history(job_id), client.poincare(job_id)
+        for fetched, (time, columns) in (
+            (history, local.history()),
+            (sections, local.sections()),
+        ):
+            assert fetched.time.tobytes() == time.tobytes()
+            assert fetched.channels.keys() == columns.keys()
+            for name, column in columns.items():
+                assert fetched[name].tobytes() == column.tobytes(), name
+        peaks = {name: (peak.minimum, peak.maximum) for name, peak in client.peaks(job_id).items()}
+        assert peaks == {name: (one.minimum, one.maximum) for name, one in local.peaks().items()}
+        impacts, rows = client.impacts(job_id), local.impacts()
+        assert [local.joints[index] for index in rows["joint"]] == impacts.joint
+        assert len(impacts.joint) > 0
+        np.testing.assert_array_equal(impacts.release, rows["release"])  # NaN where still open
+
+
+def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):
+    long = ["seven-bar-press", "--duration", "100000", "--output-step", "0.5"]
+    job_id = jointplay("submit", *long, "--channels", "displacement", "--url", url).out.strip()
+    with Client(url) as client:
+        cancelled = False
+
+        def cancel_once_it_moves(job):
+            nonlocal cancelled
+            if job.progress.time > 0.0 and not cancelled:
+                assert jointplay("cancel", job_id, "--url", url).code == 0
+                cancelled = True
+
+        assert client.wait(job_id, cancel_once_it_moves, timeout=120.0).state == "cancelled"
+        history = client.history(job_id)
+        assert not history.complete
+        assert 0 < len(history.time) < 200_001
+        assert np.isfinite(history["displacement"]).all()
+    assert jointplay("show", job_id, "--wait", "--url", url).code == 4
+
+
+def test_a_job_that_fails_says_why_and_keeps_what_it_computed(jointplay, url):
+    stiffest = ["--set", "friction=1", "--tolerance", "1e-13"]  # a step in the friction law:
+    stiffest += ["--set", "static_velocity=1e-12", "--set", "dynamic_velocity=1e-12"]
+    ended = jointplay("submit", *PRESS[:-1], "clearance=5e-4", *stiffest, "--wait", "--url", url)
+    assert ended.code == 3
+    assert "larger tolerance" in ended.err.splitlines()[-1]
+    with Client(url) as client:
+        job = client.get(ended.out.strip())
+        assert job.error is not None
+        assert job.error.kind == "solver"
+        history = client.history(job.id, ["displacement"])
+        assert not history.complete
+        assert 0.0 < history.time[-1] < 0.05
+
+
+def test_figures_of_a_real_run_are_served(jointplay, url, tmp_path):
+    job_id = jointplay("submit", *PRESS, "--wait", "--url", url).out.strip()
+    ended = jointplay("plot", job_id, "--format", "svg", "-o", tmp_path, "--url", url)
+    assert ended.code == 0
+    drawn = {Path(line).name for line in ended.out.splitlines()}
+    assert {"displacement.svg", "contact-force.svg", "orbit.svg", "phase-portrait.svg"} <= drawn
