@@ -28,6 +28,8 @@ GREY: Final = "#767676"
 
 MOST_VECTOR_POINTS: Final = 20_000
 """Longer curves become pixels inside an SVG, or no viewer would open it."""
+MOST_VECTOR_MARKS: Final = 4000
+"""The same for marks that stand alone; each takes ten times the bytes."""
 
 _MILLIMETRES_AN_INCH: Final = 25.4
 _STYLE: Final[dict[str, Any]] = {

@@ -99,7 +99,7 @@ def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -
             "o",
             color=page.VERMILION,
             markeredgewidth=0.0,
-            rasterized=len(points[panel.rate]) > page.MOST_VECTOR_POINTS,
+            rasterized=len(points[panel.rate]) > page.MOST_VECTOR_MARKS,
             label="Poincaré points",
         )
     axes.set_xlabel(across.label(panel.position_label))
