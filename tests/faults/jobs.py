@@ -8,11 +8,12 @@ from solver.version import SOLVER_VERSION
 from storage.catalogue import Block, Catalogue, Job, NewJob
 
 IMPATIENT = {
-    "JOINTPLAY_LEASE": "1.5",
+    "JOINTPLAY_LEASE": "3",  # six heartbeats: a machine busy with other tests may swallow some
     "JOINTPLAY_HEARTBEAT": "0.5",
     "JOINTPLAY_REAPER_PERIOD": "0.2",
     "JOINTPLAY_PROGRESS_PERIOD": "0.2",
     "JOINTPLAY_REPUBLISH_AFTER": "1",
+    "JOINTPLAY_MAX_ATTEMPTS": "10",
 }
 
 
