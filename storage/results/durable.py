@@ -48,12 +48,12 @@ class DurableFolder:
         journalling file system for all that follow.
         """
         for key in self._partial:
-            _sync(f"{self.root}/{key}{PARTIAL}")
+            sync(f"{self.root}/{key}{PARTIAL}")
         for key in self._partial:
             self._appear(key)
         self._partial.clear()
         for folder in sorted(self._unsynced):
-            _sync(f"{self.root}/{folder}" if folder else str(self.root))
+            sync(f"{self.root}/{folder}" if folder else str(self.root))
         self._unsynced.clear()
 
     def draft(self, key: str, content: bytes) -> None:
@@ -72,7 +72,7 @@ class DurableFolder:
                 raise
             partial = f"{path}{PARTIAL}"
             shutil.copyfile(source, partial)
-            _sync(partial)
+            sync(partial)
             os.replace(partial, path)
 
     def record(self, key: str) -> Record:
@@ -122,7 +122,8 @@ def _write_all(descriptor: int, content: bytes) -> None:
         view = view[os.write(descriptor, view) :]
 
 
-def _sync(path: str) -> None:
+def sync(path: str | Path) -> None:
+    """Wait until the content of a file, or the names in a folder, are on the disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

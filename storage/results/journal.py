@@ -8,6 +8,7 @@ next one. So no generation holds more than the buffers of the tables.
 import hashlib
 import json
 import os
+import shutil
 import struct
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,6 +16,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from storage.results.durable import sync
 from storage.results.errors import CheckpointMismatch, CorruptStore
 from storage.results.growing_table import GrowingTable
 
@@ -33,14 +35,12 @@ class Journal:
         Folder of the store.
     layout_digest
         Goes into every checkpoint, to be compared when one is resumed.
-    generation
-        Number of the last generation that exists.
     """
 
-    def __init__(self, root: Path, layout_digest: str, generation: int = 0) -> None:
+    def __init__(self, root: Path, layout_digest: str) -> None:
         self._folder = root / FOLDER
         self._layout_digest = layout_digest
-        self._generation = generation
+        self._generation = 0
         self._size = 0
         self._hash = hashlib.sha256()
         self._durable: list[int] | None = None
@@ -69,7 +69,8 @@ class Journal:
         finally:
             os.close(descriptor)
         if self._size == 0:
-            _sync_folders(self._folder)
+            sync(self._folder)
+            sync(self._folder.parent)
         self._size += len(frame)
         self._hash.update(frame)
         self._journalled = [table.rows for table in tables]
@@ -82,6 +83,10 @@ class Journal:
             "durable": durable,
         }
         return json.dumps(token).encode()
+
+    def remove(self) -> None:
+        """Delete all generations: no checkpoint will be resumed any more."""
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     def _begin(self, durable: list[int]) -> None:
         self._folder.mkdir(exist_ok=True)
@@ -159,12 +164,3 @@ def _replay_frame(view: memoryview, table: GrowingTable) -> memoryview:
         view = view[size:]
     table.append(columns)
     return view
-
-
-def _sync_folders(folder: Path) -> None:
-    for path in (folder, folder.parent):
-        descriptor = os.open(path, os.O_RDONLY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from storage.results.durable import DurableFolder, Record, measure
 from storage.results.errors import CorruptStore, NotAStore
+from storage.results.journal import FOLDER as JOURNAL
 from storage.results.layout import MANIFEST, SCHEMA_VERSION
 
 _MOST_NAMED = 5
 
 
 def seal(folder: DurableFolder) -> None:
-    """Write the manifest of everything below the folder and make it durable."""
+    """Write the manifest of all files of a store and make it durable."""
     files = {
         key: {"bytes": record.size, "sha256": record.digest}
         for key, record in ((key, folder.record(key)) for key in sorted(keys(folder.root)))
@@ -23,10 +24,11 @@ def seal(folder: DurableFolder) -> None:
 
 
 def keys(root: Path) -> Iterator[str]:
-    """List every file below the folder but the manifest itself, as path with slashes."""
+    """List the files of a store but the manifest itself, as paths with slashes."""
     for path in root.rglob("*"):
-        if path.is_file() and path != root / MANIFEST:
-            yield path.relative_to(root).as_posix()
+        key = path.relative_to(root).as_posix()
+        if path.is_file() and key != MANIFEST and not key.startswith(f"{JOURNAL}/"):
+            yield key
 
 
 def read(root: Path) -> dict[str, Record]:

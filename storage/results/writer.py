@@ -1,6 +1,5 @@
 """Write the results of one attempt, from empty store to sealed store."""
 
-import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final, Self
@@ -12,7 +11,6 @@ from storage.results import manifest, metadata
 from storage.results.durable import PARTIAL, DurableFolder
 from storage.results.errors import InvalidAppend, StoreExists, StoreSealed
 from storage.results.growing_table import GrowingTable
-from storage.results.journal import FOLDER as JOURNAL
 from storage.results.journal import Checkpoint, Journal
 from storage.results.layout import IMPACT, Peak, ResultLayout
 from storage.results.tables import tables
@@ -208,7 +206,10 @@ class ResultWriter:
             When called twice.
         InvalidAppend
             `complete` although samples or sections are missing, a peak of an unknown channel,
-            or a summary that JSON cannot carry.
+            or a summary that JSON cannot carry; the store may still be sealed then.
+        OSError
+            The disk is full, for example. The store stays unsealed; its last checkpoint can
+            still be resumed.
         """
         self._refuse_when_sealed()
         if complete and (self.samples, self.sections) != (
@@ -233,17 +234,19 @@ class ResultWriter:
         names = [channel.name for channel in self._layout.channels]
         if unknown := peaks.keys() - set(names):
             raise InvalidAppend(f"peaks of channels that the layout lacks: {sorted(unknown)}")
+        self._sealed = True
         rows = np.array([peaks.get(name, _NO_PEAK) for name in names]).reshape(-1, 4)
         self._peaks.append(list(rows.T))
         for table in self._tables:
             table.finish()
-        self._remove_scaffolding()
+        for litter in self._path.rglob(f"*{PARTIAL}"):
+            litter.unlink()
         shown = [table.rows for table in self._tables]
         for key, document in metadata.documents(self._layout, shown, attributes).items():
             self._folder.write(key, metadata.serialise(document))
         self._folder.commit()
         manifest.seal(self._folder)
-        self._sealed = True
+        self._journal.remove()
 
     def _show(self) -> None:
         """Let readers of the growing store see all samples to come and the impacts so far.
@@ -264,8 +267,3 @@ class ResultWriter:
     def _refuse_when_sealed(self) -> None:
         if self._sealed:
             raise StoreSealed(f"{self._path} is sealed and takes no more rows")
-
-    def _remove_scaffolding(self) -> None:
-        shutil.rmtree(self._path / JOURNAL, ignore_errors=True)
-        for litter in self._path.rglob(f"*{PARTIAL}"):
-            litter.unlink()

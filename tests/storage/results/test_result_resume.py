@@ -1,5 +1,6 @@
 """What is on the disk depends on the rows alone: not on slices, kills or resumptions."""
 
+import contextlib
 import os
 import shutil
 import tempfile
@@ -114,6 +115,33 @@ def test_a_checkpoint_survives_the_two_that_follow_it(tmp_path):
         tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
     )
     assert (resumed.samples, resumed.sections, resumed.impacts) == (20, 1, 6)
+
+
+@pytest.mark.parametrize("survived", range(0, 60, 7))
+def test_a_kill_amid_sealing_leaves_the_checkpoint_valid(tmp_path, monkeypatch, survived):
+    run = MadeUpRun(made_up_layout(samples=40, sections=2), made_up_impacts(40))
+    writer = ResultWriter.create(tmp_path / "a1", run.layout)
+    run.append(writer, 0.0, 1.0)
+    checkpoint = writer.checkpoint()
+    replace, calls = os.replace, count()
+
+    def replace_until_killed(source, target):
+        if next(calls) == survived:
+            raise Killed
+        replace(source, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", replace_until_killed)
+        with contextlib.suppress(Killed):
+            writer.seal(peaks=run.peaks, summary={"steps": 3})
+    if (tmp_path / "a1/MANIFEST.json").exists():
+        ResultReader(tmp_path / "a1").verify()
+        return
+    resumed = ResultWriter.resume(
+        tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
+    )
+    resumed.seal(peaks=run.peaks, summary={"steps": 3})
+    assert files(tmp_path / "a2") == files(run.write(tmp_path / "undisturbed"))
 
 
 def test_a_checkpoint_is_small_whatever_waits(tmp_path):
