@@ -65,7 +65,7 @@ def default_history(folder: Path) -> None:
         reader.history()
         read = perf_counter()
         for name, cost in (
-            ("create (95 channels, all metadata)", created - begin),
+            ("create (95 channels: documents of the groups)", created - begin),
             ("append 2001 samples: one shard an array, fsynced", appended - created),
             ("seal: sections, impacts, peaks, manifest, fsynced", sealed - appended),
             ("open for reading", opened - sealed),
