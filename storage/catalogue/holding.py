@@ -70,7 +70,7 @@ def claim(
         job_id,
         now,
         "claimed",
-        {"block": held.index, "attempt": held.attempt, "worker": worker},
+        {"block": held.id, "attempt": held.attempt, "worker": worker},
     )
     return Claim(held, lock_job(connection, job_id))
 
