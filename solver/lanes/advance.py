@@ -17,7 +17,7 @@ from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.contacts import begin_contact, end_contact, land
-from solver.lanes.peaks import end_peaks, refine_peaks
+from solver.lanes.peaks import POINTS, end_peaks, refine_peaks
 from solver.lanes.periods import plan, stop, turn_over
 from solver.lanes.rows import emit
 from solver.lanes.state import Counter, Setting, Status
@@ -193,6 +193,7 @@ def advance(
     int
         How many lanes still run.
     """
+    scratch = np.empty((slots[Slot.ROWS] + 1, POINTS + 1))
     running = count_active(slots, work)
     landing = still_landing(counters)
     masked = False
@@ -219,7 +220,7 @@ def advance(
             for lane in range(LANES):
                 if work[slots[Slot.PEAK] * LANES + lane] > 0.0:
                     refine_peaks(
-                        lane, slots, work, spare, counters, settings,
+                        lane, slots, work, spare, counters, settings, scratch,
                         lend, probe, probe_before, right_hand_side, observe,
                     )  # fmt: skip
         keep(work)

@@ -23,7 +23,7 @@ from solver.scene.document import Revolute, Scene
 
 Floats = NDArray[np.float64]
 
-ROWS_AT_ONCE = 512
+ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
 STEPS_IN_A_PERIOD = 100
 """Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
@@ -66,11 +66,12 @@ class Bundle:
         self.sample_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.section_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.impact_rows = np.zeros((LANES, ROWS_AT_ONCE, 6))
-        for lane in range(LANES):
-            self._bind(lane, problems[min(lane, len(problems) - 1)])
-            self.counters[Counter.STATUS, lane] = (
-                Status.RUNNING if lane < len(problems) else Status.IDLE
-            )
+        for lane, problem in enumerate(problems):
+            self._bind(lane, problem)
+        lanes = self.work.reshape(-1, LANES)
+        for lane in range(len(problems), LANES):  # idle lanes repeat the first, harmlessly
+            lanes[:, lane], self.settings[:, lane] = lanes[:, 0], self.settings[:, 0]
+            self.counters[Counter.STATUS, lane] = Status.IDLE
         self._start()
 
     def table(self, name: str, count: int = 1) -> Floats:

@@ -7,7 +7,6 @@ import numpy as np
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
-from solver.lanes.onset import dense
 from solver.lanes.state import Counter, Setting
 
 POINTS = 2 * LANES + 1
@@ -21,54 +20,63 @@ def refine_peaks(
     spare: np.ndarray,
     counters: np.ndarray,
     settings: np.ndarray,
+    scratch: np.ndarray,
     lend: LaneFunction,
     probe: LaneFunction,
     probe_before: LaneFunction,
     right_hand_side: LaneFunction,
     observe: LaneFunction,
 ) -> None:
-    """Seek the extremes that the scan suspects around the start of this step of lane lane.
+    """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at eight instants in the step before and eight in this one; a
-    parabola through the best of them and its neighbours gives the extreme.
+    parabola through the best of them and its neighbours gives the extreme. `scratch` has a row
+    for the instants and one for each candidate, (rows + 1, POINTS + 1).
     """
-    rows = np.empty(slots[Slot.ROWS], dtype=np.int64)
     count = 0
     for r in range(slots[Slot.ROWS]):
         if work[(slots[Slot.CANDIDATE] + r) * LANES + lane] > 0.0:
-            rows[count] = r
+            scratch[count + 1, POINTS] = r
             count += 1
-    times = np.empty(POINTS)
-    values = np.empty((count, POINTS))
+    times = scratch[0]
     since = float(counters[Counter.PERIOD, lane]) * settings[Setting.PERIOD, lane]
+    for i in range(LANES):
+        spare[slots[Slot.THETA] * LANES + i] = i / LANES
+    lend(work, spare, lane)
     for half in range(2):
-        for i in range(LANES):
-            spare[slots[Slot.THETA] * LANES + i] = i / LANES
-        chosen = probe_before if half == 0 else probe
-        dense(lane, work, spare, lend, chosen, right_hand_side)
+        if half == 0:
+            probe_before(work, spare, lane)
+        else:
+            probe(work, spare, lane)
+        right_hand_side(spare)
         observe(spare)
         for i in range(LANES):
             times[half * LANES + i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
-            for n in range(count):
-                values[n, half * LANES + i] = spare[(slots[Slot.CHANNEL] + rows[n]) * LANES + i]
+        for n in range(count):
+            row = (slots[Slot.CHANNEL] + int(scratch[n + 1, POINTS])) * LANES
+            for i in range(LANES):
+                scratch[n + 1, half * LANES + i] = spare[row + i]
     times[POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + lane]
     for n in range(count):
-        row = rows[n] * LANES + lane
-        values[n, POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
-        time, value = extreme(times, values[n], 1.0)
-        if value > work[slots[Slot.HIGHEST] * LANES + row]:
-            work[slots[Slot.HIGHEST] * LANES + row] = value
-            work[slots[Slot.HIGHEST_TIME] * LANES + row] = since + time
-        time, value = extreme(times, values[n], -1.0)
-        if value < work[slots[Slot.LOWEST] * LANES + row]:
-            work[slots[Slot.LOWEST] * LANES + row] = value
-            work[slots[Slot.LOWEST_TIME] * LANES + row] = since + time
+        values = scratch[n + 1]
+        row = int(values[POINTS]) * LANES + lane
+        values[POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
+        if values[LANES] > values[0]:
+            time, value = extreme(times, values, 1.0)
+            if value > work[slots[Slot.HIGHEST] * LANES + row]:
+                work[slots[Slot.HIGHEST] * LANES + row] = value
+                work[slots[Slot.HIGHEST_TIME] * LANES + row] = since + time
+        else:
+            time, value = extreme(times, values, -1.0)
+            if value < work[slots[Slot.LOWEST] * LANES + row]:
+                work[slots[Slot.LOWEST] * LANES + row] = value
+                work[slots[Slot.LOWEST_TIME] * LANES + row] = since + time
 
 
 @kernel()
 def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float, float]:
-    """Time and value of the largest (sense 1) or smallest (sense -1) of sampled values."""
-    last = len(values) - 1
+    """Time and value of the largest (sense 1) or smallest (sense -1) of POINTS sampled values."""
+    last = POINTS - 1
     best = 0
     for i in range(1, last + 1):
         if sense * values[i] > sense * values[best]:
