@@ -12,11 +12,15 @@ Form = Literal["png", "svg"]
 
 
 def draw_all(source: "Source", folder: Path, form: Form) -> list[Path]:
-    """Draw every figure that the results allow into a folder, and return the files."""
+    """Draw every kind of figure that the results allow into a folder, and return the files.
+
+    A single output is not drawn once more on its own: the figure of all outputs shows it.
+    """
     from jointplay import figures
 
-    listed = figures.available(source)
-    return draw(source, [figure.name for figure in listed], folder, form)
+    kinds = {kind.name for kind in figures.ROSTER}
+    names = [figure.name for figure in figures.available(source) if figure.name in kinds]
+    return draw(source, names, folder, form)
 
 
 def draw(source: "Source", names: list[str], folder: Path, form: Form) -> list[Path]:

@@ -1,8 +1,8 @@
 """Peaks of channels as a table."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import typer
 
@@ -11,15 +11,31 @@ if TYPE_CHECKING:
     from jointplay.source import Source
 
 
-def with_units(source: "Source") -> dict[str, "Peak"]:
-    """Return the peaks of a store as the service would send them."""
-    from jointplay.client import Peak
+class Row(NamedTuple):
+    """Extremes of one channel, in its unit, each with its time in s."""
 
-    units = {channel.name: channel.unit for channel in source.channels}
-    return {
-        name: Peak(units[name], peak.minimum, peak.minimum_time, peak.maximum, peak.maximum_time)
-        for name, peak in source.peaks().items()
-    }
+    channel: str
+    unit: str
+    minimum: float
+    minimum_time: float
+    maximum: float
+    maximum_time: float
+
+
+def of_store(source: "Source") -> Iterator[Row]:
+    """Yield the peaks of results at hand, in the order of the channels."""
+    peaks = source.peaks()
+    for channel in source.channels:
+        if (peak := peaks.get(channel.name)) is not None:
+            low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
+            yield Row(channel.name, channel.unit, *low, *high)
+
+
+def of_service(peaks: "dict[str, Peak]") -> Iterator[Row]:
+    """Yield the peaks that a service sent."""
+    for name, peak in peaks.items():
+        low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
+        yield Row(name, peak.unit, *low, *high)
 
 
 def headline(source: "Source") -> list[str]:
@@ -30,22 +46,24 @@ def headline(source: "Source") -> list[str]:
     return [name for name in outputs + forces if name in stored] or stored
 
 
-def print_peaks(peaks: Mapping[str, "Peak"]) -> None:
+def print_peaks(rows: Iterable[Row]) -> None:
     """Print one line for each channel."""
-    if not peaks:
+    rows = list(rows)
+    if not rows:
         return
-    width = max(map(len, peaks))
+    width = max(len(row.channel) for row in rows)
     typer.echo(f"{'channel':{width}} {'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit")
-    for name, peak in peaks.items():
-        low = f"{peak.minimum:14.7g}  {peak.minimum_time:<9.6g}"
-        high = f"{peak.maximum:14.7g}  {peak.maximum_time:<9.6g}"
-        typer.echo(f"{name:{width}} {low}  {high}  {peak.unit}")
+    for row in rows:
+        low = f"{row.minimum:14.7g}  {row.minimum_time:<9.6g}"
+        high = f"{row.maximum:14.7g}  {row.maximum_time:<9.6g}"
+        typer.echo(f"{row.channel:{width}} {low}  {high}  {row.unit}")
 
 
-def write_peaks(path: Path, peaks: Mapping[str, "Peak"]) -> None:
+def write_peaks(path: Path, rows: Iterable[Row]) -> None:
     """Write the peaks as CSV, with 17 significant digits."""
-    rows = ["channel,unit,minimum,minimum_time [s],maximum,maximum_time [s]"]
-    for name, peak in peaks.items():
-        values = (peak.minimum, peak.minimum_time, peak.maximum, peak.maximum_time)
-        rows.append(",".join([name, peak.unit, *(f"{value:.17g}" for value in values)]))
-    path.write_text("\n".join(rows) + "\n")
+    lines = ["channel,unit,minimum,minimum_time [s],maximum,maximum_time [s]"]
+    lines += [
+        ",".join([channel, unit, *(f"{value:.17g}" for value in values)])
+        for channel, unit, *values in rows
+    ]
+    path.write_text("\n".join(lines) + "\n")

@@ -97,15 +97,16 @@ def _simulate(admission: "Admission", store: Path, title: str) -> "Outcome":
 def _summarise(store: Path, output: Path) -> None:
     """Write figures and peaks, and print the peaks."""
     from jointplay.command_line.drawing import draw_all
-    from jointplay.command_line.peaks import headline, print_peaks, with_units, write_peaks
+    from jointplay.command_line.peaks import headline, of_store, print_peaks, write_peaks
     from storage.results import ResultReader
 
     reader: ResultReader = ResultReader(store)
-    peaks = with_units(reader)
-    write_peaks(output / output_folder.PEAKS_FILE, peaks)
+    rows = list(of_store(reader))
+    write_peaks(output / output_folder.PEAKS_FILE, rows)
     draw_all(reader, output / output_folder.FIGURES, "png")
-    print_peaks({name: peaks[name] for name in headline(reader) if name in peaks})
-    typer.echo(f"all {len(peaks)} channels are in {output / output_folder.PEAKS_FILE}")
+    first = headline(reader)
+    print_peaks(row for row in rows if row.channel in first)
+    typer.echo(f"all {len(rows)} channels are in {output / output_folder.PEAKS_FILE}")
 
 
 def _tell(outcome: "Outcome") -> None:

@@ -22,7 +22,7 @@ def show(
     import json
 
     from jointplay.client import NotFound
-    from jointplay.command_line.peaks import print_peaks
+    from jointplay.command_line.peaks import of_service, print_peaks
     from jointplay.command_line.waiting import exit_of, wait_for
 
     with connection.connect(url) as client:
@@ -41,7 +41,7 @@ def show(
         typer.echo(f"solver    {job.solver_version}")
         if job.is_finished:
             try:
-                print_peaks(client.peaks(job_id))
+                print_peaks(of_service(client.peaks(job_id)))
             except NotFound:
                 typer.echo("Nothing was computed.")
     if wait:

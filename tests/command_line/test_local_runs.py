@@ -39,7 +39,7 @@ def test_a_run_leaves_the_filled_in_job_the_store_the_peaks_and_figures(press):
     assert rows.keys() == reader.peaks().keys()
     assert float(rows["A.normal_force"]["maximum"]) == reader.peaks()["A.normal_force"].maximum
     figures = {file.name for file in (press / "figures").iterdir()}
-    assert {"orbit.png", "contact-force.png", "displacement.png"} <= figures
+    assert {"orbit.png", "contact-force.png", "outputs.png"} <= figures
 
 
 def test_the_job_it_leaves_repeats_every_bit(jointplay, press, tmp_path):
