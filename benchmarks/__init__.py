@@ -1,0 +1,1 @@
+"""Measurements of this machine: `make bench`, or a module of its own by name."""

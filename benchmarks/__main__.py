@@ -1,0 +1,24 @@
+"""Run all measurements: ``python -m benchmarks [NAME ...]``."""
+
+import importlib
+import sys
+
+ALL = ("press", "start", "results_store")
+
+
+def main() -> int:
+    """Run the named measurements, or all."""
+    names = sys.argv[1:] or ALL
+    unknown = [name for name in names if name not in ALL]
+    if unknown:
+        print(f"there is no measurement {', '.join(unknown)}; there are {', '.join(ALL)}")
+        return 2
+    for name in names:
+        print(f"\n== {name}")
+        sys.argv = [name]
+        importlib.import_module(f"benchmarks.{name}").main()
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
