@@ -15,10 +15,10 @@ from storage.catalogue import (
     Claim,
     Fenced,
     JobError,
-    JobState,
     Verdict,
 )
 from storage.results import ResultsError
+from storage.results.layout import MANIFEST
 from storage.settings import Settings
 from worker import checkpoints
 from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
@@ -73,8 +73,9 @@ class BlockRun:
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
             return
-        if state.terminal:
-            self._sweep(state)
+        _log.info("job %s %s", self._job.id, state.value)
+        if state.terminal and (self._folder / MANIFEST).exists():
+            self._sweep()
 
     def _compute(self) -> Outcome:
         try:
@@ -147,9 +148,8 @@ class BlockRun:
     def _checkpoint_folder(self) -> Path:
         return self._folder.parent
 
-    def _sweep(self, state: JobState) -> None:
+    def _sweep(self) -> None:
         """Remove earlier attempts and checkpoints: the job's results are in this folder."""
-        _log.info("job %s %s", self._job.id, state.value)
         for path in self._checkpoint_folder.iterdir():
             if path == self._folder:
                 continue

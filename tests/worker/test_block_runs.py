@@ -1,0 +1,150 @@
+"""One block in this process, against a real catalogue: how it ends, whatever happens to it."""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from solver.admission import Admission, admit
+from solver.version import SOLVER_VERSION
+from storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
+from storage.results import ResultReader
+from storage.settings import Settings
+from worker.block_run import BlockRun
+
+JOB = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press"},
+    "duration": 20.0,
+    "channels": ["slider7.*"],
+}
+
+
+@pytest.fixture(scope="module")
+def admission() -> Admission:
+    return admit(JOB)
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    return Settings(data=tmp_path, progress_period=1e-3)  # a restart point with every slice
+
+
+@pytest.fixture
+def catalogue(settings: Settings) -> Iterator[Catalogue]:
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    yield catalogue
+    catalogue.close()
+
+
+@pytest.fixture
+def block(catalogue: Catalogue, admission: Admission) -> str:
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    return f"{catalogue.submit(new).job.id}-0"
+
+
+def run(
+    catalogue: Catalogue, settings: Settings, block: str, *, draining: bool = False
+) -> tuple[JobState, Block]:
+    claim = catalogue.claim_block(block, "this process", settings.lease)
+    assert claim is not None
+    asked = threading.Event()
+    if draining:
+        asked.set()
+    BlockRun(catalogue, settings, claim, asked).run()
+    return catalogue.get(claim.job.id).state, catalogue.blocks(claim.job.id)[0]
+
+
+def test_success_is_told_after_the_store_is_sealed(
+    catalogue: Catalogue, settings: Settings, block: str, admission: Admission
+) -> None:
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.state) == (JobState.succeeded, BlockState.done)
+    job = catalogue.get(ended.job)
+    assert job.progress_fraction == 1.0
+    reader = ResultReader(settings.result_folder(job.id, job.attempt))
+    reader.verify()
+    assert reader.samples == admission.samples
+
+
+def test_a_worker_told_to_stop_gives_its_block_back_with_a_restart_point(
+    catalogue: Catalogue, settings: Settings, block: str
+) -> None:
+    state, released = run(catalogue, settings, block, draining=True)
+    assert (state, released.state, released.losses) == (JobState.running, BlockState.queued, 0)
+    assert released.checkpoint is not None
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.attempt) == (JobState.succeeded, 2)
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "missing", "foreign"])
+def test_a_restart_point_that_is_no_good_costs_time_only(
+    catalogue: Catalogue, settings: Settings, block: str, damage: str
+) -> None:
+    _, released = run(catalogue, settings, block, draining=True)
+    assert released.checkpoint is not None
+    path = settings.result_folder(released.job, 1).parent / released.checkpoint
+    content = path.read_bytes()
+    if damage == "cut":
+        path.write_bytes(content[:-100])
+    elif damage == "flipped":
+        path.write_bytes(content[:-100] + bytes([content[-100] ^ 1]) + content[-99:])
+    elif damage == "foreign":
+        path.write_bytes(content.replace(SOLVER_VERSION.encode(), b"0.0.1+other"))
+    else:
+        path.unlink()
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.attempt) == (JobState.succeeded, 2)
+
+
+def test_a_disk_that_cannot_be_written_is_the_platforms_fault(
+    catalogue: Catalogue, settings: Settings, block: str
+) -> None:
+    (settings.data / "results").write_text("a file where a folder has to be")
+    state, _ = run(catalogue, settings, block)
+    error = catalogue.get(block.rsplit("-", 1)[0]).error
+    assert state is JobState.failed
+    assert error is not None
+    assert (error.error_class, error.code) == ("platform", "storage")
+    assert "results cannot be written" in error.detail
+
+
+def test_a_cancelled_blocks_store_is_closed_by_whoever_takes_it_over(
+    catalogue: Catalogue, settings: Settings, block: str
+) -> None:
+    _, released = run(catalogue, settings, block, draining=True)
+    assert catalogue.request_cancel(released.job).state is JobState.cancelling
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.state) == (JobState.cancelled, BlockState.cancelled)
+    reader = ResultReader(settings.result_folder(ended.job, ended.attempt))
+    reader.verify()
+    assert not reader.complete
+
+
+def test_a_fenced_worker_leaves_without_a_word(
+    catalogue: Catalogue, settings: Settings, block: str
+) -> None:
+    first = catalogue.claim_block(block, "slow", lease=0.0)
+    assert first is not None
+    while not catalogue.reap(3).requeued:
+        pass
+    state, ended = run(catalogue, settings, block)
+    before = catalogue.events(ended.job)
+    BlockRun(catalogue, settings, first, threading.Event()).run()
+    assert catalogue.events(ended.job) == before
+    assert catalogue.get(ended.job).state is state is JobState.succeeded
+    ResultReader(settings.result_folder(ended.job, 2)).verify()
+
+
+def test_a_spec_this_solver_refuses_fails_as_the_users(
+    catalogue: Catalogue, settings: Settings
+) -> None:
+    job = catalogue.submit(NewJob("simulate", {"kind": "simulate"}, "d" * 64, "0")).job.id
+    state, _ = run(catalogue, settings, f"{job}-0")
+    error = catalogue.get(job).error
+    assert state is JobState.failed
+    assert error is not None
+    assert (error.error_class, error.code) == ("user", "invalid-input")
+    assert "/scene" in error.detail

@@ -1,0 +1,115 @@
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from solver.admission import Admission, admit
+from storage.results import ResultReader, StoreExists
+from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+
+JOB = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press"},
+    "duration": 60.0,
+    "output_step": 1e-3,
+    "channels": ["slider7.*", "A.*"],
+}
+
+
+@pytest.fixture(scope="module")
+def admission() -> Admission:
+    return admit(JOB)
+
+
+def after(slices: int, answer: Answer, points: list[RestartPoint]) -> Callable[[Progress], Answer]:
+    """Let so many slices pass, then take a restart point and give an answer."""
+    seen = 0
+
+    def report(progress: Progress) -> Answer:
+        nonlocal seen
+        seen += 1
+        if seen <= slices:
+            return Answer.go_on
+        points.append(progress.restart_point())
+        return answer
+
+    return report
+
+
+def arrays(store: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(store)): path.read_bytes()
+        for path in store.rglob("*")
+        if path.is_file() and path.parent != store
+    }
+
+
+def run(admission: Admission, folder: Path, restart: RestartPoint | None = None) -> Outcome:
+    return execute(admission, folder, report=lambda _: "continue", restart=restart)
+
+
+def test_a_store_repeats_itself_from_its_job_file(admission: Admission, tmp_path: Path) -> None:
+    assert run(admission, tmp_path / "first").state == "succeeded"
+    again = admit(json.loads((tmp_path / "first" / "job.json").read_text()))
+    assert run(again, tmp_path / "again").state == "succeeded"
+    assert arrays(tmp_path / "first") == arrays(tmp_path / "again")
+    reader = ResultReader(tmp_path / "first")
+    assert reader.complete
+    assert reader.attributes["job"] == admission.job
+    assert reader.attributes["digest"] == admission.digest
+    time, values = reader.history(["slider7.x"])
+    assert len(time) == admission.samples
+    assert time[-1] == 60.0
+    assert values["slider7.x"].min() > 1.4  # the slide of the press stays beyond its cranks
+
+
+def test_however_often_it_is_left_and_resumed_the_bits_are_the_same(
+    admission: Admission, tmp_path: Path
+) -> None:
+    assert run(admission, tmp_path / "undisturbed").state == "succeeded"
+    points: list[RestartPoint] = []
+    restart = None
+    for leg in range(3):
+        report = after(1 + leg, Answer.leave, points)
+        folder = tmp_path / f"a{leg}"
+        assert execute(admission, folder, report=report, restart=restart).state == "left"
+        restart = points[-1]
+    assert 0 < points[0].fraction < points[1].fraction < points[2].fraction < 1
+    assert run(admission, tmp_path / "a3", restart).state == "succeeded"
+    assert arrays(tmp_path / "a3") == arrays(tmp_path / "undisturbed")
+
+
+def test_a_cancelled_run_keeps_what_it_computed(admission: Admission, tmp_path: Path) -> None:
+    report = after(2, Answer.cancel, [])
+    outcome = execute(admission, tmp_path / "out", report=report)
+    assert outcome.state == "cancelled"
+    assert outcome.error is None
+    reader = ResultReader(tmp_path / "out")
+    reader.verify()
+    time, _ = reader.history(["slider7.x"])
+    assert not reader.complete
+    assert 0 < len(time) < admission.samples
+
+
+def test_a_run_that_cannot_go_on_says_why_and_keeps_what_it_computed(tmp_path: Path) -> None:
+    # friction that turns round within 1e-12 m/s, at a tolerance near the rounding of doubles
+    parameters = {"static_velocity": 1e-12, "dynamic_velocity": 2e-12, "friction": 1.0}
+    scene = {"preset": "seven-bar-press", "parameters": parameters}
+    outcome = run(admit(JOB | {"scene": scene, "tolerance": 1e-13}), tmp_path / "out")
+    assert outcome.state == "failed"
+    assert outcome.error is not None
+    assert (outcome.error.error_class, outcome.error.code) == ("solver", "step-size-underflow")
+    assert outcome.error.time is not None
+    assert 0 < outcome.error.time < 1
+    reader = ResultReader(tmp_path / "out")
+    reader.verify()
+    time, _ = reader.history(["slider7.x"])
+    assert len(time) > 0
+    assert time[-1] <= outcome.error.time
+
+
+def test_results_are_never_written_over(admission: Admission, tmp_path: Path) -> None:
+    run(admission, tmp_path / "out")
+    with pytest.raises(StoreExists):
+        run(admission, tmp_path / "out")
