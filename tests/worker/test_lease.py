@@ -1,0 +1,81 @@
+import multiprocessing
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from storage.catalogue import Catalogue, Fenced, NewJob, Verdict
+from storage.settings import Settings
+from worker.lease import Lease
+
+PATIENCE = 30.0
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    return Settings(data=tmp_path, lease=2.0, heartbeat=0.02)
+
+
+@pytest.fixture
+def catalogue(settings: Settings) -> Iterator[Catalogue]:
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    yield catalogue
+    catalogue.close()
+
+
+def new_block(catalogue: Catalogue) -> str:
+    return f"{catalogue.submit(NewJob('simulate', {}, 'd' * 64, '1')).job.id}-0"
+
+
+def lease_until(catalogue: Catalogue, block: str) -> float:
+    found = catalogue.blocks(block.rsplit("-", 1)[0])[0].lease_until
+    assert found is not None
+    return found
+
+
+def test_a_lease_is_extended_while_nothing_is_reported(
+    catalogue: Catalogue, settings: Settings
+) -> None:
+    block = new_block(catalogue)
+    claim = catalogue.claim_block(block, "worker", settings.lease)
+    assert claim is not None
+    with Lease(catalogue, claim, settings):
+        for _ in range(3):
+            before, deadline = lease_until(catalogue, block), time.monotonic() + PATIENCE
+            while lease_until(catalogue, block) <= before:
+                assert time.monotonic() < deadline
+    assert "heartbeat" not in {thread.name for thread in threading.enumerate()}
+
+
+def test_losing_the_block_is_noticed(catalogue: Catalogue, settings: Settings) -> None:
+    block = new_block(catalogue)
+    claim = catalogue.claim_block(block, "worker", settings.lease)
+    assert claim is not None
+    with Lease(catalogue, claim, settings) as lease:
+        assert lease.verdict() is Verdict.go_on
+        catalogue.release(block, 1)
+        with pytest.raises(Fenced):
+            lease.record_progress(1.0, 0.5)
+
+
+def hang(settings: Settings, block: str) -> None:
+    catalogue = Catalogue(settings.catalogue_url)
+    claim = catalogue.claim_block(block, "worker", settings.lease)
+    assert claim is not None
+    with Lease(catalogue, claim, settings):
+        threading.Event().wait(PATIENCE)
+
+
+def test_a_process_that_does_not_advance_ends_itself(
+    catalogue: Catalogue, settings: Settings
+) -> None:
+    impatient = settings.model_copy(update={"stall": 0.1})
+    context = multiprocessing.get_context("spawn")
+    process = context.Process(target=hang, args=(impatient, new_block(catalogue)))
+    process.start()
+    process.join(PATIENCE)
+    assert process.exitcode == -signal.SIGKILL
