@@ -106,9 +106,14 @@ def lane_function(
 
 
 def reachable(outputs: Iterable[Expression]) -> list[Expression]:
-    """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves."""
+    """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
+
+    A fixed node comes where it is first used, so that the order, and with it the source, does not
+    depend on what the scene's numbers are computed from.
+    """
+    wanted = list(outputs)
     found: dict[int, Expression] = {}
-    waiting = list(outputs)
+    waiting = list(wanted)
     while waiting:
         node = waiting.pop()
         if node.index in found:
@@ -116,4 +121,10 @@ def reachable(outputs: Iterable[Expression]) -> list[Expression]:
         found[node.index] = node
         if not node.fixed:
             waiting.extend(node.arguments)
-    return [found[index] for index in sorted(found)]
+    ordered: dict[int, Expression] = {}
+    for node in (found[index] for index in sorted(found) if not found[index].fixed):
+        for argument in (*node.arguments, node):
+            ordered.setdefault(argument.index, argument)
+    for node in wanted:
+        ordered.setdefault(node.index, node)
+    return list(ordered.values())

@@ -55,7 +55,7 @@ class Recorder:
         """Return the one node of this operation on these arguments."""
         ordered = arguments
         if operation in COMMUTING:
-            ordered = tuple(sorted(arguments, key=lambda e: e.index))
+            ordered = tuple(sorted(arguments, key=lambda e: (not e.fixed, e.index)))
         key = (operation, *(e.index for e in ordered), data)
         found = self._nodes.get(key)
         if found is None:

@@ -9,6 +9,8 @@ from solver.scene.document import Clearance, Fixed, Joint, Prismatic, Revolute, 
 from solver.scene.parameters import has_place
 
 RESERVED = frozenset({"ground", "energy", "time", "poincare", "peaks", "impacts"})
+RESERVED_OUTPUTS = RESERVED | {"c"}
+"""In a store an output is a folder beside others, and ``c`` is where Zarr keeps chunks."""
 
 
 def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -85,7 +87,7 @@ def _names(scene: Scene) -> Iterator[Problem]:
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
-        if output.name in RESERVED or outputs[output.name] > 1:
+        if output.name in RESERVED_OUTPUTS or outputs[output.name] > 1:
             yield Problem(
                 f"/outputs/{index}/name", f"The name '{output.name}' is taken; take another."
             )
