@@ -10,6 +10,7 @@ import pytest
 
 from solver import presets
 
+README = (Path(__file__).parents[2] / "README.md").read_text()
 DEMO = [sys.executable, "-m", "jointplay", "demo", "seven-bar-press", "-o"]
 
 
@@ -45,6 +46,7 @@ def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything
         if entry["channel"] == "displacement":
             # the source's contact parameters are not known; any plausible ones move it by 0.06 mm
             assert ours == pytest.approx(entry["value"], abs=0.11e-3)  # + half its last digit
+            assert f"| {entry['value'] * 1e3:.1f} mm | {ours * 1e3:.2f} mm |" in README
     cases = [path for path in folder.iterdir() if path.name != "service"]
     assert len(cases) == 4
     for case in cases:
