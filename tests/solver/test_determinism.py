@@ -1,0 +1,231 @@
+"""The bits of a run depend on its job alone: not on company, slices, interruptions or outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import cycle
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solver.admission import Admission, admit, sample_count
+from solver.compiler.kernel import compile_kernel
+from solver.integrators import TSITOURAS5
+from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.state import Counter, Status
+from solver.mechanics.tree import spanning_tree
+from solver.simulate import Simulation
+from tests.solver.completed_runs import CASE_3, Run, collect
+from tests.solver.readable_mechanics import preset
+
+PROBLEMS = [
+    LaneProblem(
+        preset(
+            "seven-bar-press",
+            **{
+                **CASE_3,
+                "clearance_A": 1e-4 * (1 + lane),
+                "friction": 0.02 * (8 - lane),
+                "speed": [3.0, -2.0, 5.0, 1.0, 7.0, -4.0, 3.0, 6.0][lane],
+                "speed_crank4": [-3.0, 4.0, 5.0, 1.7, -7.0, 2.0, 1.0, -6.0][lane],
+            },
+        ),
+        duration,
+        tolerance,
+        duration / 37.5,
+        sample_count(duration, duration / 37.5),
+        0,
+        0.0,
+    )
+    for lane, (duration, tolerance) in enumerate(
+        zip(
+            [0.05, 0.3, 0.02, 0.2, 0.1, 0.15, 0.25, 0.08],
+            [1e-6, 1e-7, 1e-9, 1e-5, 1e-8, 1e-6, 1e-6, 1e-10],
+            strict=True,
+        )
+    )
+]
+"""Eight runs of the press that end at different times, at different tolerances and speeds."""
+
+
+def bundle_of(problems: list[LaneProblem]) -> Bundle:
+    scene = problems[0].scene
+    return Bundle(compile_kernel(scene, spanning_tree(scene), "reduced", TSITOURAS5), problems)
+
+
+def finish(bundle: Bundle, budgets: Iterable[int]) -> list[dict[str, bytes]]:
+    """Advance until all lanes are done; return, per lane, the bytes of all that it gave."""
+    lanes = range(len(bundle.problems))
+    handed_out: list[dict[str, list[bytes]]] = [
+        {"samples": [], "sections": [], "impacts": []} for _ in lanes
+    ]
+    running = True
+    for budget in budgets:
+        if not running:
+            break
+        running = bundle.advance(budget) > 0
+        for lane in lanes:
+            for kind, rows, counter in (
+                ("samples", bundle.sample_rows, Counter.SAMPLE_ROWS),
+                ("sections", bundle.section_rows, Counter.SECTION_ROWS),
+                ("impacts", bundle.impact_rows, Counter.IMPACT_ROWS),
+            ):
+                count = bundle.counters[counter, lane]
+                handed_out[lane][kind].append(rows[lane, :count].tobytes())
+    count, rows = bundle.kernel.states, bundle.kernel.rows.scanned
+    found = []
+    for lane in lanes:
+        assert bundle.counters[Counter.STATUS, lane] == Status.DONE
+        kept = {name: b"".join(parts) for name, parts in handed_out[lane].items()}
+        for name, size in (
+            ("time", 1),
+            ("steps", 1),
+            ("smallest_step", 1),
+            ("y0", count),
+            ("total0", 3 + len(bundle.kernel.play)),
+            ("highest0", rows),
+            ("lowest0", rows),
+            ("highest_time0", rows),
+            ("lowest_time0", rows),
+        ):
+            kept[name] = bundle.table(name, size)[:, lane].tobytes()
+        for counter in (Counter.PERIOD, Counter.SAMPLE, Counter.REJECTIONS, Counter.ONSETS):
+            kept[counter.name] = bundle.counters[counter, lane].tobytes()
+        found.append(kept)
+    return found
+
+
+@pytest.fixture(scope="module")
+def alone() -> list[dict[str, bytes]]:
+    """Return each of the eight runs computed in a bundle of its own, in one call."""
+    return [finish(bundle_of([problem]), [10**7])[0] for problem in PROBLEMS]
+
+
+def test_the_eight_runs_are_different_and_worth_comparing(alone: list[dict[str, bytes]]) -> None:
+    assert len({kept["y0"] for kept in alone}) == 8
+    for kept in alone:
+        assert np.frombuffer(kept["ONSETS"], dtype=np.int64)[0] >= 3
+        assert len(kept["impacts"]) >= 2 * 6 * 8
+        assert len(kept["samples"]) > 38 * 8
+
+
+def test_a_run_has_the_same_bits_alone_and_in_any_lane(alone: list[dict[str, bytes]]) -> None:
+    assert finish(bundle_of(PROBLEMS), [10**7]) == alone
+    order = [5, 2, 7, 0, 3, 6, 1, 4]
+    shuffled = finish(bundle_of([PROBLEMS[i] for i in order]), [10**7])
+    assert shuffled == [alone[i] for i in order]
+
+
+@settings(max_examples=12)
+@given(st.lists(st.integers(1, 60), min_size=1, max_size=8))
+def test_slicing_does_not_change_a_bit(budgets: list[int]) -> None:
+    three = [PROBLEMS[0], PROBLEMS[2], PROBLEMS[7]]
+    expected = [finish(bundle_of([problem]), [10**7])[0] for problem in three]
+    assert finish(bundle_of(three), cycle(budgets)) == expected
+
+
+# through the public interface
+
+JOB: dict[str, Any] = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press", "parameters": {**CASE_3, "speed": 20.0}},
+    "duration": 0.7,
+    "output_step": 1e-4,
+    "tolerance": 1e-7,
+    "channels": ["slider7.*", "A.*", "energy.*"],
+    "section": {"crank_angle": 1.0},
+}
+"""Fourteen slices of a buffer each, two periods."""
+
+
+def job(**changes: Any) -> Admission:
+    return admit({**JOB, **changes})
+
+
+def whole(admission: Admission) -> Run:
+    simulation = Simulation(admission)
+    return collect(admission, list(simulation.slices()), simulation)
+
+
+def assert_same(one: Run, two: Run) -> None:
+    assert one.time.tobytes() == two.time.tobytes()
+    assert one.section_time.tobytes() == two.section_time.tobytes()
+    assert one.impacts.tobytes() == two.impacts.tobytes()
+    for name, values in one.samples.items():
+        assert values.tobytes() == two.samples[name].tobytes(), name
+        assert one.sections[name].tobytes() == two.sections[name].tobytes(), name
+    assert_same_conclusion(one, two)
+
+
+def assert_same_conclusion(one: Run, two: Run) -> None:
+    for name in one.peaks.keys() & two.peaks.keys():
+        assert one.peaks[name] == two.peaks[name], name
+    assert {k: v for k, v in one.statistics.items() if k != "solver_seconds"} == {
+        k: v for k, v in two.statistics.items() if k != "solver_seconds"
+    }
+
+
+def test_two_runs_of_a_job_have_the_same_bits() -> None:
+    assert_same(whole(job()), whole(job()))
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+def test_a_run_restarted_from_any_checkpoint_has_the_bits_of_an_undisturbed_one(
+    formulation: str,
+) -> None:
+    admission = job(formulation=formulation)
+    undisturbed = whole(admission)
+    assert undisturbed.admission.sections == len(undisturbed.section_time) == 3
+    simulation = Simulation(admission)
+    slices, count = [], 0
+    while True:
+        # a new process would do as here: it has nothing but the job and the checkpoint
+        found = next(simulation.slices(), None)
+        if found is None:
+            break
+        slices.append(found)
+        count += 1
+        simulation = Simulation(admission, simulation.checkpoint())
+    assert count >= 10
+    assert_same(collect(admission, slices, simulation), undisturbed)
+
+
+def test_a_checkpoint_does_not_disturb_the_run_it_is_taken_from() -> None:
+    admission = job()
+    simulation = Simulation(admission)
+    slices = []
+    for found in simulation.slices():
+        slices.append(found)
+        simulation.checkpoint()
+        simulation.summary()
+    assert_same(collect(admission, slices, simulation), whole(admission))
+
+
+def test_outputs_do_not_change_the_motion() -> None:
+    one = whole(job())
+    coarse = whole(job(output_step=0.0123, section={"crank_angle": 0.0}))
+    everything = whole(job(channels=["*"]))
+    for other in (coarse, everything):
+        assert other.impacts.tobytes() == one.impacts.tobytes()
+        assert (
+            other.last("slider7.x", "slider7.vx", "A.penetration").tobytes()
+            == one.last("slider7.x", "slider7.vx", "A.penetration").tobytes()
+        )
+        assert_same_conclusion(one, other)
+
+
+def test_a_longer_run_begins_with_the_bits_of_a_shorter_one() -> None:
+    short, long = whole(job(duration=0.3)), whole(job())
+    before = short.time < 0.2999  # the last step of the short run is cut to end there
+    count = int(before.sum())
+    ended = short.impacts["release"] < 0.299
+    assert long.time[:count].tobytes() == short.time[:count].tobytes()
+    for name, values in short.samples.items():
+        # the peak scan and the dense output of steps that end earlier are the same steps
+        cut = int((short.time < 0.29).sum())
+        assert long.samples[name][:cut].tobytes() == values[:cut].tobytes(), name
+    assert ended.sum() > 10
+    assert long.impacts[: ended.sum()].tobytes() == short.impacts[ended].tobytes()

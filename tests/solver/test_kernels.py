@@ -1,0 +1,200 @@
+"""Compiled kernels against the readable reference, their selection, and their cache on disk."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from solver.compiler.kernel import Kernel, compile_kernel
+from solver.compiler.layout import LANES
+from solver.integrators import TSITOURAS5
+from solver.lanes.bundle import Bundle, LaneProblem
+from solver.mechanics.observe import channel_values, ledger_rates
+from solver.mechanics.tree import spanning_tree
+from solver.mechanics.view import view
+from solver.scene.document import Scene
+from tests.solver.completed_runs import CASE_3
+from tests.solver.readable_mechanics import Instant, at_start, preset
+
+ROUNDING = 1e-12
+"""Of the largest acceleration, force or power. Both sides do the same operations on numbers of at
+most 2 m; our sine and cosine differ from the library's in the last place, 2e-16, and a contact
+stiffness times 2e-16 m is 1e-12 of the force at the depths drawn here, about 0.1 mm."""
+
+
+def kernel_of(scene: Scene, formulation: str = "reduced") -> Kernel:
+    return compile_kernel(scene, spanning_tree(scene), formulation, TSITOURAS5)
+
+
+def random_instant(scene: Scene, random: np.random.Generator) -> Instant:
+    """Return a scene near its start: journals about 0.1 mm inside their bearings' walls or out."""
+    start = at_start(scene)
+    return replace(
+        start,
+        position={k: q + random.uniform(-3e-4, 3e-4) for k, q in start.position.items()},
+        speed={k: v + random.uniform(-0.5, 0.5) for k, v in start.speed.items()},
+        mode={k: float(random.integers(0, 2)) for k in start.mode},
+        impact_rate={k: random.uniform(0.01, 0.2) for k in start.mode},
+    )
+
+
+def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list[dict[str, float]]:
+    """Evaluate the kernel at one instant a lane; accelerations, ledger rates and channels."""
+    bundle = Bundle(kernel, [LaneProblem(i.scene, 1.0, 1e-6, 0.1, 11, 0, 0.0) for i in instants])
+    count = len(kernel.coordinates)
+    for lane, instant in enumerate(instants):
+        if formulation == "lagrange":
+            q, v = instant.absolute_state()
+        else:
+            q = [instant.position[name] for name in kernel.coordinates]
+            v = [instant.speed[name] for name in kernel.coordinates]
+        bundle.table("stage0", 2 * count)[:, lane] = [*q, *v]
+        bundle.table("stage_time")[0, lane] = 0.25
+        for k, name in enumerate(kernel.drivers):
+            moved = instant.scene.drivers[name].speed * 0.25
+            bundle.table(f"phase{k}")[0, lane] = instant.driven[name] - moved
+        for j, name in enumerate(kernel.play):
+            bundle.table(f"mode{j}")[0, lane] = instant.mode[name]
+            bundle.table(f"impact_rate{j}")[0, lane] = instant.impact_rate[name]
+    kernel.module.right_hand_side(bundle.work)
+    kernel.module.observe(bundle.work)
+    kernel.module.observe_rest(bundle.work)
+    names = kernel.rows.names
+    found = []
+    for lane in range(len(instants)):
+        values = dict(zip(names, bundle.table("channel0", len(names))[:, lane], strict=True))
+        values |= {f"a{i}": bundle.table(f"slope{count + i}")[0, lane] for i in range(count)}
+        values |= {f"v{i}": bundle.table(f"slope{i}")[0, lane] for i in range(count)}
+        ledger = 3 + len(kernel.play)
+        values |= {f"ledger{i}": bundle.table(f"ledger{i}")[0, lane] for i in range(ledger)}
+        values.pop("stored")
+        found.append(values)
+    return found
+
+
+def referred(kernel: Kernel, instant: Instant, formulation: str) -> dict[str, float]:
+    """Evaluate the same on floats."""
+    motion = instant.reduced() if formulation == "reduced" else instant.lagrange()
+    speeds = (
+        [instant.speed[name] for name in kernel.coordinates]
+        if formulation == "reduced"
+        else (instant.absolute_state()[1])
+    )
+    found = dict(channel_values(view(instant.scene), motion))
+    found |= {f"a{i}": value for i, value in enumerate(motion.accelerations)}
+    found |= {f"v{i}": value for i, value in enumerate(speeds)}
+    found |= {f"ledger{i}": value for i, value in enumerate(ledger_rates(motion).values())}
+    return found
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+def test_kernels_of_the_press_equal_the_readable_reference(formulation: str) -> None:
+    random = np.random.default_rng(20)
+    scenes = [
+        preset(
+            "seven-bar-press",
+            **{
+                **CASE_3,
+                "clearance": 5e-4 * (1 + 0.1 * lane),
+                "friction": 0.02 * (1 + lane),
+                "stiffness": 1e9 * (1 + lane),
+                "restitution": 0.1 * (1 + lane),
+                "speed": (-1.0) ** lane * 3.0,
+            },
+        )
+        for lane in range(LANES)
+    ]
+    kernel = kernel_of(scenes[0], formulation)
+    for _ in range(4):
+        instants = [random_instant(scene, random) for scene in scenes]
+        for instant, found in zip(instants, evaluated(kernel, instants, formulation), strict=True):
+            expected = referred(kernel, instant, formulation)
+            assert found.keys() == expected.keys()
+            largest = max(1.0, *(abs(value) for value in expected.values()))
+            for name, value in expected.items():
+                assert found[name] == pytest.approx(value, rel=1e-12, abs=ROUNDING * largest), name
+
+
+# what selects a kernel
+
+
+def test_numbers_select_no_kernel() -> None:
+    first = kernel_of(preset("seven-bar-press", **CASE_3))
+    numbers: list[dict[str, Any]] = [
+        {"clearance_A": 1e-4, "clearance_B": 7e-4},
+        {"stiffness": 2e10, "restitution": 1.0, "friction": 0.7},
+        {"static_velocity": 1e-3, "dynamic_velocity": 1e-3},
+        {"speed": -2.0, "speed_crank4": 0.3, "gravity_x": 0.0, "gravity_y": 5.0},
+        {"bearing_radius": 0.02, "impact_rate_floor": 0.1},
+    ]
+    for changes in numbers:
+        assert kernel_of(preset("seven-bar-press", **{**CASE_3, **changes})).module is first.module
+
+
+def test_a_given_stiffness_is_a_number_and_selects_no_kernel() -> None:
+    without = {k: v for k, v in CASE_3.items() if k != "stiffness"}
+    given, derived = (kernel_of(preset("seven-bar-press", **p)) for p in (CASE_3, without))
+    assert given.module is derived.module
+
+
+def test_structure_selects_the_kernel() -> None:
+    scenes = [
+        preset("bouncing-journal"),
+        preset("bouncing-journal", friction=0.0),
+        preset("bouncing-journal", friction=0.0, exponent=1.2),
+    ]
+    kernels = [kernel_of(scene) for scene in scenes]
+    assert len({kernel.module for kernel in kernels}) == 3
+    other_exponent = preset("bouncing-journal", friction=0.0, exponent=2.0)
+    assert kernel_of(other_exponent).module is kernels[2].module
+
+
+CACHE_STATISTICS = """
+import json
+from solver.admission import admit
+from solver.lanes.advance import advance
+from solver.lanes.observation import observe_rows
+from solver.simulate import Simulation
+
+simulation = Simulation(admit({"kind": "simulate", "scene": {"preset": "bouncing-journal"},
+                               "duration": 0.1}))
+list(simulation.slices())
+module = simulation._run.kernel.module
+functions = [advance.compile(), observe_rows.compile()]
+functions += [getattr(module, name) for name in dir(module)]
+statistics = {f.__name__: f.stats for f in functions if hasattr(f, "stats")}
+print(json.dumps({
+    "module": module.__name__,
+    "hits": {name: sum(s.cache_hits.values()) for name, s in statistics.items()},
+    "misses": {name: sum(s.cache_misses.values()) for name, s in statistics.items()},
+}))
+"""
+
+
+def cache_statistics() -> dict[str, Any]:
+    done = subprocess.run(
+        [sys.executable, "-c", CACHE_STATISTICS],
+        cwd=Path(__file__).parents[2],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    loaded: dict[str, Any] = json.loads(done.stdout)
+    return loaded
+
+
+def test_a_second_process_compiles_nothing() -> None:
+    first, second = cache_statistics(), cache_statistics()
+    assert second["module"] == first["module"]
+    assert {"advance", "observe_rows", "right_hand_side", "observe", "attempt"} <= second[
+        "misses"
+    ].keys()
+    assert set(second["misses"].values()) == {0}
+    assert set(second["hits"].values()) == {1}
