@@ -83,25 +83,27 @@ def lane_function(
     def load(slot: int) -> str:
         return f"W[{slot * LANES} + l]"
 
-    def operand(node: Expression) -> str:
-        if node.operation != "constant":
-            return named[node.index]
-        return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
-
-    for node in ordered:
-        if node.operation == "constant":
-            continue
-        if node.operation == "variable":
-            text = load(layout[str(node.data)])
-        elif node.fixed and fixed is not None:
-            text = load(fixed.slot(node))
-        else:
-            text = FORMATS[node.operation].format(*(operand(a) for a in node.arguments))
+    def define(node: Expression, text: str) -> None:
         # numbered as they come, so that equal equations make equal sources
         named[node.index] = f"v{len(named)}"
         lines.append(f"        {named[node.index]} = {text}")
-    for slot_name, expression in outputs:
-        lines.append(f"        {load(layout[slot_name])} = {operand(expression)}")
+
+    def operand(node: Expression) -> str:
+        if node.operation == "constant":
+            return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
+        if node.index not in named and fixed is not None:
+            define(node, load(fixed.slot(node)))
+        return named[node.index]
+
+    for node in ordered:
+        if node.operation == "variable":
+            define(node, load(layout[str(node.data)]))
+        elif not node.fixed:
+            arguments = [operand(argument) for argument in node.arguments]
+            define(node, FORMATS[node.operation].format(*arguments))
+    values = [operand(expression) for _, expression in outputs]
+    for (slot_name, _), value in zip(outputs, values, strict=True):
+        lines.append(f"        {load(layout[slot_name])} = {value}")
     return "\n".join(lines) + "\n"
 
 
