@@ -1,38 +1,23 @@
 """One process that the supervisor keeps running, in a process group of its own."""
 
 import contextlib
-import ctypes
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 _LARGEST_LOG = 10_000_000  # bytes; a larger log is set aside when its process starts
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.2, 10.0  # seconds before a process is started again
 _STEADY = 30.0  # a process that ran this long was well: its failures are forgotten
-_PR_SET_PDEATHSIG = 1
+_BOUND = Path(__file__).with_name("bound.py")
 _POLL = 0.02
 
 
 class StartFailed(Exception):
     """The service cannot start; the message is for the user."""
-
-
-def _bound_to(parent: int, death_signal: signal.Signals) -> Callable[[], None] | None:
-    """Return what makes a new process end with its parent, where the system can do that."""
-    if sys.platform != "linux":
-        return None
-    libc = ctypes.CDLL(None)
-
-    def bind() -> None:
-        libc.prctl(_PR_SET_PDEATHSIG, death_signal)
-        if os.getppid() != parent:  # it died before the line above
-            os._exit(1)
-
-    return bind
 
 
 class Child:
@@ -71,14 +56,13 @@ class Child:
             self.log.replace(self.log.with_name(self.log.name + ".old"))
         with self.log.open("ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - our own programs
-                self._command,
+                [sys.executable, "-I", "-S", str(_BOUND), str(os.getpid()), *self._command],
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 env=os.environ | self._environment,
                 pass_fds=self._file_descriptors,
                 process_group=0,  # Ctrl-C reaches us alone; we end them in order
-                preexec_fn=_bound_to(os.getpid(), signal.SIGKILL),
             )
         self._started = time.monotonic()
 
