@@ -19,6 +19,7 @@ from solver.assembly import ASSEMBLED, assemble, shortest_link
 from solver.drive import characteristic_time
 from solver.errors import SimulationFailed
 from solver.extremes import refine_extreme
+from solver.lanes.clock import product_difference
 from solver.mechanics.absolute import AbsoluteMechanism, Row
 from solver.mechanics.motion import BodyMotion, Motion
 from solver.mechanics.observe import channel_values
@@ -58,11 +59,15 @@ class IdealRun:
             begun = time.perf_counter()
             first = self.samples_done
             last = min(first + SAMPLES_A_SLICE, samples)
-            times = np.arange(first, last) * job["output_step"]
+            index = np.arange(first, last, dtype=np.float64)
+            times = index * job["output_step"]
+            local = self._local(index, job["output_step"])
             if last == samples:
                 times[-1] = job["duration"]
-            values = self.channels(times)
+                local[-1] = self._local(np.ones(1), job["duration"])[0]
+            values = self.channels(times, local)
             section_times: Floats = np.empty(0, np.float64)
+            offset = 0.0
             if last == samples and self.admission.period is not None:
                 offset = section_offset(
                     self.scene, self.admission.period, job["section"]["crank_angle"]
@@ -70,7 +75,7 @@ class IdealRun:
                 section_times = offset + self.admission.period * np.arange(
                     self.admission.sections, dtype=np.float64
                 )
-            sections = self.channels(section_times)
+            sections = self.channels(section_times, np.full(len(section_times), offset))
             self.samples_done = last
             self.seconds += time.perf_counter() - begun
             yield Slice(
@@ -122,21 +127,23 @@ class IdealRun:
         }
         return Summary(peaks, statistics)
 
-    def channels(self, times: Floats) -> Floats:
-        """Return (instants, channels) at times in s."""
+    def channels(self, times: Floats, local: Floats | None = None) -> Floats:
+        """Return (instants, channels) at times in s; `local` is the time within the period."""
         if not len(times):
             return np.empty((0, len(self.names)))
-        values = channel_values(self.numbers, self.motion(times))
+        if local is None:
+            local = self._local(np.ones(len(times)), times)
+        values = channel_values(self.numbers, self.motion(times, local))
         columns = [np.broadcast_to(values[name], times.shape) for name in self.names]
         return np.stack(columns, axis=1)
 
     def _channel(self, column: int) -> Callable[[Floats], Floats]:
         return lambda times: self.channels(times)[:, column]
 
-    def motion(self, times: Floats) -> Motion:
-        """Return the mechanism's motion and all forces at times in s."""
-        driven = self._driven(times)
-        q, turned = self._poses(times, driven)
+    def motion(self, times: Floats, local: Floats) -> Motion:
+        """Return the mechanism's motion and all forces at times in s, local within the period."""
+        driven = self._driven(local)
+        q, turned = self._poses(times, local, driven)
         n = q.shape[1]
         still = np.zeros_like(q)
         rows = self.mechanism.rows(_columns(q), _columns(still), driven)
@@ -176,28 +183,35 @@ class IdealRun:
             force[:, 3 * i + 2] = -body.inertia * accelerations[:, 3 * i + 2]
         return force
 
-    def _driven(self, times: Floats) -> dict[str, Floats]:
-        """Driver positions; whole periods are taken off, so that late angles stay sharp."""
+    def _local(self, count: Floats, step: float | Floats) -> Floats:
+        """Return count * step less whole periods, with the rounding of both products undone."""
         period = self.admission.period
-        local = times if period is None else times - np.floor(times / period) * period
+        times = count * step
+        if period is None:
+            return times
+        local = product_difference.py_func(count, step, np.floor(times / period), period)
+        return np.asarray(local, np.float64)
+
+    def _driven(self, local: Floats) -> dict[str, Floats]:
         return {
             name: driver.position + driver.speed * local
             for name, driver in self.scene.drivers.items()
         }
 
-    def _poses(self, times: Floats, driven: dict[str, Floats]) -> tuple[Floats, Floats]:
+    def _poses(
+        self, times: Floats, local: Floats, driven: dict[str, Floats]
+    ) -> tuple[Floats, Floats]:
         """Return poses within a period, and the whole turns that angles have made before."""
         if not self.table.size:
             self.table = self._follow()
         spacing = self.unit / INSTANTS_A_PERIOD
         period = self.admission.period
-        local = times if period is None else times - np.floor(times / period) * period
         nearest = np.clip(np.rint(local / spacing).astype(int), 0, len(self.table) - 1)
         poses = self._newton(self.table[nearest], driven, times)
         turned = np.zeros_like(poses)
         if period is not None:  # angles go on turning; trigonometry does not need to know
             turns = np.rint((self.table[-1] - self.table[0]) / (2.0 * math.pi))
-            turned = 2.0 * math.pi * np.floor(times / period)[:, None] * turns
+            turned = 2.0 * math.pi * np.rint((times - local) / period)[:, None] * turns
         return poses, turned
 
     def _follow(self) -> Floats:

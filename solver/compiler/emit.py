@@ -60,6 +60,38 @@ class FixedNodes:
         return self.layout[name]
 
 
+class _Body:
+    """The statements of one lane's loop."""
+
+    def __init__(self, layout: Layout, fixed: FixedNodes | None) -> None:
+        self.layout = layout
+        self.fixed = fixed
+        self.lines: list[str] = []
+        self.names: dict[int, str] = {}
+
+    def place(self, slot: int) -> str:
+        return f"W[{slot * LANES} + l]"
+
+    def define(self, node: Expression, text: str) -> None:
+        # numbered as they come, so that equal equations make equal sources
+        self.names[node.index] = f"v{len(self.names)}"
+        self.lines.append(f"        {self.names[node.index]} = {text}")
+
+    def operand(self, node: Expression) -> str:
+        if node.operation == "constant":
+            return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
+        if node.index not in self.names and self.fixed is not None:
+            self.define(node, self.place(self.fixed.slot(node)))
+        return self.names[node.index]
+
+    def state(self, node: Expression) -> None:
+        if node.operation == "variable":
+            self.define(node, self.place(self.layout[str(node.data)]))
+        elif not node.fixed:
+            arguments = [self.operand(argument) for argument in node.arguments]
+            self.define(node, FORMATS[node.operation].format(*arguments))
+
+
 def lane_function(
     name: str,
     outputs: Sequence[tuple[str, Expression]],
@@ -76,35 +108,16 @@ def lane_function(
     ordered = reachable(expression for _, expression in outputs)
     if len(ordered) > MOST_STATEMENTS:
         raise LimitExceeded([too_many(len(ordered))])
-    lines = [DECORATOR, f"def {name}(W):", f"    for l in range({LANES}):"]
-
-    named: dict[int, str] = {}
-
-    def load(slot: int) -> str:
-        return f"W[{slot * LANES} + l]"
-
-    def define(node: Expression, text: str) -> None:
-        # numbered as they come, so that equal equations make equal sources
-        named[node.index] = f"v{len(named)}"
-        lines.append(f"        {named[node.index]} = {text}")
-
-    def operand(node: Expression) -> str:
-        if node.operation == "constant":
-            return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
-        if node.index not in named and fixed is not None:
-            define(node, load(fixed.slot(node)))
-        return named[node.index]
-
+    body = _Body(layout, fixed)
     for node in ordered:
-        if node.operation == "variable":
-            define(node, load(layout[str(node.data)]))
-        elif not node.fixed:
-            arguments = [operand(argument) for argument in node.arguments]
-            define(node, FORMATS[node.operation].format(*arguments))
-    values = [operand(expression) for _, expression in outputs]
-    for (slot_name, _), value in zip(outputs, values, strict=True):
-        lines.append(f"        {load(layout[slot_name])} = {value}")
-    return "\n".join(lines) + "\n"
+        body.state(node)
+    values = [body.operand(expression) for _, expression in outputs]
+    stores = [
+        f"        {body.place(layout[slot_name])} = {value}"
+        for (slot_name, _), value in zip(outputs, values, strict=True)
+    ]
+    header = [DECORATOR, f"def {name}(W):", f"    for l in range({LANES}):"]
+    return "\n".join([*header, *body.lines, *stores]) + "\n"
 
 
 def reachable(outputs: Iterable[Expression]) -> list[Expression]:
