@@ -55,9 +55,6 @@ def run(arguments: list[str] | None = None) -> int:
         return _told(Exit.INTERRUPTED, "interrupted")
     except typer.TyperException as error:
         return _told(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
-    except BrokenPipeError:
-        sys.stderr.close()  # whoever read our output has left, as `head` does
-        return Exit.OK
     except Exception as error:
         told = _classified(error)
         if told is None:

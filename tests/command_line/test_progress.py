@@ -1,0 +1,71 @@
+"""A bar on a terminal, plain lines anywhere else, and Ctrl-C while waiting."""
+
+import os
+import signal
+import subprocess
+import sys
+
+from jointplay.command_line.progress import progress
+
+
+def test_without_a_terminal_only_the_end_of_something_quick_is_told(capsys):
+    with progress("work") as report:
+        for step in range(1000):
+            report(step / 1000, f"step {step}")
+        report(1.0, "all of it")
+    assert capsys.readouterr().err == "work: 100% all of it\n"
+
+
+def test_a_terminal_shows_a_bar():
+    ours, theirs = os.openpty()
+    program = (
+        "from jointplay.command_line.progress import progress\n"
+        "with progress('work') as report:\n"
+        "    report(0.5, 'half'); report(1.0, 'all of it')\n"
+    )
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"}
+    ended = subprocess.run([sys.executable, "-c", program], stderr=theirs, env=environment)
+    os.close(theirs)
+    shown = os.read(ours, 100_000).decode()
+    os.close(ours)
+    assert ended.returncode == 0
+    assert "work" in shown
+    assert "100%" in shown
+    assert "━" in shown
+
+
+def test_interrupted_waiting_says_how_to_come_back_and_leaves_the_job(http, worker, service_url):
+    job_id = worker.submit()
+    environment = {**os.environ, "JOINTPLAY_URL": service_url}
+    program = (  # the wait has begun once the service was asked
+        "import os, signal, sys\n"
+        "from jointplay.client import Client\n"
+        "from jointplay.command_line.application import run\n"
+        "get = Client.get\n"
+        "def asked(self, job_id):\n"
+        "    job = get(self, job_id)\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "    return job\n"
+        "Client.get = asked\n"
+        "sys.exit(run(['show', '--wait', sys.argv[1]]))\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program, job_id], env=environment, capture_output=True, text=True
+    )
+    assert ended.returncode == 128 + signal.SIGINT
+    assert f"jointplay show --wait {job_id}" in ended.stderr.splitlines()[-1]
+    assert http.get(f"/v1/jobs/{job_id}").json()["state"] == "queued"
+
+
+def test_whoever_stops_reading_an_export_sees_no_traceback(tmp_path):
+    program = "from jointplay.command_line import main; main()"
+    reader, writer = os.pipe()
+    os.close(reader)
+    ended = subprocess.run(
+        [sys.executable, "-c", program, "scene", "show", "seven-bar-press", "--json"],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    os.close(writer)
+    assert ended.stderr == ""
