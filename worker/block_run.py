@@ -13,6 +13,7 @@ from storage.catalogue import (
     BlockState,
     Catalogue,
     Claim,
+    ErrorClass,
     Fenced,
     JobError,
     Verdict,
@@ -52,6 +53,7 @@ class BlockRun:
         self._draining = draining
         self._folder = settings.result_folder(claim.job.id, claim.block.attempt)
         self._recorded = time.monotonic()
+        self._reached = (claim.block.progress_time, claim.block.progress_fraction)
 
     def run(self) -> None:
         """Compute the block and tell the catalogue how it ended.
@@ -69,6 +71,8 @@ class BlockRun:
                     self._block.attempt,
                     _BLOCK_STATES[outcome.state],
                     outcome.error,
+                    time=outcome.time,
+                    fraction=outcome.fraction,
                 )
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
@@ -89,27 +93,29 @@ class BlockRun:
             raise
         except InvalidInput as error:
             # admitted when it was submitted: this solver is stricter than that one
-            return Outcome("failed", JobError("user", "invalid-input", str(error)))
+            return self._failed("user", "invalid-input", str(error))
         except OSError as error:
             _log.exception("block %s cannot be stored", self._block.id)
-            return self._failed_here("storage", f"the results cannot be written: {error}")
+            return self._failed("platform", "storage", f"the results cannot be written: {error}")
         except ResultsError as error:
             _log.exception("block %s cannot be stored", self._block.id)
-            return self._failed_here("storage", str(error))
+            return self._failed("platform", "storage", str(error))
         except Exception as error:  # noqa: BLE001 - a worker outlives whatever a job does
             _log.exception("block %s failed", self._block.id)
-            return self._failed_here(
+            return self._failed(
+                "platform",
                 "internal",
                 f"an error of the program itself, not of the job: {type(error).__name__}:"
                 f" {error}; the worker's log has the details",
             )
 
-    def _failed_here(self, code: str, detail: str) -> Outcome:
-        return Outcome("failed", JobError("platform", code, detail))
+    def _failed(self, error_class: ErrorClass, code: str, detail: str) -> Outcome:
+        return Outcome("failed", *self._reached, JobError(error_class, code, detail))
 
     def _report(self, progress: Progress) -> Answer:
         """Between two slices: notice a request to stop; about once a second, record."""
         self._lease.advanced()
+        self._reached = (progress.time, progress.fraction)
         if self._draining.is_set():
             self._store(progress.restart_point())
             return Answer.leave

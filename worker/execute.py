@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
@@ -54,6 +54,8 @@ class Outcome:
     """How a run ended; `left` means that it did not, and its store is open."""
 
     state: EndState
+    time: float  # simulated time reached [s]
+    fraction: float  # 0..1
     error: JobError | None = None
     statistics: Mapping[str, Any] | None = None
 
@@ -100,18 +102,18 @@ def execute(
         writer = ResultWriter.resume(
             folder, layout, restart.results, taken_over_from=restart.folder
         )
+    begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
     try:
         simulation = Simulation(admission, restart.simulation if restart else None)
     except InvalidInput as refused:
         writer.seal(peaks={}, summary={}, complete=False)
-        return Outcome("failed", JobError("user", "invalid-input", str(refused)))
-    begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
-    state, error = _advance(simulation, writer, folder, report, begin)
-    if state == "left":
-        return Outcome("left")
+        return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
+    outcome = _advance(simulation, writer, folder, report, begin)
+    if outcome.state == "left":
+        return outcome
     summary = simulation.summary()
-    _seal(writer, summary, complete=state == "succeeded")
-    return Outcome(state, error, summary.statistics)
+    _seal(writer, summary, complete=outcome.state == "succeeded")
+    return replace(outcome, statistics=summary.statistics)
 
 
 def _advance(
@@ -120,7 +122,7 @@ def _advance(
     folder: Path,
     report: Callable[[Progress], Answer | str],
     begin: tuple[float, float],
-) -> tuple[EndState, JobError | None]:
+) -> Outcome:
     """Run to the end, to an error, or to an answer other than to go on."""
     time, fraction = begin
 
@@ -138,9 +140,9 @@ def _advance(
     while True:
         answer = Answer(report(Progress(time, fraction, restart_point)))
         if answer is Answer.leave:
-            return "left", None
+            return Outcome("left", time, fraction)
         if answer is Answer.cancel:
-            return "cancelled", None
+            return Outcome("cancelled", time, fraction)
         try:
             piece = next(slices, None)
         except SimulationFailed as failure:
@@ -148,9 +150,9 @@ def _advance(
                 "limit" if failure.code in _LIMIT_CODES else "solver"
             )
             error = JobError(error_class, failure.code, failure.detail, failure.time)
-            return "failed", error
+            return Outcome("failed", failure.time, fraction, error)
         if piece is None:
-            return "succeeded", None
+            return Outcome("succeeded", time, fraction)
         writer.append(
             piece.first_sample,
             piece.sample_time,

@@ -194,9 +194,18 @@ class Catalogue:
             )
 
     def finish(
-        self, block: str, attempt: int, outcome: BlockState, error: JobError | None = None
+        self,
+        block: str,
+        attempt: int,
+        outcome: BlockState,
+        error: JobError | None = None,
+        *,
+        time: float | None = None,
+        fraction: float | None = None,
     ) -> JobState:
         """End a held block (done, failed with an error, cancelled); return the job's state.
+
+        `time` [s] and `fraction` (0..1) say how far it came, if that is known.
 
         Raises
         ------
@@ -204,7 +213,16 @@ class Catalogue:
             The block is held no more; nothing was changed.
         """
         with self._connections.writing(durable=True) as connection:
-            return holding.finish(connection, block, attempt, outcome, error, self._clock())
+            return holding.finish(
+                connection,
+                block,
+                attempt,
+                outcome,
+                error,
+                self._clock(),
+                time=time,
+                fraction=fraction,
+            )
 
     def release(self, block: str, attempt: int) -> None:
         """Give a held block back unfinished, to be resumed; Fenced if it is held no more."""

@@ -165,8 +165,13 @@ def finish(
     outcome: BlockState,
     error: JobError | None,
     now: float,
+    *,
+    time: float | None,
+    fraction: float | None,
 ) -> JobState:
     """End a held block (done, failed or cancelled) and, with its last block, the job.
+
+    `time` and `fraction` say how far it came; a block that is done came all the way.
 
     Returns
     -------
@@ -174,8 +179,12 @@ def finish(
         The job's state after it.
     """
     changes: dict[str, Any] = {"state": outcome.value, "lease_until": None}
+    if time is not None:
+        changes["progress_time"] = time
     if outcome is BlockState.done:
-        changes["progress_fraction"] = 1.0
+        fraction = 1.0
+    if fraction is not None:
+        changes["progress_fraction"] = fraction
     job_id = _change_held(connection, block_id, attempt, **changes)
     job = lock_job(connection, job_id)
     if (outcome is BlockState.failed) != (error is not None):
@@ -183,8 +192,7 @@ def finish(
     if outcome is BlockState.cancelled and job.state is JobState.running:
         raise ValueError(f"nobody asked to cancel job {job_id}")
     _end_attempt(connection, block_id, attempt, outcome.value, now)
-    if outcome is BlockState.done:
-        _sum_progress(connection, job_id)
+    _sum_progress(connection, job_id)
     return _settle(connection, job_id, error, now)
 
 

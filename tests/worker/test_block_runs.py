@@ -63,7 +63,7 @@ def test_success_is_told_after_the_store_is_sealed(
     state, ended = run(catalogue, settings, block)
     assert (state, ended.state) == (JobState.succeeded, BlockState.done)
     job = catalogue.get(ended.job)
-    assert job.progress_fraction == 1.0
+    assert (job.progress_time, job.progress_fraction) == (20.0, 1.0)
     reader = ResultReader(settings.result_folder(job.id, job.attempt))
     reader.verify()
     assert reader.samples == admission.samples

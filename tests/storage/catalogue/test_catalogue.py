@@ -203,9 +203,10 @@ def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> N
     catalogue.claim_block(f"{job}-0", "worker", 30)
     error = JobError("solver", "step-size-underflow", "h = 1e-17 s at 0.3 s", 0.3)
     clock.now += 2
-    assert catalogue.finish(f"{job}-0", 1, BlockState.failed, error) is JobState.failed
+    assert catalogue.finish(f"{job}-0", 1, BlockState.failed, error, time=0.3) is JobState.failed
     failed = catalogue.get(job)
     assert failed.error == error
+    assert failed.progress_time == 0.3
     assert failed.finished == clock.now
     assert catalogue.events(job)[-1].data["error"]["detail"] == error.detail
     assert catalogue.events(job, after=2, limit=1)[0].seq == 3
