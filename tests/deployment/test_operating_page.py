@@ -1,0 +1,27 @@
+"""The page on operating the service names every setting, with the default it has."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from storage.settings import Settings
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "operating.md").read_text()
+ROWS = dict(re.findall(r"^\| `(JOINTPLAY_\w+)` \| ([^|]+) \|", PAGE, re.MULTILINE))
+
+
+def test_the_page_lists_the_settings_and_no_others() -> None:
+    assert set(ROWS) == {f"JOINTPLAY_{name.upper()}" for name in Settings.model_fields}
+
+
+@pytest.mark.parametrize(
+    ("name", "default"),
+    [
+        (name, field.default)
+        for name, field in Settings.model_fields.items()
+        if isinstance(field.default, int | float)
+    ],
+)
+def test_the_page_gives_the_defaults(name: str, default: float) -> None:
+    assert float(ROWS[f"JOINTPLAY_{name.upper()}"]) == default
