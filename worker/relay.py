@@ -12,6 +12,7 @@ import threading
 import time
 
 from kombu.exceptions import OperationalError
+from redis.exceptions import RedisError
 from sqlalchemy.exc import SQLAlchemyError
 
 from storage.catalogue import Catalogue
@@ -59,7 +60,7 @@ class Relay:
             for wake_up in due:
                 self._app.send_task(RUN_BLOCK, args=[wake_up.block], queue=wake_up.queue)
                 sent.append(wake_up.block)
-        except OperationalError as error:
+        except (OperationalError, RedisError, OSError) as error:
             _log.warning("Redis does not answer, trying again: %s", error)
         if sent:
             self._catalogue.mark_published(tuple(sent), self._settings.republish_after)
