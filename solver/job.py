@@ -32,7 +32,8 @@ class SimulateJob(Strict):
     kind: Literal["simulate"]
     scene: PresetScene | Scene
     duration: Annotated[
-        float, Field(gt=0.0, description="simulated time", json_schema_extra={"unit": "s"})
+        float,
+        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
     ]
     tolerance: Annotated[
         float | None,
@@ -49,7 +50,7 @@ class SimulateJob(Strict):
     output_step: Annotated[
         float | None,
         Field(
-            gt=0.0,
+            ge=1e-15,
             description="time between samples; default duration/2000",
             json_schema_extra={"unit": "s"},
         ),

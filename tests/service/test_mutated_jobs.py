@@ -1,0 +1,94 @@
+"""Jobs spoilt at random places: accepted or refused with a problem, never a failure of ours."""
+
+import copy
+import json
+import random
+from typing import Any
+
+import pytest
+
+from solver import presets
+
+EXTREMES: list[Any] = [
+    None,
+    True,
+    -1,
+    0,
+    1,
+    10**18,
+    1.5,
+    -1e308,
+    1e308,
+    5e-324,
+    1e-300,
+    1e16,
+    "",
+    "x",
+    "../..",
+    "NaN",
+    "ground.o",
+    [],
+    [[]],
+    [0.0, 0.0],
+    [1e308, 1e308],
+    {},
+    {"a": 1},
+]
+
+
+def sound_jobs() -> list[dict[str, Any]]:
+    jobs: list[dict[str, Any]] = []
+    for name in presets.names():
+        scene = presets.document(name)
+        parameters = {key: one.get("default") for key, one in scene["parameters"].items()}
+        by_name = {"preset": name, "parameters": parameters}
+        more = {"output_step": 0.01, "channels": ["*"], "section": {"crank_angle": 0.1}}
+        jobs += [
+            {"kind": "simulate", "scene": by_name, "duration": 1.0, "tolerance": 1e-6} | more,
+            {"kind": "simulate", "scene": scene, "duration": 1.0},
+        ]
+    return jobs
+
+
+def spoilt(job: dict[str, Any], chance: random.Random) -> dict[str, Any]:
+    """Replace, remove or add something at up to three random places."""
+    job = copy.deepcopy(job)
+    for _ in range(chance.randint(1, 3)):
+        node: Any = job
+        while True:
+            keys = list(node) if isinstance(node, dict) else list(range(len(node)))
+            if not keys:
+                break
+            key = chance.choice(keys)
+            if isinstance(node[key], dict | list) and node[key] and chance.random() < 0.85:
+                node = node[key]
+                continue
+            what = chance.random()
+            alike = [value for value in EXTREMES if type(value) is type(node[key])]
+            if what < 0.5 and alike:
+                node[key] = chance.choice(alike)
+            elif what < 0.8:
+                node[key] = chance.choice(EXTREMES)
+            elif what < 0.9:
+                del node[key]
+            elif isinstance(node, dict):
+                node[chance.choice(["zz", "type", "preset", "bodies", ""])] = 1
+            break
+    return job
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_spoilt_job_is_accepted_or_refused_but_never_a_failure(http, seed):
+    chance = random.Random(seed)
+    jobs = sound_jobs()
+    answers = set()
+    for _ in range(150):
+        job = spoilt(chance.choice(jobs), chance)
+        answer = http.post("/v1/jobs", json=job)
+        answers.add(answer.status_code)
+        assert answer.status_code in {202, 422}, (json.dumps(job), answer.text)
+        if answer.status_code == 422:
+            problem = answer.json()
+            assert problem["errors"]
+            assert all(error["pointer"] is not None for error in problem["errors"])
+    assert answers == {202, 422}  # both kinds were tried
