@@ -39,6 +39,8 @@ def show(
         if job.started and job.finished:
             typer.echo(f"computed  {(job.finished - job.started).total_seconds():.2f} s")
         typer.echo(f"solver    {job.solver_version}")
+        if job.error is not None:
+            typer.echo(f"error     {job.error.kind}: {job.error.detail}")
         if job.is_finished:
             try:
                 print_peaks(of_service(client.peaks(job_id)))

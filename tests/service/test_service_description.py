@@ -9,8 +9,12 @@ from typing import Any
 import httpx
 import pytest
 
+from jointplay.strict_json import DEEPEST
 from service.app import create_app
+from service.body import LARGEST_BODY
+from service.results.queries import MOST_VALUES
 from solver import presets
+from solver.admission import LONGEST_RUN, MOST_BYTES, MOST_SAMPLES
 from storage.settings import Settings
 from tests.service_in_thread import serving
 
@@ -114,6 +118,16 @@ def test_the_problem_that_the_documentation_shows_is_the_one_that_is_sent(http):
     scene = {"preset": "seven-bar-press", "parameters": {"clearance": -1.0}}
     job = {"kind": "simulate", "scene": scene, "duration": 2.0}
     assert http.post("/v1/jobs", json=job).json() == shown
+
+
+def test_the_documentation_gives_the_limits_that_hold():
+    documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
+    assert f"A body of {LARGEST_BODY // 2**20} MiB" in documentation
+    assert f"JSON of {DEEPEST} levels" in documentation
+    assert MOST_VALUES == 1_000_000
+    assert "one million values" in documentation
+    assert (LONGEST_RUN, MOST_SAMPLES, MOST_BYTES) == (1e6, 10**8, 10**10)
+    assert "a million periods, 10⁸ samples, 10 GB" in documentation
 
 
 def test_the_documentation_lists_every_address(openapi):
