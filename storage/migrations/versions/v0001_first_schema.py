@@ -101,9 +101,7 @@ def upgrade() -> None:
         sa.Column("created", sa.Float(53), nullable=False),
         sa.Column("expires", sa.Float(53), nullable=False),
         sa.PrimaryKeyConstraint("owner", "key", name="pk_idempotency"),
-        sa.ForeignKeyConstraint(
-            ["job"], ["job.id"], name="fk_idempotency_job", ondelete="CASCADE"
-        ),
+        sa.ForeignKeyConstraint(["job"], ["job.id"], name="fk_idempotency_job", ondelete="CASCADE"),
     )
     op.create_index("ix_idempotency_expires", "idempotency", ["expires"])
     duty = op.create_table(
