@@ -110,21 +110,24 @@ def assemble(scene: Scene) -> Assembly:
             break
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 
+    everything = np.full(count, True)
     velocity = still.copy()
     for i, body in enumerate(ideal.bodies):
         velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
         velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
-    for columns in (positions, np.full(count, True), np.full(count, True)):
+    for columns in (positions, everything, everything):
         # given angular velocities first carry the centres of mass along; the last pass removes
         # the rounding of the one before
-        rates = np.array([row.rate for row in ideal.rows(pose, velocity, driven)], np.float64)
-        if len(rates):
-            scaled = (jacobian * scale)[:, columns]
-            step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
-            velocity[columns] += scale[columns] * step
+        _admissible(ideal, pose, velocity, driven, scale, columns)
 
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
     _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
+    for body, given in scene.start.velocities.items():  # play lets a journal be thrown
+        i = 3 * ideal.bodies.index(body)
+        velocity[i : i + 2] = given
+    if scene.start.velocities:
+        for _ in range(2):
+            _admissible(loose, pose, velocity, driven, scale, everything)
     rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
     return Assembly(
         pose=pose,
@@ -136,6 +139,24 @@ def assemble(scene: Scene) -> Assembly:
         freedom_with_play=count - open_rank,
         redundant_with_play=len(open_jacobian) - open_rank,
     )
+
+
+def _admissible(
+    mechanism: AbsoluteMechanism,
+    pose: Floats,
+    velocity: Floats,
+    driven: dict[str, float],
+    scale: Floats,
+    columns: NDArray[np.bool_],
+) -> None:
+    """Change some of the velocities, as little as possible, so that the constraints hold."""
+    rows = mechanism.rows(pose, velocity, driven)
+    if rows:
+        _, jacobian = _arrays(rows, len(pose))
+        rates = np.array([row.rate for row in rows], np.float64)
+        scaled = (jacobian * scale)[:, columns]
+        step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
+        velocity[columns] += scale[columns] * step
 
 
 def _arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:

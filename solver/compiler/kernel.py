@@ -62,7 +62,7 @@ class Kernel:
             m.scan,
             m.lend,
             m.probe,
-            m.probe_before,
+            m.probe_around,
         )
 
     def fixed_values(self, scene: Scene) -> NDArray[np.float64]:

@@ -76,10 +76,10 @@ class StepRecorder:
         return self.recorder.variable(name)
 
     def source(self) -> str:
-        """Return the source of attempt, commit, probe and probe_before."""
+        """Return the source of all functions of a step."""
         parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
         parts += [self._judge(), self._attempt(), self._keep(), self._mask(), self._commit()]
-        parts += [self._probe("probe", ""), self._probe("probe_before", "before_")]
+        parts += [self._probe(), self._probe_around()]
         return "\n\n".join(parts)
 
     def _function(self, name: str, outputs: list[tuple[str, Expression]]) -> str:
@@ -259,8 +259,20 @@ def keep(W):
             outputs.append(taken(v(f"impact_rate{j}"), f"before_impact_rate{j}"))
         return self._function("commit", outputs)
 
-    def _probe(self, name: str, prefix: str) -> str:
+    def _probe(self) -> str:
         """Dense output of one lane at eight instants: `theta` of S says where in the step."""
+        return probe_function("probe", [(f"range({LANES})", "", self._dense(""))], self.layout)
+
+    def _probe_around(self) -> str:
+        """Dense output of one lane at quarters of the step before, then of this one."""
+        half = LANES // 2
+        pieces = [
+            (f"range({half})", f"{1.0 / half} * l", self._dense("before_")),
+            (f"range({half}, {LANES})", f"{1.0 / half} * (l - {half})", self._dense("")),
+        ]
+        return probe_function("probe_around", pieces, self.layout)
+
+    def _dense(self, prefix: str) -> list[tuple[str, Expression]]:
         v = self.variable
         theta = v("theta")
         step = v(f"{prefix}step" if prefix else "tried")
@@ -277,9 +289,9 @@ def keep(W):
                 slope = slope + weight * v(f"{prefix}k{s}_{i}")
             outputs.append((f"stage{i}", v(f"{prefix}y{i}") + step * slope))
         for j in range(self.joints):
-            outputs.append((f"mode{j}", v(f"{prefix}mode{j}") * 1.0))
-            outputs.append((f"impact_rate{j}", v(f"{prefix}impact_rate{j}") * 1.0))
-        return probe_function(name, outputs, self.layout)
+            outputs.append((f"mode{j}", v(f"{prefix}mode{j}")))
+            outputs.append((f"impact_rate{j}", v(f"{prefix}impact_rate{j}")))
+        return outputs
 
 
 def lend_function(first: int, last: int) -> str:
@@ -291,20 +303,27 @@ def lend_function(first: int, last: int) -> str:
     return "\n".join([PROBING, *lines]) + "\n"
 
 
-def probe_function(name: str, outputs: list[tuple[str, Expression]], layout: Layout) -> str:
-    """Return the source of (W, S, lane): read one lane of W (theta of S), write all lanes of S.
+Piece = tuple[str, str, list[tuple[str, Expression]]]
+"""Lanes to write, where in the step (empty: as `theta` of S says), and what to evaluate."""
 
-    What W holds is loaded before the loop: inside it, the compiler could not know that the two
+
+def probe_function(name: str, pieces: list[Piece], layout: Layout) -> str:
+    """Return the source of (W, S, lane): read one lane of W, write lanes of S.
+
+    What W holds is loaded before each loop: inside it, the compiler could not know that the two
     arrays do not overlap.
     """
-    _, header, loop, *body = lane_function(name, outputs, layout).splitlines()
+    text = [PROBING, f"def {name}(W, S, lane):"]
     theta = f"W[{layout['theta'] * LANES} + l]"
-    loads, lines = [], []
-    for line in body:
-        target, _, value = line.strip().partition(" = ")
-        if value.startswith("W[") and value != theta:
-            loads.append(f"    {target} = {value.replace('+ l]', '+ lane]')}")
-        else:
-            lines.append("        " + f"{target} = {value}".replace("W[", "S["))
-    header = header.replace("(W)", "(W, S, lane)")
-    return "\n".join([PROBING, header, *loads, loop, *lines]) + "\n"
+    for lanes, instants, outputs in pieces:
+        loads, lines = [], []
+        for line in lane_function(name, outputs, layout).splitlines()[3:]:
+            target, _, value = line.strip().partition(" = ")
+            if value == theta:
+                lines.append(f"        {target} = {instants or theta.replace('W[', 'S[')}")
+            elif value.startswith("W["):
+                loads.append(f"    {target} = {value.replace('+ l]', '+ lane]')}")
+            else:
+                lines.append("        " + f"{target} = {value}".replace("W[", "S["))
+        text += [*loads, f"    for l in {lanes}:", *lines]
+    return "\n".join(text) + "\n"

@@ -16,8 +16,9 @@ from numba import float64, int64, types, void
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, deferred, kernel
+from solver.lanes.borrowed import borrowed
 from solver.lanes.contacts import begin_contact, end_contact, land
-from solver.lanes.peaks import POINTS, end_peaks, refine_peaks
+from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import plan, stop, turn_over
 from solver.lanes.rows import emit
 from solver.lanes.state import Counter, Setting, Status
@@ -148,6 +149,7 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
         *[float64[::1]] * 2,
         TABLE,
         int64[:, ::1],
+        TABLE,
         *[ROWS] * 3,
         int64,
     )
@@ -162,12 +164,13 @@ def advance(
     scan: LaneFunction,
     lend: LaneFunction,
     probe: LaneFunction,
-    probe_before: LaneFunction,
+    probe_around: LaneFunction,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
+    scratch: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
@@ -177,14 +180,16 @@ def advance(
 
     Parameters
     ----------
-    attempt, set_mask, keep, commit, right_hand_side, observe, scan, lend, probe, probe_before
+    attempt, set_mask, keep, commit, right_hand_side, observe, scan, lend, probe, probe_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     slots
         Where quantities live in `work` and `spare`, both (slots * LANES,).
     settings, counters
-        (kinds, LANES): see `solver.lanes`.
+        (kinds, LANES): see `solver.lanes.state`.
+    scratch : (rows + 1, POINTS + 1)
+        See `solver.lanes.peaks`.
     sample_rows, section_rows : (LANES, capacity, width)
-        Dense states at samples and sections; `solver.lanes.row_width` gives the width.
+        Dense states at samples and sections; `solver.lanes.state.row_width` gives the width.
     impact_rows : (LANES, capacity, 6)
         Contacts that ended: joint, onset, release, approach rate, peak force, impulse.
 
@@ -193,7 +198,9 @@ def advance(
     int
         How many lanes still run.
     """
-    scratch = np.empty((slots[Slot.ROWS] + 1, POINTS + 1))
+    work, spare, slots = borrowed(work), borrowed(spare), borrowed(slots)
+    settings, counters = borrowed(settings), borrowed(counters)
+    scratch = borrowed(scratch)
     running = count_active(slots, work)
     landing = still_landing(counters)
     masked = False
@@ -221,7 +228,7 @@ def advance(
                 if work[slots[Slot.PEAK] * LANES + lane] > 0.0:
                     refine_peaks(
                         lane, slots, work, spare, counters, settings, scratch,
-                        lend, probe, probe_before, right_hand_side, observe,
+                        lend, probe_around, right_hand_side, observe,
                     )  # fmt: skip
         keep(work)
         commit(work)

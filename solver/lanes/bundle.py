@@ -16,6 +16,7 @@ from solver.compiler.layout import LANES
 from solver.drive import characteristic_time, common_period
 from solver.lanes.advance import advance
 from solver.lanes.observation import observe_rows
+from solver.lanes.peaks import POINTS
 from solver.lanes.periods import plan
 from solver.lanes.start import mechanism_size, start_state
 from solver.lanes.state import Counter, Setting, Status, row_width
@@ -66,6 +67,7 @@ class Bundle:
         self.sample_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.section_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.impact_rows = np.zeros((LANES, ROWS_AT_ONCE, 6))
+        self.scratch = np.zeros((kernel.rows.scanned + 1, POINTS + 1))
         for lane, problem in enumerate(problems):
             self._bind(lane, problem)
         lanes = self.work.reshape(-1, LANES)
@@ -90,6 +92,7 @@ class Bundle:
                 self.spare,
                 self.settings,
                 self.counters,
+                self.scratch,
                 self.sample_rows,
                 self.section_rows,
                 self.impact_rows,

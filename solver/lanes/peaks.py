@@ -9,7 +9,9 @@ from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
 from solver.lanes.state import Counter, Setting
 
-POINTS = 2 * LANES + 1
+POINTS = LANES + 1
+"""Quarters of the step before and of this one, and its end."""
+WINDOW = 5
 
 
 @kernel()
@@ -22,15 +24,15 @@ def refine_peaks(
     settings: np.ndarray,
     scratch: np.ndarray,
     lend: LaneFunction,
-    probe: LaneFunction,
-    probe_before: LaneFunction,
+    probe_around: LaneFunction,
     right_hand_side: LaneFunction,
     observe: LaneFunction,
 ) -> None:
     """Seek the extremes that the scan suspects around the start of this step.
 
-    Candidate channels are evaluated at eight instants in the step before and eight in this one; a
-    parabola through the best of them and its neighbours gives the extreme. `scratch` has a row
+    Candidate channels are evaluated at quarters of the step before and of this one. A parabola
+    through the best of them tells when, a quartic how much: the extreme is flat, so the parabola's
+    error in time does not show. `scratch` has a row
     for the instants and one for each candidate, (rows + 1, POINTS + 1).
     """
     count = 0
@@ -40,28 +42,22 @@ def refine_peaks(
             count += 1
     times = scratch[0]
     since = float(counters[Counter.PERIOD, lane]) * settings[Setting.PERIOD, lane]
-    for i in range(LANES):
-        spare[slots[Slot.THETA] * LANES + i] = i / LANES
     lend(work, spare, lane)
-    for half in range(2):
-        if half == 0:
-            probe_before(work, spare, lane)
-        else:
-            probe(work, spare, lane)
-        right_hand_side(spare)
-        observe(spare)
+    probe_around(work, spare, lane)
+    right_hand_side(spare)
+    observe(spare)
+    for i in range(LANES):
+        times[i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
+    for n in range(count):
+        row = (slots[Slot.CHANNEL] + int(scratch[n + 1, POINTS])) * LANES
         for i in range(LANES):
-            times[half * LANES + i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
-        for n in range(count):
-            row = (slots[Slot.CHANNEL] + int(scratch[n + 1, POINTS])) * LANES
-            for i in range(LANES):
-                scratch[n + 1, half * LANES + i] = spare[row + i]
+            scratch[n + 1, i] = spare[row + i]
     times[POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + lane]
     for n in range(count):
         values = scratch[n + 1]
         row = int(values[POINTS]) * LANES + lane
         values[POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
-        if values[LANES] > values[0]:
+        if values[LANES // 2] > values[0]:
             time, value = extreme(times, values, 1.0)
             if value > work[slots[Slot.HIGHEST] * LANES + row]:
                 work[slots[Slot.HIGHEST] * LANES + row] = value
@@ -87,14 +83,26 @@ def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float,
     left = bend(times, values, max(best - 1, 1))
     right = bend(times, values, min(best + 1, last - 1))
     smooth = sense * here < 0.0 and abs(left - here) + abs(right - here) < abs(here)
-    if not smooth:  # a kink, as where contact ends: no parabola fits, and none is needed
+    if not smooth:  # a kink, as where contact ends: no polynomial fits, and none is needed
         return times[best], values[best]
     after = times[best + 1] - times[best]
     slope = (values[best + 1] - values[best]) / after - here * after
-    shift = -0.5 * slope / here
-    if not times[best - 1] - times[best] <= shift <= after:
+    vertex = times[best] - 0.5 * slope / here
+    if not times[best - 1] <= vertex <= times[best + 1]:
         return times[best], values[best]
-    return times[best] + shift, values[best] + 0.5 * slope * shift
+    first = min(max(best - WINDOW // 2, 0), last + 1 - WINDOW)
+    return vertex, interpolate(times, values, first, vertex)
+
+
+@kernel()
+def interpolate(times: np.ndarray, values: np.ndarray, first: int, at: float) -> float:
+    """Value at an instant of the polynomial through WINDOW samples from `first` (Neville)."""
+    table = values[first : first + WINDOW].copy()
+    for level in range(1, WINDOW):
+        for i in range(WINDOW - level):
+            low, high = times[first + i], times[first + i + level]
+            table[i] = ((at - high) * table[i] + (low - at) * table[i + 1]) / (low - high)
+    return table[0]
 
 
 @kernel()

@@ -104,7 +104,8 @@ class Driver(Strict):
 class Start(Strict):
     """Where Newton's iteration on the geometry begins, and what the constraints leave free.
 
-    Journals start concentric; positions and velocities are those of the ideal mechanism. Angles
+    Journals start concentric; positions and velocities are those of the ideal mechanism, but for
+    a body whose velocity is given: its journal may move in its bearing from the start. Angles
     choose between the assemblies that a mechanism allows.
     """
 
