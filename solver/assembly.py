@@ -110,24 +110,9 @@ def assemble(scene: Scene) -> Assembly:
             break
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 
-    everything = np.full(count, True)
-    velocity = still.copy()
-    for i, body in enumerate(ideal.bodies):
-        velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
-        velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
-    for columns in (positions, everything, everything):
-        # given angular velocities first carry the centres of mass along; the last pass removes
-        # the rounding of the one before
-        _admissible(ideal, pose, velocity, driven, scale, columns)
-
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
+    velocity = _start_velocity(ideal, loose, pose, scale)
     _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
-    for body, given in scene.start.velocities.items():  # play lets a journal be thrown
-        i = 3 * ideal.bodies.index(body)
-        velocity[i : i + 2] = given
-    if scene.start.velocities:
-        for _ in range(2):
-            _admissible(loose, pose, velocity, driven, scale, everything)
     rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
     return Assembly(
         pose=pose,
@@ -139,6 +124,30 @@ def assemble(scene: Scene) -> Assembly:
         freedom_with_play=count - open_rank,
         redundant_with_play=len(open_jacobian) - open_rank,
     )
+
+
+def _start_velocity(
+    ideal: AbsoluteMechanism, loose: AbsoluteMechanism, pose: Floats, scale: Floats
+) -> Floats:
+    """Velocities of the ideal mechanism; those given, where play lets a journal be thrown."""
+    scene, driven = ideal.scene, driver_positions(ideal.scene)
+    velocity = np.zeros(len(pose))
+    for i, body in enumerate(ideal.bodies):
+        velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
+        velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
+    everything = np.full(len(pose), True)
+    for columns in (np.arange(len(pose)) % 3 != 2, everything, everything):
+        # given angular velocities first carry the centres of mass along; the last pass removes
+        # the rounding of the one before
+        _admissible(ideal, pose, velocity, driven, scale, columns)
+    if not scene.start.velocities:
+        return velocity
+    for body, given in scene.start.velocities.items():
+        i = 3 * ideal.bodies.index(body)
+        velocity[i : i + 2] = given
+    for _ in range(2):
+        _admissible(loose, pose, velocity, driven, scale, everything)
+    return velocity
 
 
 def _admissible(
