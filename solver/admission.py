@@ -24,6 +24,8 @@ from solver.scene.references import reference_problems
 
 LONGEST_RUN = 1e6
 """Longest duration, in periods."""
+LONGEST_IDEAL_RUN = 100.0
+"""The same for an ideal mechanism that never repeats: every pose follows from the one before."""
 MOST_SAMPLES = 100_000_000
 MOST_BYTES = 10_000_000_000
 BYTES_PER_VALUE = 8.0
@@ -78,16 +80,19 @@ def admit(document: object) -> Admission:
     """
     job = _parse(document)
     scene, scene_document, echo = resolve(job)
-    tree, _ = check(scene)
+    tree, assembly = check(scene)
     offered = _offered(scene)
     selected = select(offered, list(job.channels), "/channels")
     period = common_period(scene)
+    longest = LONGEST_RUN
+    if period.seconds is None and assembly.freedom_with_play == 0:
+        longest = LONGEST_IDEAL_RUN
     tolerance = _tolerance(job)
     output_step = job.output_step or job.duration / DEFAULT_SAMPLES
     samples = sample_count(job.duration, output_step)
     sections = section_count(scene, period, job)
     stored = int(BYTES_PER_VALUE * (len(selected) + 1) * (samples + sections))
-    _limits(scene, job, period, samples, stored, output_step, len(selected))
+    _limits(scene, job, period, longest, samples, stored, output_step, len(selected))
 
     filled = job.model_dump(mode="json", exclude={"scene", "accuracy"})
     if isinstance(job.scene, PresetScene):
@@ -98,7 +103,8 @@ def admit(document: object) -> Admission:
     filled["output_step"] = output_step
     filled["channels"] = [channel.name for channel in selected]
     unlabelled = {key: value for key, value in filled.items() if key != "label"}
-    canonical = json.dumps(unlabelled, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    spec = {"job": unlabelled, "scene": scene_document}
+    canonical = json.dumps(spec, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return Admission(
         job=filled,
         scene=scene_document,
@@ -299,6 +305,7 @@ def _limits(
     scene: Scene,
     job: SimulateJob,
     period: Period,
+    longest: float,
     samples: int,
     stored: int,
     output_step: float,
@@ -306,12 +313,12 @@ def _limits(
 ) -> None:
     unit = period.seconds or characteristic_time(scene, shortest_link(scene))
     problems = []
-    if job.duration > LONGEST_RUN * unit:
+    if job.duration > longest * unit:
         problems.append(
             Problem(
                 "/duration",
                 f"{job.duration:g} s are {job.duration / unit:.3g} periods of {unit:.3g} s; the"
-                f" limit is {LONGEST_RUN:g} periods ({LONGEST_RUN * unit:.3g} s).",
+                f" limit is {longest:g} periods ({longest * unit:.3g} s).",
             )
         )
     if samples > MOST_SAMPLES or stored > MOST_BYTES:

@@ -1,5 +1,6 @@
 """Files of a store that outlive a power cut, each with its size and checksum."""
 
+import ctypes
 import errno
 import os
 import shutil
@@ -9,6 +10,8 @@ from pathlib import Path
 from typing import Final
 
 PARTIAL: Final = ".partial"
+MANY: Final = 16
+"""From this many files on, writing back the whole file system is faster than one by one."""
 _NEW_FILE: Final = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
 _NOT_LINKABLE: Final = frozenset({errno.EXDEV, errno.EPERM, errno.EMLINK, errno.EOPNOTSUPP})
 
@@ -44,16 +47,13 @@ class DurableFolder:
     def commit(self) -> None:
         """Make everything durable that was written since the last commit.
 
-        All files first, then all their names: the first fsync then does most of the work of a
-        journalling file system for all that follow.
+        All files first, then all their names.
         """
-        for key in self._partial:
-            sync(f"{self.root}/{key}{PARTIAL}")
+        sync_all([f"{self.root}/{key}{PARTIAL}" for key in self._partial])
         for key in self._partial:
             self._appear(key)
         self._partial.clear()
-        for folder in sorted(self._unsynced):
-            sync(f"{self.root}/{folder}" if folder else str(self.root))
+        sync_all([f"{self.root}/{folder}".rstrip("/") for folder in sorted(self._unsynced)])
         self._unsynced.clear()
 
     def draft(self, key: str, content: bytes) -> None:
@@ -120,6 +120,30 @@ def _write_all(descriptor: int, content: bytes) -> None:
     view = memoryview(content)
     while view:
         view = view[os.write(descriptor, view) :]
+
+
+def sync_all(paths: list[str]) -> None:
+    """Wait until files, or the names in folders, of one file system are on the disk.
+
+    Many of them at once by one call for the whole file system, where the system has it: a store
+    of 95 channels else waits a thousand times.
+    """
+    if len(paths) >= MANY and sync_file_system(paths[0]):
+        return
+    for path in paths:
+        sync(path)
+
+
+def sync_file_system(path: str) -> bool:
+    """Write back everything of the file system that holds a path; whether that was possible."""
+    call = getattr(ctypes.CDLL(None), "syncfs", None)  # Linux has it
+    if call is None:
+        return False
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        return bool(call(descriptor) == 0)
+    finally:
+        os.close(descriptor)
 
 
 def sync(path: str | Path) -> None:
