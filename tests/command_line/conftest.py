@@ -1,4 +1,5 @@
-from collections.abc import Callable
+import signal
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import pytest
@@ -14,6 +15,14 @@ from tests.service_in_thread import (
 )
 
 __all__ = ["catalogue", "finished_job", "http", "service_url", "settings", "worker"]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def children_hear_ctrl_c() -> Iterator[None]:
+    """Shells start background programs with Ctrl-C ignored, and their children inherit that."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 class Ended(NamedTuple):

@@ -50,7 +50,11 @@ def test_interrupted_waiting_says_how_to_come_back_and_leaves_the_job(http, work
         "sys.exit(run(['show', '--wait', sys.argv[1]]))\n"
     )
     ended = subprocess.run(
-        [sys.executable, "-c", program, job_id], env=environment, capture_output=True, text=True
+        [sys.executable, "-c", program, job_id],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
     assert ended.returncode == 128 + signal.SIGINT
     assert f"jointplay show --wait {job_id}" in ended.stderr.splitlines()[-1]
