@@ -217,11 +217,16 @@ class DynamicRun:
     def _energy(self) -> dict[str, float]:
         rows = self.kernel.rows
         self.kernel.module.observe_rest(self.bundle.work)
-        values = self.bundle.table("channel0", len(rows.names))[:, LANE]
+
+        def value(name: str) -> float:
+            row = rows.index(name)
+            block = "previous" if row < rows.scanned else "channel"
+            return float(self.bundle.table(f"{block}{row}")[0, LANE])
+
         return {
-            "kinetic": float(values[rows.index("energy.kinetic")]),
-            "potential": float(values[rows.index("energy.potential")]),
-            "stored": float(values[rows.index("stored")]),
+            "kinetic": value("energy.kinetic"),
+            "potential": value("energy.potential"),
+            "stored": value("stored"),
         }
 
     def _ledger(self) -> dict[str, float]:

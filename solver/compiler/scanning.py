@@ -1,7 +1,8 @@
 """The scan for extremes: which channels of which lanes just passed one that may be a record.
 
 It looks at the values at step ends only to find candidates; the extremes themselves are then
-sought inside the steps on the dense output (`solver.lanes.peaks`).
+sought inside the steps on the dense output (`solver.lanes.peaks`). The values themselves move to
+the block ``previous``; in their place stays how likely a candidate each is (positive: one).
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from solver.compiler.emit import RETURNING
 from solver.compiler.layout import LANES, Layout
 
-BLOCKS = ("channel", "previous", "change", "highest", "lowest", "candidate")
+BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 
 CHAINS = 4
 """Independent maxima in the reduction over rows: one would wait for its own latency."""
@@ -39,7 +40,7 @@ def source(layout: Layout, rows: int) -> str:
     peak, mask = layout["peak"] * LANES, layout["mask0"] * LANES
     lines = []
     for row in range(rows):
-        slot = at["candidate"] + row * LANES
+        slot = at["channel"] + row * LANES
         chain = f"found{row % CHAINS}"
         if row < CHAINS:
             lines.append(f"        {chain} = W[{slot} + l]")
@@ -67,7 +68,7 @@ def scan(W):
         within = {LOPSIDED} * uneven * uneven + ({SPARE} * both - nearest) * both
         found = 0.0 if rose * change > 0.0 else within
         found = found if abs(rose) > 0.0 else 0.0
-        W[{at["candidate"]} + i] = found if taken > 0.0 else 0.0
+        W[{at["channel"]} + i] = found if taken > 0.0 else 0.0
         W[{at["previous"]} + i] = value if taken > 0.0 else before
         W[{at["change"]} + i] = change if taken > 0.0 else rose
     for l in range({LANES}):

@@ -55,13 +55,12 @@ class Slot(IntEnum):
     LOWEST = 39
     HIGHEST_TIME = 40
     LOWEST_TIME = 41
-    CANDIDATE = 42
-    MASK = 43
-    IMPACT_FLOOR = 44
-    RESTART = 45
-    ONSET_TIME = 46
-    APPROACH = 47
-    ONSET_TOTAL = 48
+    MASK = 42
+    IMPACT_FLOOR = 43
+    RESTART = 44
+    ONSET_TIME = 45
+    APPROACH = 46
+    ONSET_TOTAL = 47
 
 
 COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "MASK_ROWS", "SIZE")
@@ -79,7 +78,7 @@ def slots_of(layout: Layout, **counts: int) -> NDArray[np.int64]:
         if slot.name in COUNTS:
             continue
         name = BLOCKS.get(slot.name, slot.name.lower())
-        for candidate in (name, f"{name}0"):
-            if candidate in layout:
-                slots[slot] = layout[candidate]
+        for spelling in (name, f"{name}0"):
+            if spelling in layout:
+                slots[slot] = layout[spelling]
     return slots

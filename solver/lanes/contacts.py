@@ -111,7 +111,7 @@ def end_contact(
     highest = work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane]
     row[4] = max(
         highest,
-        work[(slots[Slot.CHANNEL] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane],
+        work[(slots[Slot.PREVIOUS] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane],
     )
     row[5] = work[impulse * LANES + lane] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane]
     counters[Counter.IMPACT_ROWS, lane] += 1

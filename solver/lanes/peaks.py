@@ -37,7 +37,7 @@ def refine_peaks(
     """
     count = 0
     for r in range(slots[Slot.ROWS]):
-        if work[(slots[Slot.CANDIDATE] + r) * LANES + lane] > 0.0:
+        if work[(slots[Slot.CHANNEL] + r) * LANES + lane] > 0.0:
             scratch[count + 1, POINTS] = r
             count += 1
     times = scratch[0]
@@ -56,7 +56,7 @@ def refine_peaks(
     for n in range(count):
         values = scratch[n + 1]
         row = int(values[POINTS]) * LANES + lane
-        values[POINTS - 1] = work[slots[Slot.CHANNEL] * LANES + row]
+        values[POINTS - 1] = work[slots[Slot.PREVIOUS] * LANES + row]
         if values[LANES // 2] > values[0]:
             time, value = extreme(times, values, 1.0)
             if value > work[slots[Slot.HIGHEST] * LANES + row]:
@@ -118,7 +118,7 @@ def end_peaks(lane: int, slots: np.ndarray, work: np.ndarray, now: float) -> Non
     """Let the values at the run's last instant count as extremes."""
     for r in range(slots[Slot.ROWS]):
         row = r * LANES + lane
-        value = work[slots[Slot.CHANNEL] * LANES + row]
+        value = work[slots[Slot.PREVIOUS] * LANES + row]
         if value > work[slots[Slot.HIGHEST] * LANES + row]:
             work[slots[Slot.HIGHEST] * LANES + row] = value
             work[slots[Slot.HIGHEST_TIME] * LANES + row] = now
