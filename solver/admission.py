@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from solver import presets
 from solver.assembly import ASSEMBLED, Assembly, assemble, shortest_link
 from solver.channels import Channel, channels, select
+from solver.compiler.length import check_length
 from solver.drive import Period, characteristic_time, common_period
 from solver.errors import InvalidInput, LimitExceeded, Problem
 from solver.job import TOLERANCES, PresetScene, SimulateJob
@@ -81,6 +82,8 @@ def admit(document: object) -> Admission:
     job = _parse(document)
     scene, scene_document, echo = resolve(job)
     tree, assembly = check(scene)
+    if assembly.freedom_with_play:
+        check_length(scene, tree, job.formulation)
     offered = _offered(scene)
     selected = select(offered, list(job.channels), "/channels")
     period = common_period(scene)

@@ -31,6 +31,8 @@ LARGEST_BUDGET = 200_000
 """Attempted steps a call."""
 MOST_STEPS = 4_000_000_000
 """Accepted steps of one run: days of computing."""
+PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
+"""Fewer periods than SLOWEST_PACE in PACE_STEPS steps are no progress: the run ends."""
 LANE = 0
 """The lane that a single run uses; the seven others idle, and its bits do not depend on them."""
 
@@ -110,19 +112,32 @@ class DynamicRun:
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
         budget = FIRST_BUDGET
+        mark = (0.0, self.bundle.time(LANE))
         while self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING:
             begun = time.perf_counter()
             self.bundle.advance(budget)
             found = self._slice()
             spent = time.perf_counter() - begun
             self.seconds += spent
-            if self.bundle.table("steps")[0, LANE] >= MOST_STEPS:
-                self.bundle.counters[Counter.STATUS, LANE] = Status.STEP_LIMIT
+            mark = self._pace(mark)
             budget = int(min(max(budget * SLICE_SECONDS / spent, 100), LARGEST_BUDGET, 4 * budget))
             yield found
         status = Status(self.bundle.counters[Counter.STATUS, LANE])
         if status != Status.DONE:
             raise self._failure(status)
+
+    def _pace(self, mark: tuple[float, float]) -> tuple[float, float]:
+        """Stop a run that has used up its steps or hardly moves; `mark` is (steps, time)."""
+        steps, now = float(self.bundle.table("steps")[0, LANE]), self.bundle.time(LANE)
+        status = self.bundle.counters[Counter.STATUS]
+        if status[LANE] != Status.RUNNING or steps - mark[0] < PACE_STEPS:
+            return mark
+        period = float(self.bundle.settings[Setting.PERIOD, LANE])
+        if now - mark[1] < SLOWEST_PACE * period:
+            status[LANE] = Status.UNDERFLOW
+        elif steps >= MOST_STEPS:
+            status[LANE] = Status.STEP_LIMIT
+        return steps, now
 
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""

@@ -112,3 +112,15 @@ def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Express
         if wound is not None:
             found[branch.body] = wound
     return found
+
+
+def slopes(equations: Equations) -> list[tuple[str, Expression]]:
+    """Return what the right-hand side writes: (slot name, expression)."""
+    recorder: Recorder = equations.recorder
+    count = len(equations.coordinates)
+    outputs = [(f"slope{i}", recorder.variable(f"stage{count + i}")) for i in range(count)]
+    outputs += [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
+    outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
+    for j, (gap, rate) in enumerate(equations.gaps):
+        outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    return outputs

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from solver.compiler import scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.equations import Equations, record
+from solver.compiler.equations import record, slopes
 from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
-from solver.compiler.recorder import Expression, Recorder
+from solver.compiler.recorder import Expression
 from solver.compiler.rows import Rows, arrange
 from solver.compiler.slots import slots_of
 from solver.integrators.tableau import Tableau
@@ -103,7 +103,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     source = "\n\n".join(
         [
             HEADER,
-            lane_function("right_hand_side", _slopes(equations), layout, fixed),
+            lane_function("right_hand_side", slopes(equations), layout, fixed),
             lane_function("observe", observed[: rows.scanned], layout, fixed),
             lane_function("observe_rest", observed[rows.scanned :], layout, fixed),
             steps.source(),
@@ -131,17 +131,6 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
         rows,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
     )
-
-
-def _slopes(equations: Equations) -> list[tuple[str, Expression]]:
-    recorder: Recorder = equations.recorder
-    count = len(equations.coordinates)
-    outputs = [(f"slope{i}", recorder.variable(f"stage{count + i}")) for i in range(count)]
-    outputs += [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
-    outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
-    for j, (gap, rate) in enumerate(equations.gaps):
-        outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
-    return outputs
 
 
 def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:

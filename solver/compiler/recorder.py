@@ -76,8 +76,8 @@ def too_many(count: int) -> Problem:
     """Say that a scene's equations are too long to compile."""
     return Problem(
         "/scene",
-        f"The equations of this scene take more than {min(count, 4 * MOST_STATEMENTS)} recorded"
-        f" statements; the limit is {MOST_STATEMENTS}. Use fewer bodies.",
+        f"The equations of this scene take {count} recorded statements or more; the limit is"
+        f" {MOST_STATEMENTS}. Use fewer bodies.",
     )
 
 
