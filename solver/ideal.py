@@ -107,6 +107,24 @@ class IdealRun:
         span = min(duration, self.unit) if self.admission.period else duration
         count = max(math.ceil(SCAN_A_PERIOD * span / self.unit), 16)
         times = np.linspace(0.0, span, min(count, 200_000) + 1)
+        peaks = self._peaks(times)
+        if duration > span:  # angles that go on turning are extreme in the last period
+            for name, late in self._peaks(times + (duration - span)).items():
+                early = peaks[name]
+                low = min(early, late, key=lambda peak: peak.minimum)
+                high = max(early, late, key=lambda peak: peak.maximum)
+                peaks[name] = Peak(low.minimum, low.minimum_time, high.maximum, high.maximum_time)
+        statistics: dict[str, Any] = {
+            "steps": 0,
+            "rejections": 0,
+            "onsets": 0,
+            "smallest_step": None,
+            "solver_seconds": self.seconds,
+            "energy": None,
+        }
+        return Summary(peaks, statistics)
+
+    def _peaks(self, times: Floats) -> dict[str, Peak]:
         values = self.channels(times)
         peaks = {}
         for c, name in enumerate(self.names):
@@ -117,15 +135,7 @@ class IdealRun:
             low_time, low = refine_extreme(self._channel(c), times, column, -1.0)
             high_time, high = refine_extreme(self._channel(c), times, column, 1.0)
             peaks[name] = Peak(low, low_time, high, high_time)
-        statistics: dict[str, Any] = {
-            "steps": 0,
-            "rejections": 0,
-            "onsets": 0,
-            "smallest_step": None,
-            "solver_seconds": self.seconds,
-            "energy": None,
-        }
-        return Summary(peaks, statistics)
+        return peaks
 
     def channels(self, times: Floats, local: Floats | None = None) -> Floats:
         """Return (instants, channels) at times in s; `local` is the time within the period."""

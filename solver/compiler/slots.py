@@ -61,6 +61,7 @@ class Slot(IntEnum):
     ONSET_TIME = 45
     APPROACH = 46
     ONSET_TOTAL = 47
+    OPENED = 48
 
 
 COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "MASK_ROWS", "SIZE")

@@ -46,7 +46,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
         layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
     layout.add_block("mode", joints)
     layout.add_block("impact_rate", joints)
-    for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total"):
+    for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
         layout.add_block(name, joints)
     layout.add("before_time", "before_step")
     layout.add_block("before_mode", joints)

@@ -17,7 +17,7 @@ from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.borrowed import borrowed
-from solver.lanes.contacts import begin_contact, end_contact, land
+from solver.lanes.contacts import begin_contact, end_contact, land, note_openings
 from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import plan, stop, turn_over
 from solver.lanes.rows import emit
@@ -58,6 +58,8 @@ def attend(
         if not landed:
             work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
             return False
+    if flag & RELEASE:
+        note_openings(lane, slots, work)
     if flag & DUE:
         return emit(
             lane, slots, work, spare, settings, counters, sample_rows, section_rows, probe
@@ -77,7 +79,8 @@ def settle(
 ) -> bool:
     """Look after one lane once its step is taken; whether the impact buffer is nearly full."""
     period = settings[Setting.PERIOD, lane]
-    now = float(counters[Counter.PERIOD, lane]) * period + work[slots[Slot.TIME] * LANES + lane]
+    begun = float(counters[Counter.PERIOD, lane]) * period
+    now = begun + work[slots[Slot.TIME] * LANES + lane]
     full = False
     landed = counters[Counter.LANDING, lane]
     if landed >= 0:
@@ -91,7 +94,8 @@ def settle(
             rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + lane]
             if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and gap <= 0.0 and rate < 0.0:
                 work[(slots[Slot.MODE] + j) * LANES + lane] = 0.0
-                end_contact(j, now, lane, slots, work, counters, impact_rows)
+                opened = begun + work[(slots[Slot.OPENED] + j) * LANES + lane]
+                end_contact(j, opened, lane, slots, work, counters, impact_rows)
         full = counters[Counter.IMPACT_ROWS, lane] + slots[Slot.JOINTS] > impact_rows.shape[1]
     if flag & DUE:
         if work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]:

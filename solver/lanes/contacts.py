@@ -15,6 +15,7 @@ LANDED = 1e-13
 """Largest penetration, m, at which an onset counts as located."""
 MOST_LANDINGS = 12
 """Attempts to land on one onset."""
+BISECTIONS = 40
 LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
 
@@ -115,3 +116,26 @@ def end_contact(
     )
     row[5] = work[impulse * LANES + lane] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane]
     counters[Counter.IMPACT_ROWS, lane] += 1
+
+
+@kernel()
+def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> None:
+    """Note how far into this step each gap opens: the root of the cubic through both its ends."""
+    step = work[slots[Slot.TRIED] * LANES + lane]
+    for j in range(slots[Slot.JOINTS]):
+        place = (slots[Slot.GAP] + 4 * j) * LANES + lane
+        gap, rate = work[place], work[place + LANES] * step
+        start, start_rate = work[place + 2 * LANES], work[place + 3 * LANES] * step
+        low, high = 0.0, 1.0
+        if start > 0.0 >= gap:
+            for _ in range(BISECTIONS):
+                x = 0.5 * (low + high)
+                rest = 1.0 - x
+                value = rest * rest * ((1.0 + 2.0 * x) * start + x * start_rate)
+                value += x * x * ((3.0 - 2.0 * x) * gap - rest * rate)
+                if value > 0.0:
+                    low = x
+                else:
+                    high = x
+        opened = work[slots[Slot.TIME] * LANES + lane] + high * step
+        work[(slots[Slot.OPENED] + j) * LANES + lane] = opened
