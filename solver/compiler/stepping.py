@@ -135,10 +135,11 @@ class StepRecorder:
         magnitude = 0.5 * log2(squared)
         exponent = 1.0 / self.tableau.error_order
         smooth = exponent - 0.75 * PROPORTIONAL
-        accepted_growth = exp2(math.log2(SAFETY) - smooth * magnitude + PROPORTIONAL * v("memory"))
-        growth = select_positive(
-            good, accepted_growth, minimum(exp2(math.log2(SAFETY) - exponent * magnitude), 1.0)
-        )
+        onwards = PROPORTIONAL * v("memory") - smooth * magnitude
+        again = -exponent * magnitude
+        safety = math.log2(SAFETY)
+        growth: Expression = exp2(safety + select_positive(good, onwards, again))
+        growth = select_positive(good, growth, minimum(growth, 1.0))
         growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
         growth = minimum(growth, number(LARGEST_GROWTH))
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
