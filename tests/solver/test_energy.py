@@ -1,0 +1,95 @@
+"""The energy ledger closes: what drivers and gravity put in is kept, or lost in contacts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.solver.completed_runs import CASE_3, run
+
+CASES: dict[str, tuple[str, float, dict[str, Any], str]] = {
+    "pendulum": ("pendulum", 3.0, {"angle": 1.0}, "reduced"),
+    "bouncing": ("bouncing-journal", 0.2, {"velocity_x": 0.1, "spin": 30.0}, "reduced"),
+    "slider-crank": ("slider-crank", 0.024, {}, "reduced"),
+    "press": ("seven-bar-press", 0.5, CASE_3, "reduced"),
+    "press in absolute coordinates": ("seven-bar-press", 0.5, CASE_3, "lagrange"),
+    "press with a step of friction": (
+        "seven-bar-press",
+        0.2,
+        {**CASE_3, "static_velocity": 1e-3, "dynamic_velocity": 1e-3},
+        "reduced",
+    ),
+}
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("case", CASES)
+def test_the_residual_of_the_ledger_is_small_against_the_work_done(
+    case: str, tolerance: float
+) -> None:
+    name, duration, parameters, formulation = CASES[case]
+    found = run(
+        name,
+        duration,
+        parameters=parameters,
+        tolerance=tolerance,
+        formulation=formulation,
+        channels=["energy.*"],
+    )
+    ledger = found.statistics["energy"]
+    turned_over = max(
+        float(np.ptp(found["energy.kinetic"])), *(abs(ledger[k]) for k in GROSS), 1e-9
+    )
+    # a step errs by at most the tolerance, in lengths of the clearance and the speeds that go
+    # with it; impacts lose the fifth order at their onset and end, so errors of the few thousand
+    # steps of a run add up to at most a thousand tolerances of the energy that is turned over
+    assert abs(ledger["residual"]) <= 1000.0 * tolerance * turned_over
+
+
+GROSS = ("driver_work", "gravity_work", "contact_loss", "friction_loss")
+
+
+@pytest.mark.parametrize("case", ["bouncing", "slider-crank", "press"])
+def test_contacts_and_friction_only_lose(case: str) -> None:
+    name, duration, parameters, formulation = CASES[case]
+    found = run(name, duration, parameters=parameters, tolerance=1e-8, formulation=formulation)
+    ledger = found.statistics["energy"]
+    assert ledger["contact_loss"] > 0.0
+    assert ledger["friction_loss"] > 0.0
+
+
+def test_an_elastic_bearing_without_friction_keeps_all_energy() -> None:
+    found = run(
+        "bouncing-journal",
+        0.3,
+        parameters={"restitution": 1.0, "friction": 0.0},
+        tolerance=1e-10,
+    )
+    ledger = found.statistics["energy"]
+    assert found.statistics["onsets"] >= 5
+    assert ledger["contact_loss"] == ledger["friction_loss"] == 0.0
+    # the journal drops 1 mm: 10 mJ are exchanged at every bounce; a thousand tolerances of them
+    assert abs(ledger["residual"]) < 1e-7 * 0.01
+
+
+def test_gravity_work_is_the_change_of_potential_energy() -> None:
+    found = run("pendulum", 1.0, parameters={"angle": 1.0}, tolerance=1e-9)
+    potential = found["energy.potential"]
+    assert found.statistics["energy"]["gravity_work"] == pytest.approx(
+        potential[0] - potential[-1], abs=1e-12
+    )
+    np.testing.assert_allclose(potential, 9.81 * found["rod.y"], rtol=1e-13)
+
+
+def test_friction_as_published_may_feed_energy_and_the_ledger_says_so() -> None:
+    # eqs 5-7 leave the spin of the bodies out, so friction can act along the material slip
+    found = run(
+        "seven-bar-press",
+        0.5,
+        parameters={**CASE_3, "slip_velocity": "as-published", "stiffness": None},
+        tolerance=1e-8,
+    )
+    ledger = found.statistics["energy"]
+    assert abs(ledger["residual"]) <= 1e-5 * (abs(ledger["driver_work"]) + 1e-3)
