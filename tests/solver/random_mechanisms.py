@@ -1,4 +1,4 @@
-"""Hypothesis strategies: random trees of bodies, and random instants of scenes."""
+"""Mechanisms of any size: random trees of bodies, random instants of scenes, long chains."""
 
 from __future__ import annotations
 
@@ -145,4 +145,22 @@ def near_start(draw: st.DrawFn, scene: Scene, spread: float) -> Instant:
         speed={name: v + draw(rate) for name, v in start.speed.items()},
         mode={name: draw(st.sampled_from([0.0, 1.0])) for name in start.mode},
         impact_rate={name: draw(numbers(0.01, 2.0)) for name in start.mode},
+    )
+
+
+def chain(bodies: int) -> Scene:
+    """Return a pendulum of many rods."""
+    rod = {"mass": 1.0, "inertia": 0.1, "points": {"a": [-0.5, 0.0], "b": [0.5, 0.0]}}
+    ends = ["ground.a", *(f"r{i}.b" for i in range(bodies))]
+    return Scene.model_validate(
+        {
+            "name": "chain",
+            "gravity": [0.0, -9.81],
+            "ground": {"points": {"a": [0.0, 0.0]}},
+            "bodies": {f"r{i}": rod for i in range(bodies)},
+            "joints": {
+                f"j{i}": {"type": "revolute", "bearing": ends[i], "journal": f"r{i}.a"}
+                for i in range(bodies)
+            },
+        }
     )

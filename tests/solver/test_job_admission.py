@@ -12,6 +12,7 @@ import pytest
 from solver import presets
 from solver.admission import LONGEST_RUN, MOST_SAMPLES, admit
 from solver.errors import InvalidInput, LimitExceeded
+from tests.solver.random_mechanisms import chain
 
 JOB: dict[str, Any] = {
     "kind": "simulate",
@@ -279,6 +280,13 @@ def test_too_many_bytes_are_refused_with_the_estimate() -> None:
         admit({**JOB, "output_step": 1e-7})
     assert_points(refused.value, "/output_step", "GB")
     admit({**JOB, "output_step": 1e-7, "channels": ["slider7.x"]})
+
+
+def test_equations_too_long_to_compile_are_refused_with_their_length() -> None:
+    scene = chain(40).model_dump()
+    with pytest.raises(LimitExceeded) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    assert_points(refused.value, "/scene", "statements")
 
 
 @pytest.mark.parametrize("duration", [1e300, 1.7e308, 1e12, 1.0, 1e-12, 1e-300, 5e-324])

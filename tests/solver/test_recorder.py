@@ -21,7 +21,7 @@ from solver.mechanics.tree import spanning_tree
 from solver.mechanics.view import view
 from solver.scene.document import Scene
 from solver.scene.references import RESERVED
-from tests.solver.random_mechanisms import instants, near_start, trees
+from tests.solver.random_mechanisms import chain, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 
 
@@ -181,24 +181,6 @@ def test_names_of_a_scene_select_nothing_and_stand_in_no_source(names: list[str]
         for scene in (preset("pendulum"), Scene.model_validate(document))
     ]
     assert kernels[0].module is kernels[1].module
-
-
-def chain(bodies: int) -> Scene:
-    """Return a pendulum of many rods."""
-    rod = {"mass": 1.0, "inertia": 0.1, "points": {"a": [-0.5, 0.0], "b": [0.5, 0.0]}}
-    ends = ["ground.a", *(f"r{i}.b" for i in range(bodies))]
-    return Scene.model_validate(
-        {
-            "name": "chain",
-            "gravity": [0.0, -9.81],
-            "ground": {"points": {"a": [0.0, 0.0]}},
-            "bodies": {f"r{i}": rod for i in range(bodies)},
-            "joints": {
-                f"j{i}": {"type": "revolute", "bearing": ends[i], "journal": f"r{i}.a"}
-                for i in range(bodies)
-            },
-        }
-    )
 
 
 def test_equations_beyond_the_limit_are_refused_with_their_length_before_compilation() -> None:
