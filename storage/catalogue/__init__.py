@@ -1,6 +1,7 @@
 """The catalogue of jobs: submission, claims, leases, fencing, outbox, history."""
 
-from storage.catalogue.catalogue import Catalogue
+from typing import TYPE_CHECKING, Any
+
 from storage.catalogue.errors import CatalogueError, Fenced, JobNotFound, KeyReused
 from storage.catalogue.records import (
     Attempt,
@@ -20,6 +21,9 @@ from storage.catalogue.records import (
     Verdict,
     WakeUp,
 )
+
+if TYPE_CHECKING:
+    from storage.catalogue.catalogue import Catalogue
 
 __all__ = [
     "Attempt",
@@ -44,3 +48,12 @@ __all__ = [
     "Verdict",
     "WakeUp",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the catalogue itself on first use: a local run needs its records, not its database."""
+    if name != "Catalogue":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from storage.catalogue.catalogue import Catalogue
+
+    return Catalogue
