@@ -65,7 +65,7 @@ BAD_JOBS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "no kind": (without("/kind"), "/kind", "required"),
     "no scene": (without("/scene"), "/scene", "required"),
     "no duration": (without("/duration"), "/duration", "required"),
-    "unknown field": (at("/durations", 1.0), "/durations", "no such field"),
+    "unknown field": (at("/durations", 1.0), "/durations", "did you mean 'duration'"),
     "unknown preset": (at("/scene/preset", "seven-bar"), "/scene/preset", "seven-bar-press"),
     "unknown parameter": (at(f"{P}/clearence", 1e-4), f"{P}/clearence", "clearance"),
     "parameter of the wrong type": (at(f"{P}/clearance", "big"), f"{P}/clearance", "number"),
@@ -80,13 +80,13 @@ BAD_JOBS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "exponent without stiffness": (at(f"{P}/exponent", 1.2), f"{P}/exponent", "stiffness"),
     "duration not a number": (at("/duration", math.nan), "/duration", "finite"),
     "duration infinite": (at("/duration", math.inf), "/duration", "finite"),
-    "duration zero": (at("/duration", 0.0), "/duration", "greater than"),
-    "duration negative": (at("/duration", -1.0), "/duration", "greater than"),
+    "duration zero": (at("/duration", 0.0), "/duration", "at least"),
+    "duration negative": (at("/duration", -1.0), "/duration", "at least"),
     "duration a word": (at("/duration", "2"), "/duration", "number"),
     "duration true": (at("/duration", True), "/duration", "number"),
-    "step zero": (at("/output_step", 0.0), "/output_step", "greater than"),
-    "tolerance zero": (at("/tolerance", 0.0), "/tolerance", "greater than"),
-    "tolerance coarse": (at("/tolerance", 0.1), "/tolerance", "less than"),
+    "step zero": (at("/output_step", 0.0), "/output_step", "at least"),
+    "tolerance zero": (at("/tolerance", 0.0), "/tolerance", "at least"),
+    "tolerance coarse": (at("/tolerance", 0.1), "/tolerance", "at most"),
     "unknown accuracy": (at("/accuracy", "superb"), "/accuracy", "standard"),
     "tolerance and accuracy": (
         both(at("/tolerance", 1e-6), at("/accuracy", "standard")),
@@ -125,7 +125,7 @@ BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "unknown body": (at(f"{A}/bearing", "crank9.pin"), f"{A}/bearing", "crank"),
     "unknown point": (at(f"{A}/journal", "link2.Z"), f"{A}/journal", "point"),
     "malformed reference": (at(f"{A}/journal", "link2"), f"{A}/journal", ""),
-    "unknown field": (at(f"{A}/slack", 1.0), f"{A}/slack", "no such field"),
+    "unknown field": (at(f"{A}/slack", 1.0), f"{A}/slack", "There is no field"),
     "unknown joint type": (at(f"{A}/type", "ball"), A, ""),
     "unknown law": (
         at(f"{A}/clearance/contact/law", "glue"),
@@ -141,7 +141,7 @@ BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "negative clearance": (
         at(f"{A}/clearance/radial_clearance", -1e-4),
         f"{A}/clearance/radial_clearance",
-        "greater",
+        "at least",
     ),
     "point not a pair": (
         at("/scene/bodies/link2/points/A", [0.0]),
@@ -206,8 +206,8 @@ BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
             "/scene/joints/extra",
             {"type": "fixed", "base": "ground.O1", "part": "slider7.D", "angle": 0.0},
         ),
-        "/scene/start/angles",
-        "close",
+        "/scene/joints",
+        "over-constrained",
     ),
     "redundant": (
         at(
