@@ -22,6 +22,7 @@ from solver.mechanics.tree import Tree, spanning_tree
 from solver.scene.document import Scene
 from solver.scene.parameters import parameter_of, set_parameters
 from solver.scene.references import reference_problems
+from solver.scene.sentences import schema_problems
 
 LONGEST_RUN = 1e6
 """Longest duration, in periods."""
@@ -95,7 +96,7 @@ def admit(document: object) -> Admission:
     samples = sample_count(job.duration, output_step)
     sections = section_count(scene, period, job)
     stored = int(BYTES_PER_VALUE * (len(selected) + 1) * (samples + sections))
-    _limits(scene, job, period, longest, samples, stored, output_step, len(selected))
+    _limits(scene, job, period, longest, samples, sections, output_step, len(selected))
 
     filled = job.model_dump(mode="json", exclude={"scene", "accuracy"})
     if isinstance(job.scene, PresetScene):
@@ -134,18 +135,18 @@ def resolve(
     """
     if isinstance(job.scene, PresetScene):
         document, values = presets.document(job.scene.preset), job.scene.parameters
-        declared, pointer = Scene.model_validate(document), "/scene/parameters"
+        declared = Scene.model_validate(document)
     else:
         document, values = job.scene.model_dump(mode="json"), {}
-        declared, pointer = job.scene, "/scene"
+        declared = job.scene
         problems = list(reference_problems(declared))
         if problems:
             raise InvalidInput(Problem(f"/scene{p.pointer}", p.detail) for p in problems)
-    filled, echo = set_parameters(document, declared, values, pointer)
+    filled, echo = set_parameters(document, declared, values)
     try:
         scene = Scene.model_validate(filled)
     except ValidationError as error:
-        raise InvalidInput(_located(_schema_problems(error), declared, echo)) from None
+        raise InvalidInput(_located(schema_problems(error, Scene), declared, echo)) from None
     problems = list(reference_problems(scene))
     if problems:
         raise InvalidInput(_located(problems, declared, echo))
@@ -161,6 +162,17 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
         Redundant constraints, an assembly that cannot close, loops that stay closed.
     """
     tree, assembly = spanning_tree(scene), assemble(scene)
+    coordinates = 3 * len(scene.bodies)
+    if assembly.constraints > coordinates:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"The mechanism is over-constrained: {assembly.constraints} constraint"
+                    f" equations hold {coordinates} coordinates; remove a joint or a driver.",
+                )
+            ]
+        )
     residual = assembly.residual / shortest_link(scene)
     if not residual <= ASSEMBLED:
         raise InvalidInput(
@@ -247,26 +259,8 @@ def _parse(document: object) -> SimulateJob:
     try:
         return SimulateJob.model_validate(dict(document))
     except ValidationError as error:
-        raise InvalidInput(_schema_problems(error, document)) from None
-
-
-def _schema_problems(error: ValidationError, document: object = None) -> list[Problem]:
-    """Turn pydantic's errors into pointers and sentences; of a union, the branch that was meant."""
-    meant = "PresetScene" if _names_preset(document) else "Scene"
-    problems = []
-    for item in error.errors(include_url=False, include_input=False):
-        location = [str(part) for part in item["loc"]]
-        if "PresetScene" in location[:2] or "Scene" in location[:2]:
-            if meant not in location[:2]:
-                continue
-            location = [part for part in location if part not in {"PresetScene", "Scene"}]
-        location = [
-            p for p in location if p not in {"float", "str", "revolute", "prismatic", "fixed"}
-        ]
-        pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in location)
-        message = item["msg"].replace("Extra inputs are not permitted", "There is no such field")
-        problems.append(Problem(pointer, f"{message}."))
-    return problems
+        branch = "PresetScene" if _names_preset(document) else "Scene"
+        raise InvalidInput(schema_problems(error, SimulateJob, branch)) from None
 
 
 def _names_preset(document: object) -> bool:
@@ -310,7 +304,7 @@ def _limits(
     period: Period,
     longest: float,
     samples: int,
-    stored: int,
+    sections: int,
     output_step: float,
     channel_count: int,
 ) -> None:
@@ -324,15 +318,18 @@ def _limits(
                 f" limit is {longest:g} periods ({longest * unit:.3g} s).",
             )
         )
-    if samples > MOST_SAMPLES or stored > MOST_BYTES:
-        problems.append(
-            Problem(
-                "/output_step",
-                f"{samples:.3g} samples of {channel_count} channels are about {stored / 1e9:.3g}"
-                f" GB; the limits are {MOST_SAMPLES:g} samples and {MOST_BYTES / 1e9:g} GB. Choose"
-                f" a larger output_step than {output_step:g} s, or fewer channels.",
+    for pointer, what, count, remedy in (
+        ("/output_step", "samples", samples, f"a larger output_step than {output_step:g} s"),
+        ("/duration", "Poincare sections", sections, "a shorter duration"),
+    ):
+        stored = BYTES_PER_VALUE * (channel_count + 1) * count
+        if count > MOST_SAMPLES or stored > MOST_BYTES:
+            sentence = (
+                f"{count:.3g} {what} of {channel_count} channels are about {stored / 1e9:.3g} GB;"
+                f" the limits are {MOST_SAMPLES:g} and {MOST_BYTES / 1e9:g} GB. Choose {remedy},"
+                " or fewer channels."
             )
-        )
+            problems.append(Problem(pointer, sentence))
     if problems:
         raise LimitExceeded(problems)
 

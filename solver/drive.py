@@ -10,6 +10,8 @@ from solver.scene.document import Revolute, Scene
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""
+SLOWEST = 1e-9
+"""Speeds below, rad/s or m/s, give no time scale: a revolution takes two centuries."""
 RATIO_TOLERANCE = 1e-12
 """Relative mismatch within which a ratio of speeds is taken as exact: rounding of the input."""
 
@@ -24,7 +26,7 @@ class Period:
 
 def common_period(scene: Scene) -> Period:
     """Return the least time after which every driven angle is back; signs do not matter."""
-    speeds = []
+    speeds: list[float] = []
     for driver in scene.drivers.values():
         if not isinstance(scene.joints[driver.joint], Revolute):
             if driver.speed != 0.0:
@@ -33,6 +35,10 @@ def common_period(scene: Scene) -> Period:
             speeds.append(abs(driver.speed))
     if not speeds:
         return Period(None, "No driver turns, so there is no period and no Poincare section.")
+    if min(speeds) < SLOWEST:
+        return Period(
+            None, f"A driver turns slower than {SLOWEST:g} rad/s, so there is no period in reach."
+        )
     first = speeds[0]
     turns = Fraction(1)
     for speed in speeds[1:]:
@@ -52,7 +58,7 @@ def common_period(scene: Scene) -> Period:
 
 def characteristic_time(scene: Scene, length: float) -> float:
     """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
-    turning = [abs(d.speed) for d in scene.drivers.values() if d.speed != 0.0]
+    turning = [abs(d.speed) for d in scene.drivers.values() if abs(d.speed) >= SLOWEST]
     if turning:
         return 2.0 * math.pi / max(turning)
     gravity = math.hypot(*scene.gravity)

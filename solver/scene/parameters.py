@@ -9,14 +9,17 @@ from typing import Any
 from solver.errors import InvalidInput, Problem
 from solver.scene.document import Parameter, Scene
 
+PLACE = "/scene/parameters"
+"""Where a job gives values, and where a scene document declares parameters."""
+
 
 def set_parameters(
-    document: Mapping[str, Any], scene: Scene, values: Mapping[str, object], pointer: str
+    document: Mapping[str, Any], scene: Scene, values: Mapping[str, object]
 ) -> tuple[dict[str, Any], dict[str, float | str | None]]:
     """Return the document with its parameters set, and every parameter's value.
 
     Parameters are applied in the order of their declaration, so that a later one overrides an
-    earlier one on the same target. `pointer` is where `values` stand in the job.
+    earlier one on the same target.
 
     Raises
     ------
@@ -24,7 +27,7 @@ def set_parameters(
         A name that is not declared, or a value outside its declared range or choices.
     """
     problems = [
-        Problem(f"{pointer}/{name}", f"There is no parameter '{name}'; {_near(name, scene)}.")
+        Problem(f"{PLACE}/{name}", f"There is no parameter '{name}'; {_near(name, scene)}.")
         for name in values
         if name not in scene.parameters
     ]
@@ -32,9 +35,10 @@ def set_parameters(
     echo: dict[str, float | str | None] = {}
     for name, parameter in scene.parameters.items():
         value = values.get(name, parameter.default)
-        complaint = None if value is None else _complaint(name, parameter, value)
+        complaint = _complaint(name, parameter, value)
         if complaint is not None:
-            problems.append(Problem(f"{pointer}/{name}", complaint))
+            place = f"{PLACE}/{name}" if name in values else f"{PLACE}/{name}/default"
+            problems.append(Problem(place, complaint))
             continue
         value = float(value) if isinstance(value, int | float) else value
         echo[name] = value if isinstance(value, float | str) else None
@@ -80,20 +84,31 @@ def has_place(document: Any, path: str) -> bool:
 
 
 def _complaint(name: str, parameter: Parameter, value: object) -> str | None:
-    if parameter.choices is not None:
-        if value in parameter.choices:
+    if value is None:
+        if parameter.default is None:
             return None
-        return f"'{name}' is one of {', '.join(parameter.choices)}."
+        return f"'{name}' has the default {parameter.default}; leave it out to keep that."
+    if parameter.choices is not None:
+        known = value in parameter.choices
+        return None if known else f"'{name}' is one of {', '.join(parameter.choices)}."
+    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return f"'{name}' is a number in {parameter.unit}."
-    below = parameter.minimum is not None and value < parameter.minimum
-    above = parameter.maximum is not None and value > parameter.maximum
-    if below or above or not math.isfinite(value):
-        low = "any" if parameter.minimum is None else f"{parameter.minimum:g}"
-        high = "any" if parameter.maximum is None else f"{parameter.maximum:g}"
-        unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-        return f"'{name}' is {value:g}; it lies between {low} and {high}{unit}."
-    return None
+        return f"'{name}' is a number" + (f" in{unit}." if unit else ".")
+    return _outside(name, parameter, float(value), unit)
+
+
+def _outside(name: str, parameter: Parameter, value: float, unit: str) -> str | None:
+    low = -math.inf if parameter.minimum is None else parameter.minimum
+    high = math.inf if parameter.maximum is None else parameter.maximum
+    if low <= value <= high and math.isfinite(value):
+        return None
+    if math.isfinite(low) and math.isfinite(high):
+        allowed = f"lies between {low:g} and {high:g}{unit}"
+    elif math.isfinite(low):
+        allowed = f"is at least {low:g}{unit}"
+    else:
+        allowed = f"is at most {high:g}{unit}" if math.isfinite(high) else "is finite"
+    return f"'{name}' is {value:g}; it {allowed}."
 
 
 def _place(document: Any, path: str, value: object) -> None:

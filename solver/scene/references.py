@@ -50,14 +50,7 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
         for body in table:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
-    document = scene.model_dump()
-    for name, parameter in scene.parameters.items():
-        for index, target in enumerate(parameter.targets):
-            if not has_place(document, target.path):
-                yield Problem(
-                    f"/parameters/{name}/targets/{index}/path",
-                    f"'{target.path}' leads nowhere in this scene.",
-                )
+    yield from _parameters(scene)
 
 
 def unknown(kind: str, name: str, known: object) -> str:
@@ -67,6 +60,22 @@ def unknown(kind: str, name: str, known: object) -> str:
     listed = ", ".join(names[:12]) + (", …" if len(names) > 12 else "")
     hint = f"did you mean '{near[0]}'?" if near else f"there are: {listed or 'none'}."
     return f"There is no {kind} '{name}'; {hint}"
+
+
+def _parameters(scene: Scene) -> Iterator[Problem]:
+    document = scene.model_dump()
+    for name, parameter in scene.parameters.items():
+        low, high = parameter.minimum, parameter.maximum
+        if low is not None and high is not None and low > high:
+            yield Problem(
+                f"/parameters/{name}/minimum", f"The minimum {low:g} is above the maximum {high:g}."
+            )
+        for index, target in enumerate(parameter.targets):
+            if not has_place(document, target.path):
+                yield Problem(
+                    f"/parameters/{name}/targets/{index}/path",
+                    f"'{target.path}' leads nowhere in this scene.",
+                )
 
 
 def _names(scene: Scene) -> Iterator[Problem]:
