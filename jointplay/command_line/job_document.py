@@ -84,11 +84,21 @@ def read_document(path: Path) -> dict[str, Any]:
     return document
 
 
+def is_scene_file(source: str) -> bool:
+    """Tell whether ``source`` is the file of a scene, and not of a job or a preset."""
+    path = Path(source)
+    return path.is_file() and _is_scene(read_document(path))
+
+
+def _is_scene(document: dict[str, Any]) -> bool:
+    return "bodies" in document
+
+
 def _job_of(source: str) -> dict[str, Any]:
     path = Path(source)
     if path.is_file():
         document = read_document(path)
-        if "bodies" in document:
+        if _is_scene(document):
             return {"kind": "simulate", "scene": document}
         return document
     if source.endswith(".json") or "/" in source:
@@ -116,11 +126,13 @@ def _set_parameters(job: dict[str, Any], values: dict[str, object]) -> None:
     """
     scene = job.get("scene")
     if not isinstance(scene, dict):
-        return  # admission will say what is wrong with it
-    if "bodies" not in scene:
-        scene["parameters"] = {**scene.get("parameters", {}), **values}
-        return
+        return  # admission will say what is wrong with it, here and below
     declared = scene.get("parameters", {})
+    if not isinstance(declared, dict):
+        return
+    if not _is_scene(scene):
+        scene["parameters"] = {**declared, **values}
+        return
     for name, value in values.items():
         if name not in declared:
             known = ", ".join(declared) or "none"
@@ -128,4 +140,5 @@ def _set_parameters(job: dict[str, Any], values: dict[str, object]) -> None:
                 Exit.BAD_INPUT,
                 f"--set {name}: the scene declares no such parameter; it has {known}.",
             )
-        declared[name] = {**declared[name], "default": value}
+        if isinstance(declared[name], dict):
+            declared[name] = {**declared[name], "default": value}

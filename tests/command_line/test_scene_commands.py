@@ -5,6 +5,7 @@ import json
 import pytest
 
 from solver import presets
+from tests.command_line.four_bar import four_bar
 
 
 @pytest.mark.parametrize("name", presets.names())
@@ -34,3 +35,49 @@ def test_a_mechanism_is_drawn(jointplay, tmp_path, form):
     assert jointplay("scene", "draw", "seven-bar-press", "-o", file).code == 0
     start = file.read_bytes()[:1000]
     assert start.startswith(b"\x89PNG") if form == "png" else b"<svg" in start
+
+
+def too_short(scene):
+    scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}
+
+
+def over_constrained(scene):
+    scene["drivers"]["second"] = {"joint": "P", "speed": 10.0, "position": 2.5}
+
+
+REFUSED = {"too short to close": (too_short, 0), "two drivers": (over_constrained, 1)}
+
+
+@pytest.mark.parametrize(("spoil", "redundant"), REFUSED.values(), ids=REFUSED)
+def test_a_mechanism_that_cannot_run_is_measured_and_drawn_all_the_same(
+    jointplay, tmp_path, spoil, redundant
+):
+    scene = four_bar()
+    spoil(scene)
+    file, picture = tmp_path / "mine.json", tmp_path / "mine.png"
+    file.write_text(json.dumps(scene))
+    checked = jointplay("scene", "check", file)
+    assert checked.code == 2
+    printed = dict(line.split("  ", 1) for line in checked.out.splitlines())
+    assert printed["degrees of freedom"].split() == ["0", "(0", "if", "ideal)"]
+    assert printed["redundant constraints"].split()[0] == str(redundant)
+    assert float(printed["assembly residual"].split()[0]) > 1e-3
+    drawn = jointplay("scene", "draw", file, "-o", picture)
+    assert drawn.code == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    reason = checked.line().removeprefix("jointplay: ")
+    assert drawn.line() == f"jointplay: drawn, but it cannot be run. {reason}"
+
+
+@pytest.mark.parametrize("command", ["check", "draw"])
+def test_what_is_wrong_is_pointed_at_where_it_stands_in_the_file(jointplay, tmp_path, command):
+    scene = four_bar()
+    scene["joints"]["A"]["journal"] = "coupler.nowhere"
+    job = {"kind": "simulate", "scene": scene, "duration": 1.0}
+    for document, pointer in ((scene, "/joints/A/journal: "), (job, "/scene/joints/A/journal: ")):
+        file = tmp_path / "mine.json"
+        file.write_text(json.dumps(document))
+        ended = jointplay("scene", command, file)
+        assert ended.code == 2
+        assert ended.line().startswith(f"jointplay: {pointer}")
+        assert ended.out == ""

@@ -1,4 +1,4 @@
-"""A scene checked and put together, for the commands that look at it before it is run."""
+"""A scene put together, for the commands that look at it before it is run."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ from jointplay.command_line import job_document
 if TYPE_CHECKING:
     from solver.admission import Admission
     from solver.assembly import Assembly
+    from solver.errors import InvalidInput
 
 SCENE: Any = typer.Argument(
     metavar="SCENE.json|PRESET", help="A scene document, or the name of a preset."
@@ -19,11 +20,15 @@ SCENE: Any = typer.Argument(
 
 @dataclass(frozen=True)
 class AssembledScene:
-    """A scene that can be simulated, with its parameters set."""
+    """A scene with its parameters set, as far as it can be put together.
+
+    Either `admission` says how it would be run, or `refusal` why it cannot be.
+    """
 
     document: dict[str, Any]
-    admission: "Admission"
     assembly: "Assembly"
+    admission: "Admission | None"
+    refusal: "InvalidInput | None"
 
     def pose(self) -> dict[str, tuple[float, float, float]]:
         """Return x, y [m] and theta [rad] of every body at t = 0."""
@@ -35,12 +40,44 @@ class AssembledScene:
 
 
 def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
-    """Return the scene, or raise `InvalidInput` with everything that is wrong with it."""
+    """Return the scene; one that cannot be run is returned too, if its parts fit together.
+
+    Raises
+    ------
+    InvalidInput
+        With everything that keeps the scene from being read. Pointers lead into the document
+        that was given: into the scene's own if ``source`` is the file of a scene.
+    """
     from solver.admission import admit
     from solver.assembly import assemble
+    from solver.errors import InvalidInput
     from solver.scene.document import Scene
 
     job = job_document.job_document(source, settings=settings, options={"duration": 1e-3})
-    admission = admit(job)
-    assembly = assemble(Scene.model_validate(admission.scene))
-    return AssembledScene(admission.scene, admission, assembly)
+    try:
+        admission = admit(job)
+    except InvalidInput as error:
+        return _refused(job, error, is_scene=job_document.is_scene_file(source))
+    scene = Scene.model_validate(admission.scene)
+    return AssembledScene(admission.scene, assemble(scene), admission, None)
+
+
+def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) -> AssembledScene:
+    """Put together what can be; raise the refusal if the document cannot even be read."""
+    from pydantic import ValidationError
+
+    from solver.admission import resolve
+    from solver.assembly import assemble
+    from solver.errors import InvalidInput, Problem
+    from solver.job import SimulateJob
+    from solver.scene.document import Scene
+
+    if is_scene:
+        refusal = InvalidInput(
+            Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
+        )
+    try:
+        _, document, _ = resolve(SimulateJob.model_validate(job))
+    except (ValidationError, InvalidInput):
+        raise refusal from None
+    return AssembledScene(document, assemble(Scene.model_validate(document)), None, refusal)

@@ -11,20 +11,27 @@ from jointplay.command_line.scene.assembled import SCENE, assemble_scene
 def check(source: Annotated[str, SCENE], settings: job_document.SET = None) -> None:
     """Check a mechanism before it is run: freedom, redundant constraints, assembly.
 
+    Of a mechanism that cannot be run the same is printed, and why; then the exit code is 2.
+
     Example: `jointplay scene check mine.json --set clearance=1e-4`
     """
+    from jointplay.figures.scene_facts import clearances
+
     scene = assemble_scene(source, settings or ())
     assembly, admission = scene.assembly, scene.admission
-    period = f"{admission.period:g} s" if admission.period else f"none: {admission.section_note}"
     lines = {
         "scene": scene.document["name"],
         "bodies": ", ".join(scene.document["bodies"]),
-        "joints with clearance": ", ".join(admission.joints) or "none",
+        "joints with clearance": ", ".join(clearances(scene.document)) or "none",
         "degrees of freedom": f"{assembly.freedom_with_play} ({assembly.freedom} if ideal)",
         "redundant constraints": f"{assembly.redundant_with_play} ({assembly.redundant} if ideal)",
         "assembly residual": f"{assembly.residual:.2g} m or rad",
-        "period": period,
-        "channels": str(len(admission.channels)),
     }
+    if admission is not None:
+        period = admission.period
+        lines["period"] = f"{period:g} s" if period else f"none: {admission.section_note}"
+        lines["channels"] = str(len(admission.channels))
     for name, value in lines.items():
         typer.echo(f"{name:22} {value}")
+    if scene.refusal is not None:
+        raise scene.refusal

@@ -21,6 +21,9 @@ def draw(
 ) -> None:
     """Draw a mechanism as it stands at t = 0.
 
+    One that does not close, or cannot be run for another reason, is drawn as far as it was put
+    together; the reason is told beside.
+
     Example: `jointplay scene draw mine.json -o mine.svg`
     """
     from jointplay import figures
@@ -32,3 +35,5 @@ def draw(
     form: Form = "svg" if file.suffix == ".svg" else "png"
     file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
     typer.echo(file)
+    if scene.refusal is not None:
+        typer.echo(f"jointplay: drawn, but it cannot be run. {scene.refusal}", err=True)
