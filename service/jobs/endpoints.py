@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
+from pydantic import BaseModel, ConfigDict, Field
 
 from service.body import JsonDocument
 from service.dependencies import JOB_ID, CatalogueDependency, JobOfThePath
@@ -11,6 +12,15 @@ from service.jobs.submission import REQUEST_BODY, submit
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+
+
+class PageQuery(BaseModel):
+    """Which page of the list of jobs."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    page_size: int = Field(default=50, ge=1, le=1000, description="Most jobs in one page.")
+    page_token: str | None = Field(default=None, description="next_page_token of the page before.")
 
 
 @router.post(
@@ -39,22 +49,16 @@ def submit_job(
 
 
 @router.get("", responses=problems(kinds.INVALID_REQUEST))
-def list_jobs(
-    catalogue: CatalogueDependency,
-    page_size: Annotated[int, Query(ge=1, le=1000, description="Most jobs in one page.")] = 50,
-    page_token: Annotated[
-        str | None, Query(description="next_page_token of the page before.")
-    ] = None,
-) -> JobPage:
+def list_jobs(catalogue: CatalogueDependency, query: Annotated[PageQuery, Query()]) -> JobPage:
     """List the jobs, newest first; jobs that arrive in the meantime move no page."""
-    if page_token is not None and not JOB_ID.fullmatch(page_token):
+    if query.page_token is not None and not JOB_ID.fullmatch(query.page_token):
         sentence = "Give the next_page_token of a page, or leave it out."
         raise RequestRefused(
             kinds.INVALID_REQUEST,
             "The page_token is not one that this service gave.",
             [ErrorDetail(parameter="page_token", detail=sentence)],
         )
-    page = catalogue.jobs(limit=page_size, after=page_token)
+    page = catalogue.jobs(limit=query.page_size, after=query.page_token)
     return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
 
 

@@ -61,6 +61,7 @@ def test_pages_hold_every_job_once_newest_first_while_jobs_arrive(fresh_service)
         {"page_token": "../../etc"},
         {"page_token": ""},
         {"page_token": "%00"},
+        {"pagesize": 3},
     ],
 )
 def test_a_wrong_page_is_refused(http, query):
