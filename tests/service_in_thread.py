@@ -14,7 +14,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.app import create_app
-from solver.admission import admit
+from solver.admission import Admission, admit
 from storage.catalogue import BlockState, Catalogue, Claim, JobError
 from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
 from storage.settings import Settings
@@ -93,18 +93,12 @@ class Worker:
 
     def store(self, claim: Claim, *, complete: bool = True) -> None:
         """Store value = column + time, peaks -1 and 1, and one impact without a release."""
-        admission = admit(claim.job.spec)
-        folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
-        channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
-        attributes = {"job": admission.job, "scene": admission.scene, "section_note": ""}
-        layout = ResultLayout(
-            channels, admission.samples, admission.sections, admission.joints, attributes
-        )
+        admission, writer = self._writer(claim)
+        channels = admission.channels
         time = np.linspace(0.0, admission.job["duration"], admission.samples)
         section_time = np.arange(float(admission.sections))
         columns = np.arange(float(len(channels)))
         impacts = np.array([(1, 0.5, np.nan, 0.01, 100.0, 0.2)], IMPACT)
-        writer = ResultWriter.create(folder, layout)
         writer.append(
             0,
             time,
@@ -116,6 +110,21 @@ class Worker:
         )
         peaks = {channel.name: Peak(-1.0, 0.25, 1.0, 0.75) for channel in channels}
         writer.seal(peaks=peaks, summary={}, complete=complete)
+
+    def store_nothing(self, claim: Claim) -> None:
+        """Seal the results of a run that ended before its first sample."""
+        _, writer = self._writer(claim)
+        writer.seal(peaks={}, summary={}, complete=False)
+
+    def _writer(self, claim: Claim) -> tuple[Admission, ResultWriter]:
+        admission = admit(claim.job.spec)
+        folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
+        channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
+        attributes = {"job": admission.job, "scene": admission.scene, "section_note": ""}
+        layout = ResultLayout(
+            channels, admission.samples, admission.sections, admission.joints, attributes
+        )
+        return admission, ResultWriter.create(folder, layout)
 
     def finish(self, claim: Claim, outcome: BlockState, error: JobError | None = None) -> None:
         self._catalogue.finish(claim.block.id, claim.block.attempt, outcome, error)

@@ -64,13 +64,22 @@ class Section(_Sampled):
 
 @dataclass(frozen=True)
 class Peak:
-    """Signed extremes of one channel, in ``unit``, each with its time in s."""
+    """Signed extremes of one channel, in ``unit``, each with its time in s.
+
+    NaN where nothing was computed.
+    """
 
     unit: str
     minimum: float
     minimum_time: float
     maximum: float
     maximum_time: float
+
+    @classmethod
+    def from_document(cls, document: dict[str, Any]) -> Self:
+        """Read the service's JSON."""
+        names = ("minimum", "minimum_time", "maximum", "maximum_time")
+        return cls(document["unit"], *_floats([document[name] for name in names]).tolist())
 
 
 @dataclass(frozen=True)

@@ -129,7 +129,7 @@ class Client:
     def peaks(self, job_id: str) -> dict[str, Peak]:
         """Return the signed extremes of every channel."""
         document = self._result(job_id, "peaks")
-        return {name: Peak(**peak) for name, peak in document["peaks"].items()}
+        return {name: Peak.from_document(peak) for name, peak in document["peaks"].items()}
 
     def impacts(self, job_id: str) -> Impacts:
         """Return the contacts of the clearance joints."""
@@ -145,7 +145,7 @@ class Client:
         return self._connection.get(path).content
 
     def scenes(self) -> list[dict[str, Any]]:
-        """Return the presets: name, title and parameters of each."""
+        """Return the presets: name, description, source and parameters of each."""
         scenes: list[dict[str, Any]] = self._connection.get("/v1/scenes").json()["scenes"]
         return scenes
 

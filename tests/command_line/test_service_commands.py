@@ -36,6 +36,16 @@ def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):
     assert "slider7.ax" in shown
 
 
+def test_a_job_that_failed_before_its_first_sample_is_shown(jointplay, at, worker):
+    claim = worker.start(worker.submit())
+    worker.store_nothing(claim)
+    worker.finish(claim, BlockState.failed, JobError("solver", "step-size-underflow", "No step."))
+    ended = jointplay("show", claim.job.id, *at)
+    assert ended.code == 0
+    row = next(line for line in ended.out.splitlines() if line.startswith("slider7.ax"))
+    assert row.split() == ["slider7.ax", "nan", "nan", "nan", "nan", "m/s^2"]
+
+
 def test_waiting_tells_by_the_exit_code_how_the_job_ended(jointplay, at, worker):
     assert jointplay("show", "--wait", worker.finished(), *at).code == 0
     claim = worker.start(worker.submit())
