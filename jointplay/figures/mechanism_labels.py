@@ -29,6 +29,10 @@ _ALONG = (0.0, 0.15, -0.15, 0.3, -0.3)
 """Where along a body its name may stand, from the middle, in lengths of the body."""
 
 
+_Box = tuple[float, float, float, float]
+"""Left, low, right and high edge, in points."""
+
+
 @dataclass(frozen=True)
 class _Place:
     """A name `apart` points from a point [m], in a direction [rad]; `merit` is better if larger."""
@@ -47,7 +51,7 @@ class _Place:
             "center" if abs(y) < 0.4 else ("bottom" if y > 0.0 else "top"),
         )
 
-    def box(self, text: str, points_per_metre: float) -> tuple[float, float, float, float]:
+    def box(self, text: str, points_per_metre: float) -> _Box:
         """Left, low, right and high edge of the text [points], estimated."""
         horizontal, vertical = self.alignment
         width, height = _LETTER_WIDTH * len(text), 1.2 * _SIZE
@@ -68,12 +72,16 @@ def draw_labels(axes: Axes, shape: Geometry, metre: float, points_per_metre: flo
     points_per_metre
         Printer's points that one metre of the mechanism takes.
     """
-    written: list[tuple[float, float, float, float]] = []
+    written: list[_Box] = []
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    points = metre * points_per_metre
+    frame = (left * points, low * points, right * points, high * points)
 
     def write(text: str, places: Iterator[_Place], **look: Any) -> None:
         def merit(place: _Place) -> tuple[int, float]:
             box = place.box(text, points_per_metre)
-            return -sum(_overlap(box, other) for other in written), place.merit
+            faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
+            return -faults, place.merit
 
         best = max(places, key=merit)
         written.append(best.box(text, points_per_metre))
@@ -145,9 +153,11 @@ def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
             yield _Place((x, y), side, _DISTANCE, round(enough, 3))
 
 
-def _overlap(
-    one: tuple[float, float, float, float], other: tuple[float, float, float, float]
-) -> bool:
+def _within(box: _Box, frame: _Box) -> bool:
+    return frame[0] <= box[0] and frame[1] <= box[1] and box[2] <= frame[2] and box[3] <= frame[3]
+
+
+def _overlap(one: _Box, other: _Box) -> bool:
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 

@@ -302,6 +302,24 @@ def test_the_mechanism_is_drawn_where_its_pose_says():
     np.testing.assert_allclose(np.column_stack(ring.get_data()), [pin, POSE["block"][:2]])
 
 
+def test_names_stay_inside_the_frame_beside_a_body_at_its_edge():
+    bodies = {
+        name: {"points": {"a": [-0.2, 0.0], "b": [0.2, 0.0]}}
+        for name in ("left-hand rocker", "right-hand rocker")
+    }
+    upright = np.pi / 2.0
+    pose = {"left-hand rocker": (0.0, 0.2, upright), "right-hand rocker": (0.5, 0.2, upright)}
+    with page.style():
+        figure = figures.draw_mechanism({"bodies": bodies, "joints": {}}, pose)
+        figure.draw_without_rendering()
+    (axes,) = figure.axes
+    names = [text for text in axes.texts if text.get_text() in bodies]
+    assert len(names) == 2
+    for name in names:
+        box = name.get_window_extent()
+        assert axes.bbox.x0 <= box.x0 <= box.x1 <= axes.bbox.x1, name.get_text()
+
+
 def test_a_pose_that_lacks_a_body_is_refused():
     with pytest.raises(NotDrawable, match="foot"):
         figures.draw_mechanism(SCENE, {body: POSE[body] for body in ("crank", "plate", "block")})
