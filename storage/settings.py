@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
@@ -84,6 +84,13 @@ class Settings(BaseSettings):
         data = Path(str(values.get("data") or cls.model_fields["data"].default)).absolute()
         url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
         return values | {"data": data, "catalogue_url": url}
+
+    @field_validator("redis_url")
+    @classmethod
+    def _names_a_redis(cls, url: str | None) -> str | None:
+        if url is not None and not url.startswith(("redis://", "rediss://", "unix://")):
+            raise ValueError(f"{url!r} is not an address such as redis://host:6379/0")
+        return url
 
     @model_validator(mode="after")
     def _lease_outlives_heartbeats(self) -> Self:

@@ -93,13 +93,14 @@ def _bad_document(error: Exception) -> tuple[Exit, str] | None:
 
 def _service_failure(error: Exception) -> tuple[Exit, str] | None:
     from jointplay.client import ClientError, ServiceFailure, Unreachable
-    from jointplay.serving import StartFailed
+    from jointplay.serving import StartFailed, WrongSetting
 
     if isinstance(error, Unreachable):
         return Exit.UNREACHABLE, str(error)
-    if isinstance(error, ServiceFailure | StartFailed):
+    if isinstance(error, ServiceFailure | StartFailed) and not isinstance(error, WrongSetting):
         return Exit.FAILED, str(error)
-    return (Exit.BAD_INPUT, str(error)) if isinstance(error, ClientError) else None
+    known = isinstance(error, ClientError | WrongSetting)
+    return (Exit.BAD_INPUT, str(error)) if known else None
 
 
 def _bad_results(error: Exception) -> tuple[Exit, str] | None:

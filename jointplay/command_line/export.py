@@ -1,5 +1,6 @@
 """``jointplay export``: channels as CSV or JSON."""
 
+import math
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,6 +38,7 @@ def export(
 
     Example: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`
     """
+    _check_window(start, stop)
     if not output_folder.is_job_id(results):
         source, names = _local(Path(results), channels)
     else:
@@ -47,6 +49,15 @@ def export(
         return
     first, last = source.between(start, stop)
     _write(pieces, output, values=(last - first) * (len(names) + 1))
+
+
+def _check_window(start: float | None, stop: float | None) -> None:
+    for option, time in (("--start", start), ("--stop", stop)):
+        if time is not None and not math.isfinite(time):
+            raise Stopped(Exit.BAD_INPUT, f"{option} {time}: give a time in seconds.")
+    if start is not None and stop is not None and start > stop:
+        line = f"--stop {stop:g} is before --start {start:g}; swap them."
+        raise Stopped(Exit.BAD_INPUT, line)
 
 
 def _write(pieces: Iterator[str], output: Path, values: int) -> None:

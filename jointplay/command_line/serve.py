@@ -10,7 +10,12 @@ def serve(
     host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="0 takes a free port.")] = 8000,
     data: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Where catalogue and results are kept.")
+        Path,
+        typer.Option(
+            metavar="FOLDER",
+            envvar="JOINTPLAY_DATA",
+            help="Where catalogue and results are kept.",
+        ),
     ] = Path(".jointplay"),
     workers: Annotated[
         int, typer.Option(min=1, max=256, help="How many jobs are computed at a time.")
@@ -25,4 +30,4 @@ def serve(
     """
     from jointplay.serving import serve as keep_serving
 
-    raise typer.Exit(keep_serving(host, port, data, workers))
+    keep_serving(host, port, data, workers)

@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 
 from jointplay.serving.background import running_service
-from jointplay.serving.child import StartFailed
+from jointplay.serving.child import StartFailed, WrongSetting
 from jointplay.serving.supervisor import Supervisor
 
-__all__ = ["StartFailed", "running_service", "serve"]
+__all__ = ["StartFailed", "WrongSetting", "running_service", "serve"]
 
 
-def serve(host: str, port: int, data: Path, workers: int) -> int:
+def serve(host: str, port: int, data: Path, workers: int) -> None:
     """Run the service until SIGTERM or SIGINT; print its URL once it answers.
 
     Parameters
@@ -24,10 +24,10 @@ def serve(host: str, port: int, data: Path, workers: int) -> int:
     workers
         How many blocks are computed at a time.
 
-    Returns
-    -------
-    int
-        Exit code: 0 when it was asked to end, 3 when it could not start.
+    Raises
+    ------
+    StartFailed
+        It could not start; `WrongSetting` if other arguments or variables are needed.
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
 
@@ -40,12 +40,7 @@ def serve(host: str, port: int, data: Path, workers: int) -> int:
             )
         sys.stdout.flush()
 
-    try:
-        Supervisor(host, port, data, workers).run(announce)
-    except StartFailed as failure:
-        sys.stderr.write(f"{failure}\n")
-        return 3
-    return 0
+    Supervisor(host, port, data, workers).run(announce)
 
 
 def _is_loopback(host: str) -> bool:

@@ -21,10 +21,9 @@ def main() -> int:
         sys.stdout.write(url + "\n")
         sys.stdout.flush()
 
-    supervisor = Supervisor(
-        "127.0.0.1", 0, arguments.data, arguments.workers, parent_pipe=sys.stdin.fileno()
-    )
+    data, workers = arguments.data, arguments.workers
     try:
+        supervisor = Supervisor("127.0.0.1", 0, data, workers, parent_pipe=sys.stdin.fileno())
         supervisor.run(announce)
     except StartFailed as failure:
         sys.stderr.write(f"{failure}\n")

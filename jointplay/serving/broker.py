@@ -112,7 +112,10 @@ class Broker:
 
 def answers(url: str) -> bool:
     """Return whether a Redis at this URL answers a ping."""
-    redis = Redis.from_url(url, socket_timeout=2.0, socket_connect_timeout=2.0)
+    try:
+        redis = Redis.from_url(url, socket_timeout=2.0, socket_connect_timeout=2.0)
+    except ValueError:  # such as a port that is no number
+        return False
     try:
         return bool(redis.ping())
     except RedisError:

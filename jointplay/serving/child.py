@@ -20,6 +20,10 @@ class StartFailed(Exception):
     """The service cannot start; the message is for the user."""
 
 
+class WrongSetting(StartFailed):
+    """It cannot start with these settings or arguments: others are needed."""
+
+
 class Child:
     """A process with a log file; started again by `revive`, ever later while it keeps failing.
 

@@ -5,11 +5,11 @@ import os
 from pathlib import Path
 from typing import Self
 
-from jointplay.serving.child import StartFailed
+from jointplay.serving.child import WrongSetting
 
 
 class FolderLock:
-    """Holds a data folder while it is entered; StartFailed if somebody else does."""
+    """Holds a data folder while it is entered; WrongSetting if somebody else does."""
 
     def __init__(self, data: Path) -> None:
         self._data = data
@@ -23,7 +23,7 @@ class FolderLock:
         except BlockingIOError as error:
             holder = os.read(self._file, 200).decode(errors="replace").strip()
             os.close(self._file)
-            raise StartFailed(
+            raise WrongSetting(
                 f"{self._data} is in use by another jointplay serve ({holder});"
                 " stop it, or give another folder with --data"
             ) from error

@@ -13,8 +13,10 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import FrameType
 
+from pydantic import ValidationError
+
 from jointplay.serving.broker import Broker, answers
-from jointplay.serving.child import Child, StartFailed
+from jointplay.serving.child import Child, StartFailed, WrongSetting
 from jointplay.serving.folder_lock import FolderLock
 from storage.settings import Settings
 
@@ -37,13 +39,18 @@ class Supervisor:
         How many blocks are computed at a time.
     parent_pipe
         A file descriptor that becomes readable when whoever started this ends.
+
+    Raises
+    ------
+    WrongSetting
+        A variable `JOINTPLAY_...` of the environment has no possible value.
     """
 
     def __init__(
         self, host: str, port: int, data: Path, workers: int, parent_pipe: int | None = None
     ) -> None:
         self._host, self._port = host, port
-        self._settings = Settings(data=data)
+        self._settings = _settings(data)
         self._workers = workers
         self._parent_pipe = parent_pipe
         self._stop_asked = False
@@ -129,7 +136,7 @@ class Supervisor:
         try:
             return socket.create_server((self._host, self._port), family=family, backlog=256)
         except OSError as error:
-            raise StartFailed(
+            raise WrongSetting(
                 f"cannot listen on {self._host} port {self._port}: {error.strerror};"
                 " --port 0 takes a free port"
             ) from error
@@ -183,6 +190,22 @@ class Supervisor:
 
     def _log_file(self, name: str) -> Path:
         return self._settings.data / "logs" / f"{name}.log"
+
+
+def _settings(data: Path) -> Settings:
+    try:
+        return Settings(data=data)
+    except ValidationError as error:
+        complaints = [
+            ": ".join(
+                [
+                    *(f"JOINTPLAY_{str(name).upper()}" for name in one["loc"]),
+                    one["msg"].removeprefix("Value error, "),
+                ]
+            )
+            for one in error.errors()
+        ]
+        raise WrongSetting("; ".join(complaints)) from None
 
 
 def _healthy(listener: socket.socket) -> bool:

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from jointplay.serving.folder_lock import FolderLock
 from solver import presets
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
@@ -38,6 +39,11 @@ WRONG = {
         ["scene", "draw", "pendulum", "-o", "pendulum.doc"],
         ".png",
     ),
+    "a window that ends before it begins": (
+        ["export", "missing", "--start", "1", "--stop", "0.5"],
+        "--stop 0.5 is before --start 1",
+    ),
+    "a window from nowhere": (["export", "missing", "--start", "nan"], "--start nan"),
     "not an address": (["ls", "--url", "localhost"], "is not an address"),
     "no reported numbers": (["demo", "pendulum"], "no reported numbers"),
 }
@@ -74,6 +80,53 @@ def test_a_wrong_file_ends_with_two_and_one_line(jointplay, tmp_path, content, s
     assert not (tmp_path / "OUT").exists()
 
 
+SHAPELESS = {
+    "a preset with a list of values": {"preset": "pendulum", "parameters": [1]},
+    "a scene with a list of parameters": {"bodies": {}, "parameters": [1]},
+    "a scene with a number for a parameter": {"bodies": {}, "parameters": {"a": 3}},
+}
+
+
+@pytest.mark.parametrize("scene", SHAPELESS.values(), ids=SHAPELESS)
+def test_a_parameter_set_in_a_wrong_file_says_what_is_wrong_with_the_file(
+    jointplay, tmp_path, scene
+):
+    job = {"kind": "simulate", "scene": scene, "duration": 1.0}
+    (tmp_path / "job.json").write_text(json.dumps(job))
+    ended = jointplay("run", tmp_path / "job.json", "--set", "a=1", "-o", tmp_path / "OUT")
+    assert ended.code == 2
+    assert "/scene/parameters" in ended.line()
+
+
+SERVING = {
+    "not a number": ({"JOINTPLAY_LEASE": "abc"}, [], "JOINTPLAY_LEASE: "),
+    "impossible together": ({"JOINTPLAY_LEASE": "1"}, [], "JOINTPLAY_HEARTBEAT"),
+    "not a Redis": ({"JOINTPLAY_REDIS_URL": "foo"}, [], "JOINTPLAY_REDIS_URL: "),
+    "not a host": ({}, ["--host", "256.0.0.1"], "256.0.0.1"),
+}
+
+
+@pytest.mark.parametrize(("variables", "arguments", "says"), SERVING.values(), ids=SERVING)
+def test_a_service_with_wrong_settings_ends_with_two_and_one_line(
+    jointplay, tmp_path, monkeypatch, variables, arguments, says
+):
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    ended = jointplay("serve", "--port", "0", "--data", tmp_path, *arguments)
+    assert ended.code == 2
+    assert says in ended.line()
+
+
+def test_the_data_folder_may_be_named_by_the_environment(jointplay, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("JOINTPLAY_DATA", "named")
+    monkeypatch.setenv("JOINTPLAY_REDIS_URL", "redis://127.0.0.1:1/0")  # so that it never serves
+    with FolderLock(tmp_path / "named"):
+        ended = jointplay("serve", "--port", "0")
+    assert ended.code == 2
+    assert f"{tmp_path / 'named'} is in use" in ended.line()
+
+
 def test_an_existing_output_is_never_overwritten(jointplay, tmp_path):
     ended = jointplay("run", "pendulum", "--duration", "1", "-o", tmp_path)
     assert ended.code == 2
@@ -91,5 +144,5 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
     file.write_text(json.dumps(scene))
     ended = jointplay("scene", "check", file)
     assert ended.code == 2
-    assert "/scene/joints/A" in ended.line()
+    assert "jointplay: /joints/A" in ended.line()
     assert "nowhere" in ended.line()

@@ -29,6 +29,8 @@ def test_a_relative_folder_means_the_same_in_every_process(
         ("JOINTPLAY_LEASE", "6", "at least twice JOINTPLAY_HEARTBEAT"),
         ("JOINTPLAY_LEASE", "nan", "finite number"),
         ("JOINTPLAY_REAPER_PERIOD", "0", "greater than 0"),
+        ("JOINTPLAY_REDIS_URL", "localhost:6379", "redis://host:6379/0"),
+        ("JOINTPLAY_REDIS_URL", "", "redis://host:6379/0"),
         ("JOINTPLAY_MAX_ATTEMPTS", "many", "integer"),
     ],
 )
