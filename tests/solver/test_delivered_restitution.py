@@ -101,10 +101,30 @@ def test_an_elastic_impact_has_the_depth_force_and_duration_of_theory(
     if exponent == 1.5:
         assert factor == pytest.approx(2.9432, abs=1e-4)  # printed so, cut off
     assert first["onset"] == pytest.approx(CLEARANCE / SPEED, rel=1e-9)
-    # the release is noticed at the end of the step in which it falls; at this tolerance an impact
-    # takes a few hundred steps
-    lasted = (first["release"] - first["onset"]) / (factor * depth / SPEED)
-    assert 1.0 - 1e-7 <= lasted <= 1.01
+    lasted = first["release"] - first["onset"]
+    assert lasted == pytest.approx(factor * depth / SPEED, rel=1e-6)
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-6])
+def test_releases_are_located_inside_their_steps(tolerance: float) -> None:
+    found = run(
+        "bouncing-journal",
+        2.9 * CLEARANCE / SPEED,
+        parameters={
+            "restitution": 1.0,
+            "velocity_x": SPEED,
+            "gravity_y": 0.0,
+            "friction": 0.0,
+            "stiffness": 1e9,
+        },
+        tolerance=tolerance,
+    )
+    (first, *_) = found.contacts("bearing")
+    depth = (2.5 * MASS * SPEED**2 / 2e9) ** 0.4
+    # a contact takes about ten steps, whose ends would be some percent off
+    assert first["release"] - first["onset"] == pytest.approx(
+        2.943275184324706 * depth / SPEED, rel=1e-3
+    )
 
 
 def test_free_fall_takes_its_time_and_hits_at_its_speed() -> None:
