@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.mechanics.absolute import AbsoluteMechanism, Row
+from solver.mechanics.tree import spanning_tree
 from solver.mechanics.view import view
-from solver.scene.document import Scene
+from solver.scene.document import Fixed, Prismatic, Revolute, Scene
 
 Floats = NDArray[np.float64]
 
@@ -79,6 +80,27 @@ def driver_positions(scene: Scene) -> dict[str, float]:
     return {name: driver.position for name, driver in scene.drivers.items()}
 
 
+def first_angles(scene: Scene) -> dict[str, float]:
+    """Return angles, rad, from which the assembly starts: as given, as driven, or as carried."""
+    angles = {"ground": 0.0}
+    for branch in spanning_tree(scene).branches:
+        joint = scene.joints.get(branch.joint)
+        offset = 0.0
+        if isinstance(joint, Prismatic | Fixed):
+            offset = joint.angle
+        elif branch.driver is not None:
+            offset = scene.drivers[branch.driver].position
+        carried = angles[branch.parent] + (offset if branch.outward else -offset)
+        given = scene.start.angles.get(branch.body)
+        prescribed = branch.driver is not None and isinstance(joint, Revolute)
+        if prescribed or given is None:
+            held = prescribed or isinstance(joint, Prismatic | Fixed)
+            angles[branch.body] = carried if held else 0.0
+        else:
+            angles[branch.body] = given
+    return angles
+
+
 def assemble(scene: Scene) -> Assembly:
     """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
 
@@ -93,7 +115,7 @@ def assemble(scene: Scene) -> Assembly:
 
     pose = still.copy()
     for i, body in enumerate(ideal.bodies):
-        pose[3 * i + 2] = scene.start.angles.get(body, 0.0)
+        pose[3 * i + 2] = first_angles(scene)[body]
     positions = np.arange(count) % 3 != 2
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
     if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles

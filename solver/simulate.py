@@ -14,7 +14,7 @@ from solver.admission import Admission, section_offset
 from solver.assembly import assemble
 from solver.compiler.kernel import LEDGER, Kernel, compile_kernel
 from solver.errors import SimulationFailed
-from solver.ideal import IdealRun
+from solver.ideal.run import IdealRun
 from solver.integrators import METHODS
 from solver.lanes.bundle import Bundle, LaneProblem
 from solver.lanes.prescribed import prescribed_peaks

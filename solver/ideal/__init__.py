@@ -1,0 +1,1 @@
+"""The ideal mechanism: nothing moves freely, so kinematics and inverse dynamics suffice."""

@@ -1,0 +1,81 @@
+"""The ideal mechanism at its limits: dead points, driver positions of many turns, refusals."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from solver import presets
+from solver.admission import admit
+from solver.assembly import assemble
+from solver.errors import InvalidInput, SimulationFailed
+from solver.scene.document import Scene
+from solver.simulate import Simulation
+
+
+def slider_crank(crank: float, rod: float, speed: float = 2.0 * math.pi) -> dict[str, Any]:
+    """Return an ideal slider-crank that starts stretched."""
+    scene = presets.document("slider-crank")
+    scene["bodies"]["crank"]["points"] = {"O": [-crank / 2, 0.0], "pin": [crank / 2, 0.0]}
+    scene["bodies"]["rod"]["points"] = {"crank": [-rod / 2, 0.0], "slider": [rod / 2, 0.0]}
+    scene["joints"]["P"]["clearance"] = None
+    scene["drivers"]["motor"]["speed"] = speed
+    scene["parameters"] = {}
+    return scene
+
+
+def job(scene: dict[str, Any], duration: float = 1.0) -> dict[str, Any]:
+    return {"kind": "simulate", "scene": scene, "duration": duration, "output_step": 1e-3}
+
+
+def test_a_run_into_a_dead_point_fails_there_and_keeps_what_came_before() -> None:
+    # crank as long as the rod: at a quarter turn the slider is on the crank's axis, and free
+    simulation = Simulation(admit(job(slider_crank(0.1, 0.1))))
+    times = []
+    with pytest.raises(SimulationFailed, match="dead point") as failed:
+        for found in simulation.slices():
+            times.extend(found.sample_time)
+    assert failed.value.code == "assembly-lost"
+    assert failed.value.time == pytest.approx(0.25, abs=2e-3)  # two output steps
+    np.testing.assert_allclose(times, 1e-3 * np.arange(len(times)), atol=1e-12)
+    assert times[-1] == pytest.approx(0.25, abs=2e-3)
+    peak = simulation.summary().peaks["slider.x"]
+    assert peak.maximum == pytest.approx(0.2, abs=1e-12)  # stretched, at the start
+
+
+def test_a_rod_too_short_to_turn_is_followed_until_it_pulls_tight() -> None:
+    # the pin may rise to the rod's length: sin(theta) = 0.06 / 0.1
+    simulation = Simulation(admit(job(slider_crank(0.1, 0.06))))
+    with pytest.raises(SimulationFailed, match="do not reach") as failed:
+        list(simulation.slices())
+    assert failed.value.time == pytest.approx(math.asin(0.6) / (2.0 * math.pi), abs=2e-3)
+
+
+def test_whole_turns_in_a_drivers_position_change_nothing_but_the_angle() -> None:
+    scene = slider_crank(0.05, 0.12)
+    scene["drivers"]["motor"]["position"] = 0.7
+    plain = assemble(Scene.model_validate(scene))
+    scene["drivers"]["motor"]["position"] = 0.7 + 2.0 * math.pi * 100
+    wound = assemble(Scene.model_validate(scene))
+    assert wound.residual < 1e-12  # one rounding of an angle of 600 rad
+    np.testing.assert_allclose(wound.pose[[3, 4, 6]], plain.pose[[3, 4, 6]], atol=1e-12)
+
+
+def test_one_driver_too_many_is_called_over_constrained() -> None:
+    scene = slider_crank(0.05, 0.12)
+    scene["drivers"]["second"] = {"joint": "Q", "speed": 1.0}
+    with pytest.raises(InvalidInput, match="over-constrained: 10 constraint equations"):
+        admit(job(scene))
+
+
+def test_sections_come_in_pieces_and_are_all_there() -> None:
+    scene = slider_crank(0.05, 0.12, speed=2000.0 * math.pi)
+    request = job(scene, duration=2.5) | {"output_step": 0.5, "channels": ["slider.x"]}
+    admission = admit(request)
+    assert admission.sections == 2501
+    pieces = [found.sections for found in Simulation(admission).slices()]
+    assert max(len(piece) for piece in pieces) <= 1000
+    sections = np.concatenate(pieces)
+    assert len(sections) == 2501
+    np.testing.assert_allclose(sections, 0.17, atol=1e-12)  # stretched at each whole turn
