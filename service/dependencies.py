@@ -4,6 +4,7 @@ import re
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
+from fastapi.exceptions import RequestValidationError
 
 from service.problems import ErrorDetail, RequestRefused, kinds
 from service.problems.document import clipped
@@ -23,6 +24,17 @@ def _settings(request: Request) -> Settings:
     return settings
 
 
+def _no_parameters(request: Request) -> None:
+    """Refuse query parameters where there are none, in the words for unknown ones elsewhere."""
+    errors = [
+        {"loc": ("query", name), "msg": "Extra inputs are not permitted"}
+        for name in request.query_params
+    ]
+    if errors:
+        raise RequestValidationError(errors)
+
+
+NO_PARAMETERS = Depends(_no_parameters)
 CatalogueDependency = Annotated[Catalogue, Depends(_catalogue)]
 SettingsDependency = Annotated[Settings, Depends(_settings)]
 

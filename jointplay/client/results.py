@@ -1,6 +1,7 @@
 """Results as the service sends them, as numpy arrays with their units."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
@@ -30,6 +31,20 @@ class _Sampled:
     def __getitem__(self, channel: str) -> NDArray[np.float64]:
         """Return the values of ``channel``, (n,)."""
         return self.channels[channel].values
+
+    @classmethod
+    def joined(cls, pieces: Sequence[Self]) -> Self:
+        """Put consecutive windows of the same channels together."""
+        if len(pieces) == 1:
+            return pieces[0]
+        return replace(
+            pieces[0],
+            time=np.concatenate([piece.time for piece in pieces]),
+            channels={
+                name: replace(one, values=np.concatenate([piece[name] for piece in pieces]))
+                for name, one in pieces[0].channels.items()
+            },
+        )
 
     @classmethod
     def from_document(cls, document: dict[str, Any]) -> Self:
@@ -98,9 +113,8 @@ class Impacts:
     impulse: NDArray[np.float64]
 
     @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Self:
-        """Read the service's JSON."""
-        rows = document["impacts"]
+    def from_rows(cls, rows: Sequence[dict[str, Any]]) -> Self:
+        """Read the rows of the service's JSON."""
         names = ("onset", "release", "approach_rate", "peak_force", "impulse")
         columns = {name: _floats([row[name] for row in rows]) for name in names}
         return cls(joint=[row["joint"] for row in rows], **columns)

@@ -1,5 +1,6 @@
 """`Client`: the resources of the service as methods."""
 
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
@@ -11,6 +12,7 @@ from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError
 from jointplay.client.jobs import Job
 from jointplay.client.results import History, Impacts, Peak, Section
+from jointplay.client.windows import pieces
 
 _SHORTEST_PAUSE = 0.05  # s between two questions in `wait`, growing to ...
 _LONGEST_PAUSE = 1.0  # ... this, so that a long job costs one request a second
@@ -117,23 +119,42 @@ class Client:
         start: float | None = None,
         stop: float | None = None,
     ) -> History:
-        """Return channels (names or globs; all if None) from ``start`` to ``stop``, in s."""
-        query = {"channels": _joined(channels), "start": start, "stop": stop}
-        return History.from_document(self._result(job_id, "history", query))
+        """Return channels (names or globs; all if None) from ``start`` to ``stop``, in s.
 
-    def poincare(self, job_id: str, channels: Sequence[str] | None = None) -> Section:
-        """Return channels at the Poincare sections."""
-        query = {"channels": _joined(channels)}
-        return Section.from_document(self._result(job_id, "poincare", query))
+        What is too large for one answer of the service is fetched in several.
+        """
+        found = self._windows(job_id, "history", start, stop, channels=_joined(channels))
+        return History.joined([History.from_document(document) for document in found])
+
+    def poincare(
+        self,
+        job_id: str,
+        channels: Sequence[str] | None = None,
+        start: float | None = None,
+        stop: float | None = None,
+    ) -> Section:
+        """Return channels at the Poincare sections from ``start`` to ``stop``, in s."""
+        found = self._windows(job_id, "poincare", start, stop, channels=_joined(channels))
+        return Section.joined([Section.from_document(document) for document in found])
 
     def peaks(self, job_id: str) -> dict[str, Peak]:
         """Return the signed extremes of every channel."""
         document = self._result(job_id, "peaks")
         return {name: Peak.from_document(peak) for name, peak in document["peaks"].items()}
 
-    def impacts(self, job_id: str) -> Impacts:
-        """Return the contacts of the clearance joints."""
-        return Impacts.from_document(self._result(job_id, "impacts"))
+    def statistics(self, job_id: str) -> dict[str, Any]:
+        """Return what the run cost, and its energy ledger with the residual, in J."""
+        return self._result(job_id, "statistics")
+
+    def impacts(
+        self, job_id: str, start: float | None = None, stop: float | None = None
+    ) -> Impacts:
+        """Return the contacts of the clearance joints that begin from ``start`` to ``stop``."""
+        found = self._windows(job_id, "impacts", start, stop)
+        rows = [row for document in found for row in document["impacts"]]
+        if len(found) > 1:  # windows are of onsets
+            rows.sort(key=lambda row: math.inf if row["release"] is None else row["release"])
+        return Impacts.from_rows(rows)
 
     def figures(self, job_id: str) -> list[str]:
         """Return the names of the figures that can be drawn of the job's results."""
@@ -153,6 +174,17 @@ class Client:
         """Return the scene document of a preset."""
         document: dict[str, Any] = self._connection.get(f"/v1/scenes/{segment(name)}").json()
         return document
+
+    def _windows(
+        self, job_id: str, name: str, start: float | None, stop: float | None, **query: Any
+    ) -> list[dict[str, Any]]:
+        def fetch(start: float | None, stop: float | None) -> dict[str, Any]:
+            return self._result(job_id, name, {**query, "start": start, "stop": stop})
+
+        def end() -> float:
+            return float(self.get(job_id).job["duration"])
+
+        return list(pieces(fetch, start, stop, end))
 
     def _result(
         self, job_id: str, name: str, query: Mapping[str, Any] | None = None

@@ -43,6 +43,9 @@ def show(
             typer.echo(f"error     {job.error.kind}: {job.error.detail}")
         if job.is_finished:
             try:
+                if (energy := client.statistics(job_id)["energy"]) is not None:
+                    work = f"driver work {energy['driver_work']:.4g} J"
+                    typer.echo(f"energy    {work}, residual {energy['residual']:.2g} J")
                 print_peaks(of_service(client.peaks(job_id)))
             except NotFound:
                 typer.echo("Nothing was computed.")

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Response
 from pydantic import BaseModel, ConfigDict, Field
 
 from service.body import JsonDocument
-from service.dependencies import JOB_ID, CatalogueDependency, JobOfThePath
+from service.dependencies import JOB_ID, NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from service.jobs.schemas import JobPage, JobResource, address
 from service.jobs.submission import REQUEST_BODY, submit
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
@@ -62,7 +62,11 @@ def list_jobs(catalogue: CatalogueDependency, query: Annotated[PageQuery, Query(
     return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
 
 
-@router.get("/{job_id}", responses=problems(kinds.UNKNOWN_JOB))
+@router.get(
+    "/{job_id}",
+    dependencies=[NO_PARAMETERS],
+    responses=problems(kinds.UNKNOWN_JOB, kinds.INVALID_REQUEST),
+)
 def show_job(job: JobOfThePath) -> JobResource:
     """Show one job as it is now."""
     return JobResource.of(job)

@@ -96,7 +96,7 @@ def address(job_id: str) -> str:
 
 def _links(job_id: str) -> dict[str, str]:
     base = address(job_id)
-    results = ("history", "peaks", "poincare", "impacts", "figures")
+    results = ("history", "peaks", "poincare", "impacts", "statistics", "figures")
     return {"self": base, "cancel": f"{base}/cancel"} | {name: f"{base}/{name}" for name in results}
 
 

@@ -7,6 +7,7 @@ from fastapi import APIRouter, Query, Response
 from numpy.typing import NDArray
 from pydantic import BaseModel
 
+from service.dependencies import NO_PARAMETERS
 from service.problems import kinds, problems
 from service.results import schemas
 from service.results.queries import Selection, Window, check_size, chosen_channels
@@ -66,7 +67,7 @@ def show_poincare(store: StoreOfThePath, selection: Annotated[Selection, Query()
     )
 
 
-@router.get("/peaks", response_model=schemas.Peaks)
+@router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])
 def show_peaks(store: StoreOfThePath) -> Response:
     """Return each channel's signed minimum and maximum, with their times."""
     units = {channel.name: channel.unit for channel in store.channels}
@@ -75,6 +76,13 @@ def show_peaks(store: StoreOfThePath) -> Response:
         for name, peak in store.peaks().items()
     }
     return _as_json(schemas.Peaks.model_construct(complete=store.complete, peaks=peaks))
+
+
+@router.get("/statistics", dependencies=[NO_PARAMETERS])
+def show_statistics(store: StoreOfThePath) -> schemas.Statistics:
+    """Return the steps that the run took, and its energy ledger with the residual."""
+    summary = store.attributes.get("summary") or {}
+    return schemas.Statistics(complete=store.complete, **summary)
 
 
 @router.get("/impacts", response_model=schemas.Impacts)

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path, Query, Response
 from pydantic import Field
 
 from jointplay import figures
-from service.dependencies import JobOfThePath
+from service.dependencies import NO_PARAMETERS, JobOfThePath
 from service.jobs.schemas import address
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
 from service.problems.document import clipped
@@ -45,7 +45,7 @@ class FigureSelection(Selection):
     )
 
 
-@router.get("")
+@router.get("", dependencies=[NO_PARAMETERS])
 def list_figures(job: JobOfThePath, store: StoreOfThePath) -> Figures:
     """List the figures that can be drawn of what the job stored."""
     base = f"{address(job.id)}/figures"

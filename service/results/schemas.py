@@ -68,6 +68,34 @@ class Impacts(BaseModel):
     impacts: list[Impact]
 
 
+class EnergyLedger(BaseModel):
+    """Where the mechanism's energy came from and went, integrated along with the motion."""
+
+    driver_work: float = _in("J", "Work of the drivers.")
+    gravity_work: float = _in("J", "Work of gravity.")
+    contact_loss: float = _in("J", "Lost to the damping of contacts.")
+    friction_loss: float = _in("J", "Lost to friction.")
+    kinetic_change: float = _in("J", "Kinetic energy at the end less that at the start.")
+    stored_change: float = _in("J", "Elastic energy of contacts at the end less at the start.")
+    residual: float = _in("J", "What remains of the balance: the ledger's error.")
+
+
+class Statistics(BaseModel):
+    """What a run cost, and its energy ledger; null where there is none."""
+
+    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    steps: int | None = Field(default=None, description="Accepted steps of the integrator.")
+    rejections: int | None = Field(default=None, description="Steps that were tried again.")
+    onsets: int | None = Field(default=None, description="Contacts that began.")
+    smallest_step: float | None = Field(default=None, json_schema_extra={"unit": "s"})
+    solver_seconds: float | None = Field(
+        default=None, description="Processor time of the solver.", json_schema_extra={"unit": "s"}
+    )
+    energy: EnergyLedger | None = Field(
+        default=None, description="Null for a run without freedom: nothing is integrated there."
+    )
+
+
 class FigureLink(BaseModel):
     """One figure of a job."""
 

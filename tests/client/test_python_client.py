@@ -111,6 +111,27 @@ def test_results_come_as_arrays_with_units(client, finished_job):
     assert np.isnan(impacts.release).all()
 
 
+def test_results_too_large_for_one_answer_come_whole(client, worker):
+    job_id = worker.finished(output_step=1e-4)  # 20 001 samples of 95 channels: 2 answers
+    history = client.history(job_id)
+    time = np.linspace(0.0, 2.0, 20_001)
+    np.testing.assert_array_equal(history.time, time)
+    for column, one in enumerate(history.channels.values()):
+        np.testing.assert_array_equal(one.values, column + time)
+    with pytest.raises(Refused, match=r"slider7\.vx"):  # other refusals stay what they are
+        client.history(job_id, ["slider7.vX"])
+
+
+def test_sections_and_impacts_of_a_window_can_be_asked_for(client, finished_job):
+    assert client.poincare(finished_job, ["A.force_x"], start=0.5).time.tolist() == [1.0]
+    assert client.impacts(finished_job, start=0.5, stop=0.5).onset.tolist() == [0.5]
+    assert client.impacts(finished_job, stop=0.4).joint == []
+
+
+def test_statistics_hold_the_energy_ledger(client, finished_job):
+    assert client.statistics(finished_job)["energy"]["residual"] == 1e-6
+
+
 def test_figures_come_as_files(client, finished_job):
     names = client.figures(finished_job)
     assert "orbit" in names

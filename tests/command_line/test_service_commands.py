@@ -34,6 +34,7 @@ def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):
     shown = jointplay("show", finished_job, *at).out
     assert "succeeded" in shown
     assert "slider7.ax" in shown
+    assert "residual 1e-06 J" in shown
 
 
 def test_a_job_that_failed_before_its_first_sample_is_shown(jointplay, at, worker):

@@ -39,6 +39,8 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
                 assert fetched[name].tobytes() == column.tobytes(), name
         peaks = {name: (peak.minimum, peak.maximum) for name, peak in client.peaks(job_id).items()}
         assert peaks == {name: (one.minimum, one.maximum) for name, one in local.peaks().items()}
+        ledger = local.attributes["summary"]["energy"]
+        assert client.statistics(job_id)["energy"] == ledger
         impacts, rows = client.impacts(job_id), local.impacts()
         assert [local.joints[index] for index in rows["joint"]] == impacts.joint
         assert len(impacts.joint) > 0

@@ -8,7 +8,7 @@ import pytest
 from service.results import schemas
 from storage.catalogue import BlockState, JobError
 
-RESULTS = ["history", "peaks", "poincare", "impacts", "figures", "figures/orbit.png"]
+RESULTS = ["history", "peaks", "poincare", "impacts", "statistics", "figures", "figures/orbit.png"]
 
 
 def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[str, Any]:
@@ -27,6 +27,7 @@ def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[
         ("poincare", schemas.Poincare),
         ("peaks", schemas.Peaks),
         ("impacts", schemas.Impacts),
+        ("statistics", schemas.Statistics),
         ("figures", schemas.Figures),
     ],
 )
@@ -90,6 +91,23 @@ def test_an_unknown_channel_is_refused_with_those_that_are_near(http, finished_j
 def test_a_wrong_parameter_is_named(http, finished_job, query, parameter):
     problem = get(http, f"/v1/jobs/{finished_job}/history", 422, **query)
     assert [error["parameter"] for error in problem["errors"]] == [parameter]
+
+
+@pytest.mark.parametrize("resource", ["", "/peaks", "/statistics", "/figures"])
+def test_a_parameter_where_there_are_none_is_refused(http, finished_job, resource):
+    problem = get(http, f"/v1/jobs/{finished_job}{resource}", 422, start=1.0)
+    assert problem["errors"] == [{"parameter": "start", "detail": "There is no such parameter."}]
+
+
+def test_the_energy_ledger_is_part_of_the_result(http, worker, finished_job):
+    statistics = get(http, f"/v1/jobs/{finished_job}/statistics")
+    assert (statistics["steps"], statistics["solver_seconds"]) == (7, 0.25)
+    assert (statistics["energy"]["driver_work"], statistics["energy"]["residual"]) == (2.5, 1e-6)
+    claim = worker.start(worker.submit())
+    worker.store_nothing(claim)
+    worker.finish(claim, BlockState.failed, JobError("solver", "step-size-underflow", "No step."))
+    nothing = get(http, f"/v1/jobs/{claim.job.id}/statistics")
+    assert (nothing["complete"], nothing["steps"], nothing["energy"]) == (False, None, None)
 
 
 def test_an_answer_too_large_is_refused_with_what_would_be_small_enough(http, worker):
