@@ -13,11 +13,15 @@ from solver.mechanics.absolute import AbsoluteMechanism, Row
 from solver.mechanics.tree import spanning_tree
 from solver.mechanics.view import view
 from solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from solver.scene.references import ends
 
 Floats = NDArray[np.float64]
 
 RANK_TOLERANCE = 1e-9
 """Singular values below this share of the largest count as zero (rows scaled by length)."""
+MOST_ITERATIONS = 200
+LARGEST_TURN = 0.5
+"""Of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
 
@@ -58,15 +62,17 @@ class Assembly:
 
 
 def shortest_link(scene: Scene) -> float:
-    """Return the shortest distance between two points of one body, m; the scene's length scale.
+    """Return the shortest distance between two joints on one body, m; the scene's length scale.
 
     Without any: the largest bearing radius, else 1 m.
     """
-    distances = [
-        math.dist(a, b)
-        for body in scene.bodies.values()
-        for a, b in combinations(body.points.values(), 2)
-    ]
+    joined: dict[str, list[list[float]]] = {name: [] for name in scene.bodies}
+    for joint in scene.joints.values():
+        for _, reference in ends(joint):
+            body, point = reference.split(".")
+            if body in joined:
+                joined[body].append(scene.bodies[body].points[point])
+    distances = [math.dist(a, b) for points in joined.values() for a, b in combinations(points, 2)]
     distances = [d for d in distances if d > 0.0]
     if distances:
         return min(distances)
@@ -121,14 +127,15 @@ def assemble(scene: Scene) -> Assembly:
     if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles
         step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
         pose[positions] += step
-    for _ in range(60):
+    for _ in range(MOST_ITERATIONS):
         residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
         if not len(residual) or not np.isfinite(residual).all():
             break
         step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
-        largest = float(np.abs(step).max())
-        pose += scale * step * min(1.0, 0.5 / largest if largest > 0.5 else 1.0)
-        if largest < 1e-15:
+        # a turn of more than half a radian would lead to another assembly; positions follow
+        turn = float(np.abs(step[~positions]).max())
+        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+        if float(np.abs(step).max()) < 1e-15:
             break
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from solver.admission import Admission, section_offset
 from solver.assembly import assemble
+from solver.compile_loop import compile_loop_aside
 from solver.compiler.kernel import LEDGER, Kernel, compile_kernel
 from solver.errors import SimulationFailed
 from solver.ideal.run import IdealRun
@@ -22,7 +23,6 @@ from solver.lanes.state import Counter, Setting, Status
 from solver.mechanics.tree import spanning_tree
 from solver.results import IMPACT, Floats, Peak, Slice, Summary
 from solver.scene.document import Scene
-from solver.warm import compile_loop_aside
 
 SLICE_SECONDS = 0.1
 """Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""

@@ -50,7 +50,7 @@ class Kernel:
 
     @property
     def functions(self) -> tuple[Any, ...]:
-        """The compiled functions, in the order that `solver.advance.advance` takes them."""
+        """The compiled functions, in the order that `solver.lanes.advance.advance` takes them."""
         m = self.module
         return (
             m.attempt,

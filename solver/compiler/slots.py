@@ -31,42 +31,33 @@ class Slot(IntEnum):
     ACCEPT = 15
     FLAG = 16
     NEXT_STEP = 17
-    NEW_MEMORY = 18
-    END = 19
-    NEXT_DUE = 20
-    PEAK = 21
-    STAGE = 22
-    SLOPE = 23
-    Y = 24
-    K1 = 25
-    LEDGER_RATE = 26
-    KLEDGER1 = 27
-    TOTAL = 28
-    GAP = 29
-    MODE = 30
-    IMPACT_RATE = 31
-    BEFORE_TIME = 32
-    PHASE = 33
-    WOUND = 34
-    CHANNEL = 35
-    PREVIOUS = 36
-    CHANGE = 37
-    HIGHEST = 38
-    LOWEST = 39
-    HIGHEST_TIME = 40
-    LOWEST_TIME = 41
-    MASK = 42
-    IMPACT_FLOOR = 43
-    RESTART = 44
-    ONSET_TIME = 45
-    APPROACH = 46
-    ONSET_TOTAL = 47
-    OPENED = 48
+    END = 18
+    NEXT_DUE = 19
+    PEAK = 20
+    STAGE = 21
+    TOTAL = 22
+    GAP = 23
+    MODE = 24
+    IMPACT_RATE = 25
+    BEFORE_TIME = 26
+    PHASE = 27
+    WOUND = 28
+    CHANNEL = 29
+    PREVIOUS = 30
+    HIGHEST = 31
+    LOWEST = 32
+    HIGHEST_TIME = 33
+    LOWEST_TIME = 34
+    MASK = 35
+    IMPACT_FLOOR = 36
+    RESTART = 37
+    ONSET_TIME = 38
+    APPROACH = 39
+    ONSET_TOTAL = 40
+    OPENED = 41
 
 
 COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "MASK_ROWS", "SIZE")
-BLOCKS = {"K1": "k1_0", "KLEDGER1": "kledger1_0", "LEDGER_RATE": "ledger0"}
-"""Quantities whose slots have other names than theirs."""
 
 
 def slots_of(layout: Layout, **counts: int) -> NDArray[np.int64]:
@@ -78,8 +69,7 @@ def slots_of(layout: Layout, **counts: int) -> NDArray[np.int64]:
     for slot in Slot:
         if slot.name in COUNTS:
             continue
-        name = BLOCKS.get(slot.name, slot.name.lower())
-        for spelling in (name, f"{name}0"):
+        for spelling in (slot.name.lower(), f"{slot.name.lower()}0"):
             if spelling in layout:
                 slots[slot] = layout[spelling]
     return slots

@@ -11,9 +11,9 @@ from pydantic import BaseModel, ValidationError
 
 from solver.errors import Problem
 
-TAGS = frozenset(
-    {"PresetScene", "Scene", "float", "str", "none", "revolute", "prismatic", "fixed", "[key]"}
-)
+FORMS = frozenset({"PresetScene", "Scene"})
+JOINTS = frozenset({"revolute", "prismatic", "fixed"})
+TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
 
 Sentence = Callable[[str, str, Mapping[str, Any]], str]
@@ -66,10 +66,10 @@ def schema_problems(
     found: dict[str, str] = {}
     for item in error.errors(include_url=False, include_input=False):
         location = [str(part) for part in item["loc"]]
-        forms = {"PresetScene", "Scene"} & set(location[:2])
+        forms = FORMS & set(location[1:2])
         if branch and forms and branch not in forms:
             continue
-        place = [part for part in location if part not in TAGS]
+        place = _place(location)
         pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
         unit = f" {units[field]}" if units.get(field, "1") != "1" else ""
@@ -81,6 +81,19 @@ def schema_problems(
             sentence = f"{item['msg']}."
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
+
+
+def _place(location: list[str]) -> list[str]:
+    """Return a location without the branches of unions that it names."""
+    place: list[str] = []
+    for index, part in enumerate(location):
+        last = index == len(location) - 1
+        form = index == 1 and part in FORMS
+        joint = part in JOINTS and place[-2:-1] == ["joints"]
+        kind = last and (part in TYPES or part == "[key]") and index > 1
+        if not (form or joint or kind):
+            place.append(part)
+    return place
 
 
 def _no_such_field(field: str, known: frozenset[str]) -> str:

@@ -132,7 +132,7 @@ BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
         f"{A}/clearance/contact/law",
         "lankarani-nikravesh",
     ),
-    "negative mass": (at("/scene/bodies/link2/mass", -1.0), "/scene/bodies/link2/mass", "greater"),
+    "negative mass": (at("/scene/bodies/link2/mass", -1.0), "/scene/bodies/link2/mass", "at least"),
     "zero inertia": (
         at("/scene/bodies/link2/inertia", 0.0),
         "/scene/bodies/link2/inertia",

@@ -1,4 +1,4 @@
-"""`python -m solver.warm`: compile the driving loop into the cache.
+"""`python -m solver.compile_loop`: compile the driving loop into the cache.
 
 It is the same for every scene; on a machine that has never computed, a second process compiles it
 while the first compiles the scene's own kernel.
@@ -27,7 +27,7 @@ def compile_loop_aside() -> subprocess.Popen[bytes] | None:
     if _marker().exists():
         return None
     return subprocess.Popen(
-        [sys.executable, "-m", "solver.warm"],
+        [sys.executable, "-m", "solver.compile_loop"],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
