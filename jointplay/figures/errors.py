@@ -12,9 +12,20 @@ class UnknownFigure(FigureError):
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
         super().__init__(
-            f"there is no figure {name!r}; there are {', '.join(known)}, and every stored channel"
+            f"There is no figure {name!r}; there are {', '.join(known)}, and every stored channel."
         )
 
 
 class NotDrawable(FigureError):
-    """These results, or this selection, do not hold what the figure needs."""
+    """These results, or this selection, do not hold what the figure needs.
+
+    Attributes
+    ----------
+    cause : str
+        What to change: ``name`` of the figure, or of the selection ``channels``, ``joints``,
+        or ``start``.
+    """
+
+    def __init__(self, sentence: str, cause: str = "name") -> None:
+        super().__init__(sentence)
+        self.cause = cause

@@ -44,7 +44,7 @@ def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> Figure:
         The pose lacks a body.
     """
     if missing := [name for name in scene["bodies"] if name not in pose]:
-        raise NotDrawable(f"the pose does not say where {', '.join(missing)} is")
+        raise NotDrawable(f"The pose does not say where {', '.join(missing)} is.")
     with page.style():
         return _draw(geometry(scene, pose))
 
@@ -89,7 +89,7 @@ def _points(millimetres: float) -> float:
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     bodies = scene_facts.scene(source).get("bodies")
     if not bodies:
-        raise NotDrawable("the results carry no scene to draw")
+        raise NotDrawable("The results carry no scene to draw.")
     names = [f"{body}.{coordinate}" for body in bodies for coordinate in ("x", "y", "theta")]
     return scene_facts.stored(source, names)
 
@@ -99,7 +99,7 @@ def _draw_first(source: Source, selection: Selection) -> Figure:
     names = _channels(source, selection)
     first, last = source.between(selection.start, selection.stop)
     if last <= first:
-        raise NotDrawable("there are no samples in this window of time; widen it")
+        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
     ((_, row),) = source.blocks(names, first, first + 1)
     scene = scene_facts.scene(source)
     pose = {

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COLUMNS = 2
+_INTERVALS = 6
+"""Of the axes of a panel as wide as the page, so that their numbers stand apart."""
 _PANEL_HEIGHT = 47.0  # mm
 _WIDE_PANEL_HEIGHT = 78.0
 
@@ -41,6 +43,7 @@ def _draw(source: Source, selection: Selection) -> Figure:
         _, path = sampling.in_a_plane(source, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
         _orbit(axes, x, y, clearance / metres.factor)
+        axes.locator_params(nbins=_INTERVALS // columns)
         axes.set_xlabel(metres.label("eccentricity x"))
         page.corner_text(axes, f"joint {joint}, c = {clearance / metres.factor:.4g} {metres.unit}")
     for row in grid:

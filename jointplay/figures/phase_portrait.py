@@ -36,11 +36,12 @@ class _Panel:
 def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
     if selection.channels:
         if len(selection.channels) != 2:
-            raise NotDrawable("a phase portrait is drawn of two channels: position and rate")
+            sentence = "A phase portrait is drawn of two channels: position and rate."
+            raise NotDrawable(sentence, "channels")
         return [[_Panel(*selection.channels, *selection.channels)]]
     joints = list(scene_facts.chosen_joints(source, selection))
     if len(joints) > _MOST_JOINTS:
-        raise NotDrawable(f"choose at most {_MOST_JOINTS} joints for one figure")
+        raise NotDrawable(f"Choose at most {_MOST_JOINTS} joints for one figure.", "joints")
     return [
         [
             _Panel(

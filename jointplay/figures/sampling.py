@@ -24,7 +24,7 @@ def window(source: Source, selection: Selection) -> tuple[int, int]:
     """
     first, last = source.between(selection.start, selection.stop)
     if last <= first:
-        raise NotDrawable("there are no samples in this window of time; widen it")
+        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
     return first, last
 
 

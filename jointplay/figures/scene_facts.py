@@ -38,11 +38,11 @@ def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
     """
     known = clearances(scene(source))
     if not known:
-        raise NotDrawable("this figure needs a joint with clearance, and the scene has none")
+        raise NotDrawable("This figure needs a joint with clearance, and the scene has none.")
     for name in selection.joints:
         if name not in known:
             raise NotDrawable(
-                f"joint {name!r} has no clearance; those that do are {', '.join(known)}"
+                f"No joint {name!r} has clearance; those that do are {', '.join(known)}.", "joints"
             )
     return {name: known[name] for name in selection.joints or known}
 
@@ -58,8 +58,8 @@ def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:
     known = {channel.name for channel in source.channels}
     if missing := [name for name in names if name not in known]:
         raise NotDrawable(
-            f"the results do not hold {', '.join(missing)}, which this figure is drawn from; "
-            "choose these channels when the job is submitted"
+            f"The results do not hold {', '.join(missing)}, which this figure is drawn from; "
+            "choose these channels when the job is submitted."
         )
     return tuple(names)
 

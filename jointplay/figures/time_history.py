@@ -24,11 +24,12 @@ _NOTICEABLE = 0.01
 
 def _chosen(source: Source, selection: Selection) -> tuple[str, ...]:
     if not selection.channels:
-        raise NotDrawable("say which channels to draw over time")
+        raise NotDrawable("Say which channels to draw over time.", "channels")
     if len(selection.channels) > MOST_PANELS:
         raise NotDrawable(
-            f"{len(selection.channels)} channels do not fit one figure; choose at most "
-            f"{MOST_PANELS}"
+            f"One figure shows at most {MOST_PANELS} channels, not {len(selection.channels)}; "
+            "choose fewer.",
+            "channels",
         )
     return scene_facts.stored(source, selection.channels)
 
@@ -36,7 +37,7 @@ def _chosen(source: Source, selection: Selection) -> tuple[str, ...]:
 def _declared(source: Source, selection: Selection) -> tuple[str, ...]:
     names = selection.channels or scene_facts.outputs(source)[:MOST_PANELS]
     if not names:
-        raise NotDrawable("the scene declares no outputs, or the job did not store them")
+        raise NotDrawable("The scene declares no outputs, or the job did not store them.")
     return scene_facts.stored(source, names)
 
 

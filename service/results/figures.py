@@ -87,7 +87,7 @@ def draw_figure(
     except figures.UnknownFigure as error:
         raise _refused(kinds.UNKNOWN_FIGURE, "name", error) from None
     except figures.NotDrawable as error:
-        raise _refused(kinds.NOT_DRAWABLE, "name", error) from None
+        raise _refused(kinds.NOT_DRAWABLE, error.cause, error) from None
     return Response(picture, media_type=_MEDIA_TYPES[form])
 
 

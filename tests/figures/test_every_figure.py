@@ -5,6 +5,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import pairwise
 
 import matplotlib as mpl
 import numpy as np
@@ -87,6 +88,15 @@ def visible_texts(figure):
         for text in figure.findobj(Text)
         if text.get_text() and text.get_visible() and text not in outside
     ]
+
+
+def test_the_numbers_along_its_axes_stand_apart(motion, name):
+    figure = drawn(motion, name)
+    for axes in figure.axes:
+        labels = [label for label in axes.get_xticklabels() if label in visible_texts(figure)]
+        boxes = sorted((label.get_window_extent() for label in labels), key=lambda box: box.x0)
+        for left, right in pairwise(boxes):
+            assert left.x1 + 1.0 < right.x0  # dots
 
 
 def test_its_colours_are_told_apart_with_any_colour_vision(motion, name):

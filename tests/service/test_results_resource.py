@@ -180,6 +180,25 @@ def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
     get(http, f"/v1/jobs/{finished_job}/figures/orbit.pdf", 422)
 
 
+@pytest.mark.parametrize(
+    ("figure", "query", "parameter"),
+    [
+        ("orbit", {"joints": "Z"}, "joints"),
+        ("orbit", {"start": 9.0}, "start"),
+        ("mechanism", {"start": 9.0}, "start"),
+        ("time-history", {}, "channels"),
+        ("time-history", {"channels": "A.*"}, "channels"),
+        ("phase-portrait", {"channels": "slider7.x"}, "channels"),
+    ],
+)
+def test_what_a_figure_cannot_show_is_named(http, finished_job, figure, query, parameter):
+    problem = get(http, f"/v1/jobs/{finished_job}/figures/{figure}.png", 422, **query)
+    (error,) = problem["errors"]
+    assert error["parameter"] == parameter
+    assert error["detail"][0].isupper()
+    assert error["detail"].endswith(".")
+
+
 @pytest.mark.parametrize("result", RESULTS)
 def test_results_of_a_job_that_is_not_finished_are_a_conflict(http, worker, result):
     queued = worker.submit()
