@@ -43,10 +43,15 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
     patterns = list(dict.fromkeys(pattern for pattern in given if pattern))
     unknown = [p for p in patterns if not any(_matches(name, p) for name in names)]
     if unknown:
-        raise NoSuchChannel([_suggestion(pattern, names) for pattern in unknown[:_MOST_NAMED]])
+        raise no_such_channel(unknown, names)
     if not patterns:
         raise NoSuchChannel(["The list of channels is empty; name some, or leave it out."])
     return [name for name in names if any(_matches(name, p) for p in patterns)]
+
+
+def no_such_channel(unknown: Sequence[str], names: Sequence[str]) -> NoSuchChannel:
+    """Return the error that says of each unknown name or glob what was probably meant."""
+    return NoSuchChannel([_suggestion(pattern, names) for pattern in unknown[:_MOST_NAMED]])
 
 
 def _matches(name: str, pattern: str) -> bool:

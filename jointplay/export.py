@@ -5,18 +5,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from jointplay.channel_choice import no_such_channel
 from jointplay.source import Floats, Source
 
 _TIME_UNIT = "s"
-
-
-class UnknownChannels(Exception):
-    """Channels were asked for that the results do not have."""
-
-    def __init__(self, unknown: Sequence[str], known: Sequence[str]) -> None:
-        super().__init__(
-            f"there is no channel {', '.join(unknown)}; the channels are {', '.join(known)}"
-        )
 
 
 def csv_lines(
@@ -48,7 +40,7 @@ def csv_lines(
 
     Raises
     ------
-    UnknownChannels
+    NoSuchChannel
         On the first piece, before any text.
     """
     names = _names(source, channels)
@@ -87,7 +79,7 @@ def json_pieces(
 
     Raises
     ------
-    UnknownChannels
+    NoSuchChannel
         On the first piece, before any text.
     """
     names = _names(source, channels)
@@ -122,5 +114,5 @@ def _names(source: Source, channels: Sequence[str] | None) -> list[str]:
     if channels is None:
         return known
     if unknown := [name for name in channels if name not in known]:
-        raise UnknownChannels(unknown, known)
+        raise no_such_channel(unknown, known)
     return list(channels)

@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
+from jointplay.channel_choice import NoSuchChannel
 from jointplay.dataset import Channel, Dataset
-from jointplay.export import UnknownChannels, csv_lines, json_pieces
+from jointplay.export import csv_lines, json_pieces
 from storage.results import ArraySpec, ResultLayout, ResultReader, ResultWriter
 from storage.results.layout import IMPACT
 
@@ -74,7 +75,7 @@ def test_channels_and_window_are_chosen():
 
 @pytest.mark.parametrize("writer", [csv_lines, json_pieces])
 def test_unknown_channels_are_refused_before_any_text(writer):
-    with pytest.raises(UnknownChannels, match=r"no channel slider8\.x; the channels are slider7"):
+    with pytest.raises(NoSuchChannel, match=r"no channel 'slider8\.x'; did you mean slider7\.x"):
         next(writer(dataset(np.ones((1, 2))), ["slider8.x"]))
 
 
