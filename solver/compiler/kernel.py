@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from types import ModuleType
 from typing import Any
 
 import numpy as np
+from numba.core.types.function_type import WrapperAddressProtocol
 from numpy.typing import NDArray
 
 from solver.compiler import scanning, stepping
@@ -27,6 +29,23 @@ LEDGER = 3
 """Ledger terms before the joints' impulses: driver work, contact loss, friction loss."""
 
 
+class CompiledAddress(WrapperAddressProtocol):
+    """A compiled function as kernels take it, its address looked up once, not at every call."""
+
+    def __init__(self, function: Any) -> None:
+        result = next(iter(function.overloads.values()))
+        self._signature = result.signature
+        name = result.fndesc.llvm_cfunc_wrapper_name
+        self._address = int(result.library.get_pointer_to_function(name))
+
+    def __wrapper_address__(self) -> int:
+        return self._address
+
+    def signature(self) -> Any:
+        """Return the function's Numba signature."""
+        return self._signature
+
+
 @dataclass(frozen=True)
 class Kernel:
     """Compiled functions over one work array, and what the slots mean."""
@@ -40,6 +59,8 @@ class Kernel:
     play: tuple[str, ...]
     rows: Rows
     """What the ``channel`` block holds."""
+    held: NDArray[np.int64]
+    """Slots that a lane keeps when its step is not taken."""
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
 
@@ -48,13 +69,12 @@ class Kernel:
         """Coordinates and speeds."""
         return 2 * len(self.coordinates)
 
-    @property
-    def functions(self) -> tuple[Any, ...]:
+    @cached_property
+    def functions(self) -> tuple[CompiledAddress, ...]:
         """The compiled functions, in the order that `solver.lanes.advance.advance` takes them."""
         m = self.module
-        return (
+        functions = (
             m.attempt,
-            m.set_mask,
             m.keep,
             m.commit,
             m.right_hand_side,
@@ -64,6 +84,7 @@ class Kernel:
             m.probe,
             m.probe_around,
         )
+        return tuple(CompiledAddress(function) for function in functions)
 
     def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
@@ -91,14 +112,11 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
-    # `accept` once more for every row, so that one flat loop, which vectorises, can be masked
-    mask_rows = max(rows.scanned, states * (tableau.stages + 1))
-    layout.add_block("mask", mask_rows)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", len(equations.drivers))
     layout.add_block("wound", len(equations.drivers))
     fixed = FixedNodes(layout)
-    steps = stepping.StepRecorder(tableau, states, ledger, joints, mask_rows, layout)
+    steps = stepping.StepRecorder(tableau, states, ledger, joints, layout)
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     source = "\n\n".join(
         [
@@ -123,12 +141,18 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
             joints=joints,
             drivers=drivers,
             rows=rows.scanned,
-            mask_rows=mask_rows,
         ),
         equations.coordinates,
         equations.drivers,
         equations.play,
         rows,
+        np.array(
+            [
+                *stepping.held(layout, states, ledger, joints),
+                *range(layout["previous0"], layout["previous0"] + rows.scanned),
+                *range(layout["change0"], layout["change0"] + rows.scanned),
+            ]
+        ),
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
     )
 

@@ -3,6 +3,7 @@
 It looks at the values at step ends only to find candidates; the extremes themselves are then
 sought inside the steps on the dense output (`solver.lanes.peaks`). The values themselves move to
 the block ``previous``; in their place stays how likely a candidate each is (positive: one).
+Before the second step there is no change before: it is not a number, and no candidate.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
 def source(layout: Layout, rows: int) -> str:
     """Return the source of scan(W)."""
     at = {name: layout[f"{name}0"] * LANES for name in BLOCKS}
-    peak, mask = layout["peak"] * LANES, layout["mask0"] * LANES
+    peak = layout["peak"] * LANES
     lines = []
     for row in range(rows):
         slot = at["channel"] + row * LANES
@@ -58,7 +59,6 @@ def scan(W):
         value = W[{at["channel"]} + i]
         before = W[{at["previous"]} + i]
         rose = W[{at["change"]} + i]
-        taken = W[{mask} + i]
         change = value - before
         above = W[{at["highest"]} + i] - before
         below = before - W[{at["lowest"]} + i]
@@ -66,11 +66,9 @@ def scan(W):
         both = abs(rose) + abs(change)
         uneven = rose + change
         within = {LOPSIDED} * uneven * uneven + ({SPARE} * both - nearest) * both
-        found = 0.0 if rose * change > 0.0 else within
-        found = found if abs(rose) > 0.0 else 0.0
-        W[{at["channel"]} + i] = found if taken > 0.0 else 0.0
-        W[{at["previous"]} + i] = value if taken > 0.0 else before
-        W[{at["change"]} + i] = change if taken > 0.0 else rose
+        W[{at["channel"]} + i] = 0.0 if rose * change > 0.0 else within
+        W[{at["previous"]} + i] = value
+        W[{at["change"]} + i] = change
     for l in range({LANES}):
 {largest}
         W[{peak} + l] = found0

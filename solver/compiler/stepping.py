@@ -15,7 +15,7 @@ from solver.compiler.recorder import Expression, Recorder
 from solver.integrators.tableau import Tableau
 from solver.mechanics.scalars import maximum, minimum, select_positive
 
-SAFETY = 0.9
+SAFETY = 0.95
 PROPORTIONAL = 0.04
 """Weight of the previous error in the step controller (Hairer and Wanner 1996, IV.2)."""
 LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
@@ -53,6 +53,20 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add_block("before_impact_rate", joints)
 
 
+def held(layout: Layout, states: int, ledger: int, joints: int) -> list[int]:
+    """Return the slots that a lane keeps when its step is not taken: all that `commit` writes.
+
+    Not among them is ``step``: a step that is not taken is tried again with another.
+    """
+    names = ["time", "before_time", "before_step", "memory", "steps", "smallest_step"]
+    names += [f"{block}{i}" for i in range(states) for block in ("y", "k1_")]
+    names += [f"{block}{i}" for i in range(ledger) for block in ("total", "kledger1_")]
+    blocks = ("gap_start", "gap_rate_start", "before_mode", "before_impact_rate")
+    names += [f"{block}{j}" for j in range(joints) for block in blocks]
+    first = layout["before_y0"]
+    return [*(layout[name] for name in names), *range(first, 2 * first - layout["y0"])]
+
+
 class StepRecorder:
     """Records the functions of one method for a number of states, ledger terms and joints."""
 
@@ -62,10 +76,8 @@ class StepRecorder:
         states: int,
         ledger: int,
         joints: int,
-        mask_rows: int,
         layout: Layout,
     ) -> None:
-        self.mask_rows = mask_rows
         self.tableau = tableau
         self.states, self.ledger, self.joints = states, ledger, joints
         self.layout = layout
@@ -78,7 +90,7 @@ class StepRecorder:
     def source(self) -> str:
         """Return the source of all functions of a step."""
         parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
-        parts += [self._judge(), self._attempt(), self._keep(), self._mask(), self._commit()]
+        parts += [self._judge(), self._attempt(), self._keep(), self._commit()]
         parts += [self._probe(), self._probe_around()]
         return "\n\n".join(parts)
 
@@ -207,57 +219,37 @@ class StepRecorder:
     def _keep(self) -> str:
         """Keep the dense output of the step that is being taken as the one before."""
         source, target = self.layout["y0"] * LANES, self.layout["before_y0"] * LANES
-        mask = self.layout["mask0"] * LANES
         return f"""{DECORATOR}
 def keep(W):
     for i in range({target - source}):
-        new = W[{source} + i]
-        old = W[{target} + i]
-        W[{target} + i] = new if W[{mask} + i] > 0.0 else old
+        W[{target} + i] = W[{source} + i]
 """
 
-    def _mask(self) -> str:
-        """Repeat `accept` for every row of the mask."""
-        accept, mask = self.layout["accept"] * LANES, self.layout["mask0"] * LANES
-        rows = [f"        W[{mask + i * LANES} + l] = taken" for i in range(self.mask_rows)]
-        return "\n".join(
-            [
-                DECORATOR,
-                "def set_mask(W):",
-                f"    for l in range({LANES}):",
-                f"        taken = W[{accept} + l]",
-                *rows,
-                "",
-            ]
-        )
-
     def _commit(self) -> str:
-        """Take the step in accepting lanes."""
+        """Take the step, in every lane; the driving loop puts back those that do not."""
         v = self.variable
-        accept = v("accept")
-
-        def taken(new: Expression, old: str) -> tuple[str, Expression]:
-            return old, select_positive(accept, new, v(old))
-
-        outputs = [taken(v("arrival"), "time"), ("step", v("next_step"))]
-        outputs.append(taken(v("new_memory"), "memory"))
-        outputs += [taken(v("time"), "before_time"), taken(v("tried"), "before_step")]
-        outputs.append(("steps", v("steps") + accept))
-        outputs.append(taken(minimum(v("tried"), v("smallest_step")), "smallest_step"))
+        outputs = [
+            ("before_time", v("time")),
+            ("before_step", v("tried")),
+            ("time", v("arrival")),
+            ("step", v("next_step")),
+            ("memory", v("new_memory")),
+            ("steps", v("steps") + 1.0),
+            ("smallest_step", minimum(v("tried"), v("smallest_step"))),
+        ]
         for i in range(self.states):
-            outputs.append(taken(v(f"stage{i}"), f"y{i}"))
-            outputs.append(taken(v(f"slope{i}"), f"k1_{i}"))
+            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
             for s, b in enumerate(self.tableau.matrix[-1], start=1):
                 total = total + b * v(f"kledger{s}_{i}")
-            outputs.append(taken(v(f"total{i}") + v("tried") * total, f"total{i}"))
-            outputs.append(taken(v(f"ledger{i}"), f"kledger1_{i}"))
+            outputs.append((f"total{i}", v(f"total{i}") + v("tried") * total))
+            outputs.append((f"kledger1_{i}", v(f"ledger{i}")))
         for j in range(self.joints):
-            outputs.append(taken(v(f"gap{j}"), f"gap_start{j}"))
-            outputs.append(taken(v(f"gap_rate{j}"), f"gap_rate_start{j}"))
-            outputs.append(taken(v(f"mode{j}"), f"before_mode{j}"))
-            outputs.append(taken(v(f"impact_rate{j}"), f"before_impact_rate{j}"))
+            outputs.append((f"gap_start{j}", v(f"gap{j}")))
+            outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
+            outputs.append((f"before_mode{j}", v(f"mode{j}")))
+            outputs.append((f"before_impact_rate{j}", v(f"impact_rate{j}")))
         return self._function("commit", outputs)
 
     def _probe(self) -> str:

@@ -132,12 +132,11 @@ def still_landing(counters: np.ndarray) -> bool:
 
 
 @kernel()
-def masks(which: int, slots: np.ndarray, work: np.ndarray) -> bool:
-    """Whether the mask holds the lanes that are positive in a slot."""
-    for lane in range(LANES):
-        if (work[slots[Slot.MASK] * LANES + lane] > 0.0) != (work[which * LANES + lane] > 0.0):
-            return False
-    return True
+def copy_lane(source: np.ndarray, target: np.ndarray, held: np.ndarray, lane: int) -> None:
+    """Copy the slots that a lane keeps when its step is not taken."""
+    for i in range(len(held)):
+        place = held[i] * LANES + lane
+        target[place] = source[place]
 
 
 TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
@@ -146,11 +145,12 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 5,
+        *[LANE_FUNCTION] * 4,
         FLAG_FUNCTION,
         *[PROBE_FUNCTION] * 3,
         int64[::1],
-        *[float64[::1]] * 2,
+        int64[::1],
+        *[float64[::1]] * 3,
         TABLE,
         int64[:, ::1],
         TABLE,
@@ -160,7 +160,6 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 )
 def advance(
     attempt: LaneFunction,
-    set_mask: LaneFunction,
     keep: LaneFunction,
     commit: LaneFunction,
     right_hand_side: LaneFunction,
@@ -170,8 +169,10 @@ def advance(
     probe: LaneFunction,
     probe_around: LaneFunction,
     slots: np.ndarray,
+    held: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
+    store: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
     scratch: np.ndarray,
@@ -184,10 +185,12 @@ def advance(
 
     Parameters
     ----------
-    attempt, set_mask, keep, commit, right_hand_side, observe, scan, lend, probe, probe_around
+    attempt, keep, commit, right_hand_side, observe, scan, lend, probe, probe_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     slots
-        Where quantities live in `work` and `spare`, both (slots * LANES,).
+        Where quantities live in `work`, `spare` and `store`, all (slots * LANES,).
+    held
+        Slots of `work` that wait in `store` while a lane's step is not taken.
     settings, counters
         (kinds, LANES): see `solver.lanes.state`.
     scratch : (rows + 1, POINTS + 1)
@@ -205,14 +208,14 @@ def advance(
     work, spare, slots = borrowed(work), borrowed(spare), borrowed(slots)
     settings, counters = borrowed(settings), borrowed(counters)
     scratch = borrowed(scratch)
+    held, store = borrowed(held), borrowed(store)
     running = count_active(slots, work)
     landing = still_landing(counters)
-    masked = False
     for _ in range(budget):
         if running == 0:
             break
         flags = attempt(work)
-        quiet = flags == 0.0 and not landing and masked
+        quiet = flags == 0.0 and not landing
         full = False
         if not quiet:
             for lane in range(LANES):
@@ -224,12 +227,15 @@ def advance(
                         flag, lane, slots, work, spare, settings, counters,
                         sample_rows, section_rows, lend, probe, right_hand_side,
                     )  # fmt: skip
-            if not masks(slots[Slot.ACCEPT], slots, work):
-                set_mask(work)
+                if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
+                    copy_lane(work, store, held, lane)
         observe(work)
         if scan(work) > 0.0:
             for lane in range(LANES):
-                if work[slots[Slot.PEAK] * LANES + lane] > 0.0:
+                if (
+                    work[slots[Slot.PEAK] * LANES + lane] > 0.0
+                    and work[slots[Slot.ACCEPT] * LANES + lane] > 0.0
+                ):
                     refine_peaks(
                         lane, slots, work, spare, counters, settings, scratch,
                         lend, probe_around, right_hand_side, observe,
@@ -240,13 +246,13 @@ def advance(
             continue
         for lane in range(LANES):
             if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
+                copy_lane(store, work, held, lane)
                 continue
             flag = int(work[slots[Slot.FLAG] * LANES + lane])
             if flag != 0 or counters[Counter.LANDING, lane] >= 0:
                 full |= settle(flag, lane, slots, work, settings, counters, impact_rows)
         running = count_active(slots, work)
         landing = still_landing(counters)
-        masked = masks(slots[Slot.ACTIVE], slots, work)
         if full:
             break
     return running

@@ -58,7 +58,7 @@ class Bundle:
         self.kernel = kernel
         self.problems = tuple(problems)
         size = kernel.layout.size * LANES
-        self.work, self.spare = aligned_zeros(size), aligned_zeros(size)
+        self.work, self.spare, self.store = (aligned_zeros(size) for _ in range(3))
         drivers, joints = len(kernel.drivers), len(kernel.play)
         self.settings = np.zeros((Setting.FIRST_DRIVER + 2 * drivers, LANES))
         self.counters = np.zeros((Counter.COUNT, LANES), dtype=np.int64)
@@ -88,8 +88,10 @@ class Bundle:
             advance(
                 *self.kernel.functions,
                 self.kernel.slots,
+                self.kernel.held,
                 self.work,
                 self.spare,
+                self.store,
                 self.settings,
                 self.counters,
                 self.scratch,
@@ -215,6 +217,7 @@ class Bundle:
         module.observe_rest(self.work)
         for block in ("previous0", "highest0", "lowest0"):
             self.table(block, rows)[:] = self.table("channel0", rows)
+        self.table("change0", rows)[:] = math.nan
         if joints:
             episodes = self.table("lowest0", rows)[rows - joints :]
             episodes[:] = -math.inf

@@ -48,7 +48,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "string_too_short": lambda field, _u, _c: f"'{field}' must not be empty.",
     "string_pattern_mismatch": lambda field, _u, c: (
-        f"'{field}' must be body.point, for example crank1.pin or ground.O."
+        f"'{field}' must be body.point, for example crank.pin or ground.O."
         if r"\." in c["pattern"]
         else f"'{field}' must begin with a letter and have at most 32 letters, digits, - or _."
     ),
