@@ -226,16 +226,21 @@ def keep(W):
 """
 
     def _commit(self) -> str:
-        """Take the step, in every lane; the driving loop puts back those that do not."""
+        """Take the step, in every lane; the driving loop puts back those that do not.
+
+        Lanes that are over take steps of no length, which change nothing that is handed out.
+        """
         v = self.variable
+        running = v("active")
+        smallest = minimum(v("tried"), v("smallest_step"))
         outputs = [
             ("before_time", v("time")),
             ("before_step", v("tried")),
             ("time", v("arrival")),
             ("step", v("next_step")),
             ("memory", v("new_memory")),
-            ("steps", v("steps") + 1.0),
-            ("smallest_step", minimum(v("tried"), v("smallest_step"))),
+            ("steps", v("steps") + running),
+            ("smallest_step", select_positive(running, smallest, v("smallest_step"))),
         ]
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]

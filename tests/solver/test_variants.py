@@ -172,7 +172,7 @@ def test_a_translated_journal_moves_alike() -> None:
         np.testing.assert_allclose(there[channel], here[channel] + shift, rtol=0, atol=tolerance)
     # scales of the error norm do not see the distance from the origin, which is 3000 clearances:
     # the same steps are made but for the few whose acceptance hangs on rounding
-    assert there.statistics["steps"] == pytest.approx(here.statistics["steps"], rel=0.02)
+    assert there.statistics["steps"] == pytest.approx(here.statistics["steps"], rel=0.05)
     assert there.statistics["onsets"] == here.statistics["onsets"] >= 4
 
 
@@ -189,7 +189,7 @@ def test_a_mirrored_press_runs_as_the_mirror_image() -> None:
                 sense * here[f"{body}.{name}"],
                 rtol=0,
                 # rounding, 1e-15, amplified by three impacts about a hundredfold each
-                atol=1e-10 * rates,
+                atol=1e-9 * rates,
             )
 
 
