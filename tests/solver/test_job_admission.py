@@ -136,7 +136,7 @@ BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "zero inertia": (
         at("/scene/bodies/link2/inertia", 0.0),
         "/scene/bodies/link2/inertia",
-        "greater",
+        "at least",
     ),
     "negative clearance": (
         at(f"{A}/clearance/radial_clearance", -1e-4),
