@@ -1,7 +1,8 @@
 """Records one step of an embedded Runge-Kutta method: stages, error, control, commit, dense output.
 
 The functions work on the slots of one work array (`allocate` names them). They decide nothing
-that needs a branch: flags tell the driving loop (`solver.lanes.advance`) which lanes want attention.
+that needs a branch: flags tell the driving loop (`solver.lanes.advance`) which lanes want
+attention.
 """
 
 from __future__ import annotations
