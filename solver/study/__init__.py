@@ -1,0 +1,1 @@
+"""Studies: jobs of many points, computed in blocks of lanes."""
