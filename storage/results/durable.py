@@ -29,10 +29,12 @@ class DurableFolder:
     """Writes whole files below a folder, many at a time.
 
     A file appears under its name only when all of it is on the disk. `records` holds size and
-    checksum of every file written, by key (path below the folder, with slashes).
+    checksum of every file written, by key (path below the folder, with slashes). Several writers
+    of one folder need a `partial` each, what a file's name ends with while it is written.
     """
 
     root: Path
+    partial: str = PARTIAL
     records: dict[str, Record] = field(default_factory=dict)
     _partial: dict[str, None] = field(default_factory=dict)  # in order, each once
     _folders: set[str] = field(default_factory=set)
@@ -49,7 +51,7 @@ class DurableFolder:
 
         All files first, then all their names.
         """
-        sync_all([f"{self.root}/{key}{PARTIAL}" for key in self._partial])
+        sync_all([f"{self.root}/{key}{self.partial}" for key in self._partial])
         for key in self._partial:
             self._appear(key)
         self._partial.clear()
@@ -70,7 +72,7 @@ class DurableFolder:
         except OSError as error:
             if error.errno not in _NOT_LINKABLE:
                 raise
-            partial = f"{path}{PARTIAL}"
+            partial = f"{path}{self.partial}"
             shutil.copyfile(source, partial)
             sync(partial)
             os.replace(partial, path)
@@ -84,7 +86,7 @@ class DurableFolder:
 
     def _put(self, key: str, content: bytes) -> None:
         self._make_folder(key)
-        descriptor = os.open(f"{self.root}/{key}{PARTIAL}", _NEW_FILE, 0o666)
+        descriptor = os.open(f"{self.root}/{key}{self.partial}", _NEW_FILE, 0o666)
         try:
             _write_all(descriptor, content)
         finally:
@@ -92,7 +94,7 @@ class DurableFolder:
 
     def _appear(self, key: str) -> None:
         path = f"{self.root}/{key}"
-        os.replace(path + PARTIAL, path)
+        os.replace(path + self.partial, path)
 
     def _make_folder(self, key: str) -> None:
         """Make the folder of a file; a new folder's name must become durable as well."""

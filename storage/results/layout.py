@@ -88,11 +88,7 @@ class ResultLayout:
     def __post_init__(self) -> None:
         seen: set[str] = set()
         for channel in self.channels:
-            if not _NAME.fullmatch(channel.name) or channel.name.endswith((".json", ".partial")):
-                raise InvalidLayout(
-                    f"{channel.name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
-                    "'.' and '-', not starting with '.' and not ending in .json or .partial"
-                )
+            check_name(channel.name)
             if channel.name in _RESERVED:
                 raise InvalidLayout(
                     f"{channel.name!r} cannot name a channel: the store uses that name itself"
@@ -119,3 +115,12 @@ class ResultLayout:
             astuple(self.partition),
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()
+
+
+def check_name(name: str) -> None:
+    """Raise `InvalidLayout` if an array cannot have this name."""
+    if not _NAME.fullmatch(name) or name.endswith((".json", ".partial")):
+        raise InvalidLayout(
+            f"{name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
+            "'.' and '-', not starting with '.' and not ending in .json or .partial"
+        )

@@ -4,9 +4,8 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from storage.results.durable import DurableFolder, Record, measure
+from storage.results.durable import PARTIAL, DurableFolder, Record, measure
 from storage.results.errors import CorruptStore, NotAStore
-from storage.results.journal import FOLDER as JOURNAL
 from storage.results.layout import MANIFEST, SCHEMA_VERSION
 
 _MOST_NAMED = 5
@@ -24,10 +23,15 @@ def seal(folder: DurableFolder) -> None:
 
 
 def keys(root: Path) -> Iterator[str]:
-    """List the files of a store but the manifest itself, as paths with slashes."""
+    """List the files of a store but the manifest itself, as paths with slashes.
+
+    What is still being written is none of them: hidden folders, and files that have not got
+    their name yet. A worker that comes back late may leave some even beside a sealed store.
+    """
     for path in root.rglob("*"):
         key = path.relative_to(root).as_posix()
-        if path.is_file() and key != MANIFEST and not key.startswith(f"{JOURNAL}/"):
+        unfinished = key.startswith(".") or key.endswith(PARTIAL)
+        if path.is_file() and key != MANIFEST and not unfinished:
             yield key
 
 

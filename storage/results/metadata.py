@@ -9,8 +9,10 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
+import numpy as np
+
 from storage.results.layout import ResultLayout
-from storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR
+from storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR, fill
 from storage.results.tables import Column, Table, tables
 
 Document = dict[str, Any]
@@ -37,17 +39,17 @@ def documents(
     members: dict[str, Document] = {}
     groups: dict[str, Document] = {}
     for table, count in zip(tables(layout), rows, strict=True):
-        arrays = {column.name: _array(column, table, count) for column in table.columns}
+        arrays = {column.name: _column(column, table, count) for column in table.columns}
         written |= {f"{table.key(name)}/{FILE}": array for name, array in arrays.items()}
         if table.group:
-            groups[table.group] = _group(table.attributes, arrays)
-            members[table.group] = _group(table.attributes, {})
+            groups[table.group] = group(table.attributes, arrays)
+            members[table.group] = group(table.attributes, {})
             members |= {table.key(name): array for name, array in arrays.items()}
             written[f"{table.group}/{FILE}"] = groups[table.group]
         else:
             members |= arrays
             own = table.attributes
-    written[FILE] = _group({**layout.attributes, **own, **attributes}, members)
+    written[FILE] = group({**layout.attributes, **own, **attributes}, members)
     return written
 
 
@@ -62,39 +64,61 @@ def serialise(document: Mapping[str, Any]) -> bytes:
     return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
 
 
-def _array(column: Column, table: Table, rows: int) -> Document:
+def array(
+    shape: Sequence[int],
+    chunk: Sequence[int],
+    dtype: np.dtype[Any],
+    dimensions: Sequence[str],
+    attributes: Mapping[str, Any],
+    *,
+    shard: Sequence[int] | None = None,
+) -> Document:
+    """Make the document of one array whose chunks are compressed as `shards.compress` does.
+
+    Parameters
+    ----------
+    shape, chunk
+        Of the array, and of what is compressed together.
+    dtype
+        Little-endian doubles or integers.
+    dimensions, attributes
+        Names of the dimensions; units and meaning.
+    shard
+        Shape of one file, a whole number of chunks; none: a file is a chunk.
+    """
     blosc = {
-        "typesize": column.dtype.itemsize,
+        "typesize": dtype.itemsize,
         "cname": COMPRESSOR,
         "clevel": COMPRESSION_LEVEL,
         "shuffle": "shuffle",
         "blocksize": 0,
     }
     codecs: list[Document] = [_BYTES_CODEC, {"name": "blosc", "configuration": blosc}]
-    if table.chunk_rows != table.shard_rows:
+    if shard is not None:
         sharding = {
-            "chunk_shape": [table.chunk_rows],
+            "chunk_shape": list(chunk),
             "codecs": codecs,
             "index_codecs": [_BYTES_CODEC, {"name": "crc32c"}],
             "index_location": "end",
         }
         codecs = [{"name": "sharding_indexed", "configuration": sharding}]
-    grid = {"name": "regular", "configuration": {"chunk_shape": [table.shard_rows]}}
+    grid = {"name": "regular", "configuration": {"chunk_shape": list(shard or chunk)}}
     return {
         "zarr_format": 3,
         "node_type": "array",
-        "shape": [rows],
-        "data_type": column.dtype.name,
+        "shape": list(shape),
+        "data_type": dtype.name,
         "chunk_grid": grid,
         "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
-        "fill_value": column.fill if column.dtype.kind == "i" else "NaN",
+        "fill_value": "NaN" if dtype.kind == "f" else fill(dtype),
         "codecs": codecs,
-        "attributes": column.attributes,
-        "dimension_names": [table.dimension],
+        "attributes": attributes,
+        "dimension_names": list(dimensions),
     }
 
 
-def _group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Document:
+def group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Document:
+    """Make the document of a group, with those of what lies below it."""
     below = {"kind": "inline", "must_understand": False, "metadata": members}
     return {
         "zarr_format": 3,
@@ -102,3 +126,15 @@ def _group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Do
         "attributes": attributes,
         "consolidated_metadata": below,
     }
+
+
+def _column(column: Column, table: Table, rows: int) -> Document:
+    whole_chunks = table.chunk_rows == table.shard_rows
+    return array(
+        [rows],
+        [table.chunk_rows],
+        column.dtype,
+        [table.dimension],
+        column.attributes,
+        shard=None if whole_chunks else [table.shard_rows],
+    )

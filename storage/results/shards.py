@@ -42,7 +42,7 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
         CRC-32C of the index.
     """
     if chunk_rows == shard_rows:
-        return _compress(rows, chunk_rows, fill)
+        return _chunk(rows, chunk_rows, fill)
     chunks: list[bytes] = []
     index: list[int] = []
     offset = 0
@@ -50,7 +50,7 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
         if first >= len(rows):
             index += (_ABSENT, _ABSENT)
             continue
-        chunk = _compress(rows[first : first + chunk_rows], chunk_rows, fill)
+        chunk = _chunk(rows[first : first + chunk_rows], chunk_rows, fill)
         chunks.append(chunk)
         index += (offset, len(chunk))
         offset += len(chunk)
@@ -58,7 +58,20 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
     return b"".join((*chunks, packed, struct.pack("<I", google_crc32c.value(packed))))
 
 
-def _compress(rows: NDArray[Any], chunk_rows: int, fill: float) -> bytes:
+def compress(chunk: NDArray[Any]) -> bytes:
+    """Encode one whole chunk of any shape, in C order: a file that holds a chunk has these bytes.
+
+    The same chunk gives the same bytes, on any number of threads.
+    """
+    return bytes(_codec.encode(np.ascontiguousarray(chunk)))
+
+
+def fill(dtype: np.dtype[Any]) -> float | int:
+    """Value that stands where nothing was written: NaN, -1 for an index, 0 for a code."""
+    return {"f": float("nan"), "i": -1, "u": 0}[dtype.kind]
+
+
+def _chunk(rows: NDArray[Any], chunk_rows: int, fill: float) -> bytes:
     if len(rows) < chunk_rows:
         rows = np.concatenate([rows, np.full(chunk_rows - len(rows), fill, dtype=rows.dtype)])
-    return bytes(_codec.encode(np.ascontiguousarray(rows)))
+    return compress(rows)

@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
+from storage.results.shards import fill
 
 _DOUBLE: Final = np.dtype("<f8")
 _IMPACT_MEANING: Final = {
@@ -38,7 +39,7 @@ class Column:
     @property
     def fill(self) -> float | int:
         """Value of rows that were not written."""
-        return -1 if self.dtype.kind == "i" else float("nan")
+        return fill(self.dtype)
 
 
 @dataclass(frozen=True)
