@@ -8,7 +8,7 @@ from fastapi.openapi.utils import get_openapi
 
 from service.problems.document import ProblemDocument, problems
 from service.problems.kinds import INVALID_REQUEST
-from solver.job import SimulateJob
+from solver.jobs import SimulateJob
 
 _REFERENCE = "#/components/schemas/{model}"
 

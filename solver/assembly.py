@@ -66,6 +66,16 @@ def shortest_link(scene: Scene) -> float:
 
     Without any: the largest bearing radius, else 1 m.
     """
+    distances = link_lengths(scene)
+    if distances:
+        return min(distances)
+    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
+    radii = [c.bearing_radius for c in clearances if c is not None]
+    return max(radii, default=1.0)
+
+
+def link_lengths(scene: Scene) -> list[float]:
+    """Return the distances, m, between joints on one body that are apart; there may be none."""
     joined: dict[str, list[list[float]]] = {name: [] for name in scene.bodies}
     for joint in scene.joints.values():
         for _, reference in ends(joint):
@@ -73,12 +83,7 @@ def shortest_link(scene: Scene) -> float:
             if body in joined:
                 joined[body].append(scene.bodies[body].points[point])
     distances = [math.dist(a, b) for points in joined.values() for a, b in combinations(points, 2)]
-    distances = [d for d in distances if d > 0.0]
-    if distances:
-        return min(distances)
-    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
-    radii = [c.bearing_radius for c in clearances if c is not None]
-    return max(radii, default=1.0)
+    return [d for d in distances if d > 0.0]
 
 
 def driver_positions(scene: Scene) -> dict[str, float]:

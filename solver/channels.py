@@ -7,7 +7,8 @@ from fnmatch import fnmatchcase
 
 from solver.errors import InvalidInput, Problem
 from solver.scene.document import Revolute, Scene
-from solver.scene.references import has_play, unknown
+from solver.scene.near import unknown
+from solver.scene.references import has_play
 
 BODY = (
     ("x", "m", "position x of the centre of mass"),

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from solver.scene.document import Revolute, Scene
 
@@ -33,6 +35,11 @@ def common_period(scene: Scene) -> Period:
                 return Period(None, "A driven slider never comes back, so there is no period.")
         elif driver.speed != 0.0:
             speeds.append(abs(driver.speed))
+    return period_of(speeds)
+
+
+def period_of(speeds: Sequence[float]) -> Period:
+    """Return the least common period of turning drivers, whose speeds (rad/s) are positive."""
     if not speeds:
         return Period(None, "No driver turns, so there is no period and no Poincare section.")
     if min(speeds) < SLOWEST:
@@ -42,7 +49,7 @@ def common_period(scene: Scene) -> Period:
     first = speeds[0]
     turns = Fraction(1)
     for speed in speeds[1:]:
-        ratio = Fraction(speed / first).limit_denominator(LARGEST_RATIO)
+        ratio = _whole_numbers(speed / first)
         exact = ratio > 0 and abs(float(ratio) * first - speed) <= RATIO_TOLERANCE * speed
         if not exact or ratio.numerator > LARGEST_RATIO:
             return Period(
@@ -56,6 +63,11 @@ def common_period(scene: Scene) -> Period:
     return Period(float(turns) * (2.0 * math.pi / first))
 
 
+@lru_cache(maxsize=1024)
+def _whole_numbers(ratio: float) -> Fraction:
+    return Fraction(ratio).limit_denominator(LARGEST_RATIO)
+
+
 def characteristic_time(scene: Scene, length: float) -> float:
     """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
     turning = [abs(d.speed) for d in scene.drivers.values() if abs(d.speed) >= SLOWEST]
@@ -63,3 +75,9 @@ def characteristic_time(scene: Scene, length: float) -> float:
         return 2.0 * math.pi / max(turning)
     gravity = math.hypot(*scene.gravity)
     return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
+
+
+def section_offset(scene: Scene, period: float, crank_angle: float) -> float:
+    """Return the time of the first section, s: when the first driver has turned that far."""
+    speeds = [abs(driver.speed) for driver in scene.drivers.values() if driver.speed != 0.0]
+    return min(crank_angle / speeds[0], period) if crank_angle else 0.0

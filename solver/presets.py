@@ -6,7 +6,7 @@ from importlib import resources
 from typing import Any
 
 from solver.errors import InvalidInput, Problem
-from solver.scene.references import unknown
+from solver.scene.near import unknown
 
 
 @cache

@@ -70,7 +70,7 @@ def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
 def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
     from service.jobs.schemas import JobResource
     from service.results.schemas import History, Impacts, Peaks
-    from solver.job import SimulateJob
+    from solver.jobs import SimulateJob
 
     for model in (SimulateJob, JobResource, History, Impacts, Peaks):
         schema = model.model_json_schema()

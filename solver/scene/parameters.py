@@ -3,11 +3,11 @@
 import copy
 import math
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Any
 
 from solver.errors import InvalidInput, Problem
 from solver.scene.document import Parameter, Scene
+from solver.scene.near import unknown
 
 PLACE = "/scene/parameters"
 """Where a job gives values, and where a scene document declares parameters."""
@@ -27,7 +27,7 @@ def set_parameters(
         A name that is not declared, or a value outside its declared range or choices.
     """
     problems = [
-        Problem(f"{PLACE}/{name}", f"There is no parameter '{name}'; {_near(name, scene)}.")
+        Problem(f"{PLACE}/{name}", unknown("parameter", name, scene.parameters))
         for name in values
         if name not in scene.parameters
     ]
@@ -102,13 +102,18 @@ def _outside(name: str, parameter: Parameter, value: float, unit: str) -> str | 
     high = math.inf if parameter.maximum is None else parameter.maximum
     if low <= value <= high and math.isfinite(value):
         return None
-    if math.isfinite(low) and math.isfinite(high):
-        allowed = f"lies between {low:g} and {high:g}{unit}"
-    elif math.isfinite(low):
-        allowed = f"is at least {low:g}{unit}"
-    else:
-        allowed = f"is at most {high:g}{unit}" if math.isfinite(high) else "is finite"
-    return f"'{name}' is {value:g}; it {allowed}."
+    return f"'{name}' is {value:g}; it {allowed_range(parameter)}."
+
+
+def allowed_range(parameter: Parameter) -> str:
+    """Return the end of a sentence about a parameter's value: where it lies."""
+    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
+    low, high = parameter.minimum, parameter.maximum
+    if low is not None and high is not None:
+        return f"lies between {low:g} and {high:g}{unit}"
+    if low is not None:
+        return f"is at least {low:g}{unit}"
+    return f"is at most {high:g}{unit}" if high is not None else "is finite"
 
 
 def _place(document: Any, path: str, value: object) -> None:
@@ -119,11 +124,3 @@ def _place(document: Any, path: str, value: object) -> None:
         document[int(last)] = value
     else:
         document[last] = value
-
-
-def _near(name: str, scene: Scene) -> str:
-    near = get_close_matches(name, scene.parameters, n=1)
-    if near:
-        return f"did you mean '{near[0]}'?"[:-1]
-    declared = ", ".join(scene.parameters) or "none"
-    return f"'{scene.name}' declares {declared}"

@@ -1,12 +1,13 @@
-"""Checks of a scene that need more than one field: names that must exist, sizes that must fit."""
+"""Checks of a scene that need more than one field: names that must exist, and must be new."""
 
 from collections import Counter
 from collections.abc import Iterator
-from difflib import get_close_matches
 
 from solver.errors import Problem
-from solver.scene.document import Clearance, Fixed, Joint, Prismatic, Revolute, Scene
+from solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
+from solver.scene.near import unknown
 from solver.scene.parameters import has_place
+from solver.scene.sizes import size_problems
 
 RESERVED = frozenset({"ground", "energy", "time", "poincare", "peaks", "impacts"})
 RESERVED_OUTPUTS = RESERVED | {"c"}
@@ -36,6 +37,7 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
     yield from _names(scene)
     for name, joint in scene.joints.items():
         yield from _joint(scene, name, joint)
+    yield from size_problems(scene)
     for name, driver in scene.drivers.items():
         yield from _driver(scene, name, driver.joint)
     doubled = Counter(driver.joint for driver in scene.drivers.values())
@@ -51,15 +53,6 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
     yield from _parameters(scene)
-
-
-def unknown(kind: str, name: str, known: object) -> str:
-    """Return a sentence that names an unknown thing and what there is instead."""
-    names = [str(item) for item in known] if hasattr(known, "__iter__") else []
-    near = get_close_matches(name, names, n=1)
-    listed = ", ".join(names[:12]) + (", …" if len(names) > 12 else "")
-    hint = f"did you mean '{near[0]}'?" if near else f"there are: {listed or 'none'}."
-    return f"There is no {kind} '{name}'; {hint}"
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:
@@ -120,34 +113,6 @@ def _joint(scene: Scene, name: str, joint: Joint) -> Iterator[Problem]:
     if bodies[0] == bodies[1]:
         yield Problem(
             f"/joints/{name}", f"Both ends are on '{bodies[0]}'; a joint joins two bodies."
-        )
-    if isinstance(joint, Prismatic) and joint.axis[0] == joint.axis[1] == 0.0:
-        yield Problem(f"/joints/{name}/axis", "The axis has no direction; give e.g. [1, 0].")
-    if isinstance(joint, Revolute) and joint.clearance is not None:
-        yield from _clearance(name, joint.clearance)
-
-
-def _clearance(name: str, clearance: Clearance) -> Iterator[Problem]:
-    place = f"/joints/{name}/clearance"
-    if clearance.radial_clearance >= clearance.bearing_radius:
-        yield Problem(
-            f"{place}/radial_clearance",
-            f"A radial clearance of {clearance.radial_clearance:g} m leaves no journal in a bearing"
-            f" of radius {clearance.bearing_radius:g} m; it must be smaller.",
-        )
-    law = clearance.contact
-    if law.stiffness is None and law.exponent != 1.5:
-        yield Problem(
-            f"{place}/contact/exponent",
-            "Eq. 9 gives a stiffness for the exponent 1.5 only; with another exponent give a"
-            " stiffness (N/m^n).",
-        )
-    friction = clearance.friction
-    if friction is not None and friction.static_velocity > friction.dynamic_velocity:
-        yield Problem(
-            f"{place}/friction/static_velocity",
-            f"The static limit velocity ({friction.static_velocity:g} m/s) is above the dynamic one"
-            f" ({friction.dynamic_velocity:g} m/s); it may at most equal it.",
         )
 
 

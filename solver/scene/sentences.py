@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from difflib import get_close_matches
 from functools import cache
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from solver.errors import Problem
+from solver.scene.forms import is_form
+from solver.scene.near import did_you_mean
 
-FORMS = frozenset({"PresetScene", "Scene"})
 JOINTS = frozenset({"revolute", "prismatic", "fixed"})
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
@@ -24,6 +24,10 @@ def _in(unit: str) -> str:
     return f", in{unit}" if unit else ""
 
 
+def _of(unit: str) -> str:
+    return f" of{unit}" if unit else ""
+
+
 SENTENCES: dict[str, Sentence] = {
     "missing": lambda field, _unit, _c: f"The field '{field}' is required.",
     "greater_than": lambda field, unit, c: f"'{field}' must be greater than {c['gt']:g}{unit}.",
@@ -32,6 +36,8 @@ SENTENCES: dict[str, Sentence] = {
     "less_than_equal": lambda field, unit, c: f"'{field}' must be at most {c['le']:g}{unit}.",
     "finite_number": lambda field, unit, _c: f"'{field}' must be a finite number{_in(unit)}.",
     "float_type": lambda field, unit, _c: f"'{field}' must be a number{_in(unit)}.",
+    "int_type": lambda field, unit, _c: f"'{field}' must be a whole number{_of(unit)}.",
+    "int_from_float": lambda field, unit, _c: f"'{field}' must be a whole number{_of(unit)}.",
     "string_type": lambda field, _unit, _c: f"'{field}' must be a string.",
     "list_type": lambda field, _unit, _c: f"'{field}' must be a list.",
     "dict_type": lambda field, _unit, _c: f"'{field}' must be an object.",
@@ -55,20 +61,12 @@ SENTENCES: dict[str, Sentence] = {
 }
 
 
-def schema_problems(
-    error: ValidationError, root: type[BaseModel], branch: str = ""
-) -> list[Problem]:
-    """Return one problem for each wrong place; of a scene's two forms, the one that was meant.
-
-    `root` is the model that was validated; `branch` names the form of scene that was meant.
-    """
+def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
+    """Return one problem for each wrong place; `root` is the model that was validated."""
     known, units = vocabulary(root)
     found: dict[str, str] = {}
     for item in error.errors(include_url=False, include_input=False):
         location = [str(part) for part in item["loc"]]
-        forms = FORMS & set(location[1:2])
-        if branch and forms and branch not in forms:
-            continue
         place = _place(location)
         pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
@@ -88,18 +86,16 @@ def _place(location: list[str]) -> list[str]:
     place: list[str] = []
     for index, part in enumerate(location):
         last = index == len(location) - 1
-        form = index == 1 and part in FORMS
         joint = part in JOINTS and place[-2:-1] == ["joints"]
         kind = last and (part in TYPES or part == "[key]") and index > 1
-        if not (form or joint or kind):
+        if not (is_form(part) or joint or kind):
             place.append(part)
     return place
 
 
 def _no_such_field(field: str, known: frozenset[str]) -> str:
-    near = get_close_matches(field, known, n=1)
-    hint = f"; did you mean '{near[0]}'?" if near else "."
-    return f"There is no field '{field}' here{hint}"
+    meant = did_you_mean(field, known)
+    return f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
 
 
 @cache
@@ -109,6 +105,7 @@ def vocabulary(root: type[BaseModel]) -> tuple[frozenset[str], dict[str, str]]:
     names: set[str] = set()
     for model in _models(root):
         for name, field in model.model_fields.items():
+            name = field.alias or name
             names.add(name)
             for extra in (field.json_schema_extra, *(_extras(field.metadata))):
                 if isinstance(extra, dict) and isinstance(extra.get("unit"), str):

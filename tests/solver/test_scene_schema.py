@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from solver.job import SimulateJob
+from solver.jobs import SimulateJob
 from solver.scene.document import Scene
 
 UNIT_ELSEWHERE = {

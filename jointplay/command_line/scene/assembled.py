@@ -69,7 +69,7 @@ def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) ->
     from solver.admission import resolve
     from solver.assembly import assemble
     from solver.errors import InvalidInput, Problem
-    from solver.job import SimulateJob
+    from solver.jobs import SimulateJob
     from solver.scene.document import Scene
 
     if is_scene:

@@ -1,14 +1,20 @@
-"""The job document: what a client asks for, strictly checked."""
+"""What the documents of all kinds of jobs share."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from solver.scene.document import Scene
+from solver.scene.forms import form, has, told_by
 from solver.scene.quantities import Name, Strict
 
 TOLERANCES = {"standard": 1e-6}
 """Named accuracies and the tolerance each stands for."""
+
+ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
+ChannelChoice = Annotated[
+    list[ChannelPattern], Field(min_length=1, max_length=1024, description="names or globs")
+]
 
 
 class PresetScene(Strict):
@@ -18,23 +24,26 @@ class PresetScene(Strict):
     parameters: Annotated[dict[Name, float | str | None], Field(max_length=64)] = {}
 
 
-class Section(Strict):
-    """Where Poincare sections are taken: a crank angle of the first driver past its start."""
+def _form_of_scene(value: Any) -> str | None:
+    if has(value, "preset"):
+        return "preset"
+    if has(value, "bodies"):
+        return "scene"
+    return "preset" if isinstance(value, dict) else None
 
-    crank_angle: Annotated[
-        float, Field(ge=0.0, lt=6.283185307179586, json_schema_extra={"unit": "rad"})
-    ] = 0.0
+
+SceneChoice = Annotated[
+    Annotated[PresetScene, form("preset")] | Annotated[Scene, form("scene")],
+    told_by(_form_of_scene, "'scene' must be a scene document, or an object with a 'preset'"),
+    Field(description="a preset with parameters set, or a whole scene document"),
+]
 
 
-class SimulateJob(Strict):
-    """One trajectory from the scene's start."""
+class Job(Strict):
+    """What every kind of job says: the mechanism, and how it is computed."""
 
-    kind: Literal["simulate"]
-    scene: PresetScene | Scene
-    duration: Annotated[
-        float,
-        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
-    ]
+    kind: str
+    scene: SceneChoice
     tolerance: Annotated[
         float | None,
         Field(
@@ -47,18 +56,6 @@ class SimulateJob(Strict):
     accuracy: Annotated[
         Literal["standard"] | None, Field(description="a named tolerance: standard is 1e-6")
     ] = None
-    output_step: Annotated[
-        float | None,
-        Field(
-            ge=1e-15,
-            description="time between samples; default duration/2000",
-            json_schema_extra={"unit": "s"},
-        ),
-    ] = None
-    channels: Annotated[
-        list[Annotated[str, Field(min_length=1, max_length=80)]],
-        Field(min_length=1, max_length=1024, description="names or globs"),
-    ] = ["*"]
     formulation: Annotated[
         Literal["reduced", "lagrange"],
         Field(
@@ -68,5 +65,4 @@ class SimulateJob(Strict):
             )
         ),
     ] = "reduced"
-    section: Section = Section()
     label: Annotated[str, Field(max_length=200)] = ""

@@ -1,0 +1,26 @@
+"""Admission of the kind ``bifurcation``: sections over the values of one parameter."""
+
+from __future__ import annotations
+
+from solver.admission.points import one_axis
+from solver.admission.studies import check_count, section_study
+from solver.admission.written import axis
+from solver.jobs.bifurcation import BifurcationJob
+from solver.jobs.values import count
+from solver.study.plan import Study
+
+
+def admit_bifurcation(job: BifurcationJob) -> Study:
+    """Check a parsed job and fill in its defaults.
+
+    Raises
+    ------
+    InvalidInput
+        With what is wrong, at its field or value.
+    LimitExceeded
+        The study is sound but too large; the sentence gives the estimate.
+    """
+    twice = 2 if job.continuation == "both" else 1
+    check_count(twice * count(job.values), "/values")
+    points = one_axis(axis(job.parameter, job.values, "/parameter", "/values"))
+    return section_study(job, points, continuation=job.continuation, chains=job.chains)

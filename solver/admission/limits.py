@@ -1,0 +1,21 @@
+"""How much a job may ask for."""
+
+LONGEST_RUN = 1e6
+"""Longest duration of one run, in periods."""
+LONGEST_IDEAL_RUN = 100.0
+"""The same for an ideal mechanism that never repeats: every pose follows from the one before."""
+MOST_SAMPLES = 100_000_000
+MOST_BYTES = 10_000_000_000
+BYTES_PER_VALUE = 8.0
+DEFAULT_SAMPLES = 2000
+
+MOST_POINTS = 100_000
+"""Of a study."""
+MOST_PERIODS = 1e8
+"""Of all points of a study together."""
+LONGEST_SETTLING = 2000
+"""Periods after which "settle": "auto" stops waiting."""
+EVENT_PATIENCE = 20
+"""Periods per section that is not taken at a crank angle, before a run ends without it."""
+BYTES_PER_POINT = 512.0
+"""Of a study beside sections and peaks: status, statistics, indicators."""

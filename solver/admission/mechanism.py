@@ -1,0 +1,178 @@
+"""Checks of the mechanism that every kind of job shares: its parameters, references, assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from solver import presets
+from solver.assembly import ASSEMBLED, Assembly, assemble, shortest_link
+from solver.channels import Channel, channels
+from solver.errors import InvalidInput, Problem
+from solver.jobs import Job, PresetScene
+from solver.mechanics.tree import Tree, spanning_tree
+from solver.scene.document import Scene
+from solver.scene.parameters import parameter_of, set_parameters
+from solver.scene.references import reference_problems
+from solver.scene.sentences import schema_problems
+
+Echo = dict[str, float | str | None]
+"""The value of every declared parameter; none where the document's own values stand."""
+
+
+def declared(job: Job) -> tuple[dict[str, Any], Scene, dict[str, float | str | None]]:
+    """Return a job's scene as it is written: document, parsed, and the parameters that are given.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown preset; parts of the scene that do not fit together.
+    """
+    if isinstance(job.scene, PresetScene):
+        document = presets.document(job.scene.preset)
+        return document, Scene.model_validate(document), job.scene.parameters
+    problems = list(reference_problems(job.scene))
+    if problems:
+        raise InvalidInput(Problem(f"/scene{p.pointer}", p.detail) for p in problems)
+    return job.scene.model_dump(mode="json"), job.scene, {}
+
+
+def resolve(job: Job) -> tuple[Scene, dict[str, Any], Echo]:
+    """Return a job's scene with parameters set, its document, and every parameter's value.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown preset or parameter, values that do not fit the scene.
+    """
+    return with_parameters(*declared(job))
+
+
+def with_parameters(
+    document: Mapping[str, Any], scene: Scene, values: Mapping[str, float | str | None]
+) -> tuple[Scene, dict[str, Any], Echo]:
+    """Return a scene with parameters set, its document, and every parameter's value.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown parameter, values that do not fit the scene; at the parameter where there is one.
+    """
+    filled, echo = set_parameters(document, scene, values)
+    try:
+        found = Scene.model_validate(filled)
+    except ValidationError as error:
+        raise InvalidInput(_located(schema_problems(error, Scene), scene, echo)) from None
+    problems = list(reference_problems(found))
+    if problems:
+        raise InvalidInput(_located(problems, scene, echo))
+    return found, filled, echo
+
+
+def check(scene: Scene) -> tuple[Tree, Assembly]:
+    """Return a scene's spanning tree and assembly once it can be simulated.
+
+    Raises
+    ------
+    InvalidInput
+        Redundant constraints, an assembly that cannot close, loops that stay closed.
+    """
+    tree, assembly = spanning_tree(scene), assemble(scene)
+    coordinates = 3 * len(scene.bodies)
+    if assembly.constraints > coordinates:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"The mechanism is over-constrained: {assembly.constraints} constraint"
+                    f" equations hold {coordinates} coordinates; remove a joint or a driver.",
+                )
+            ]
+        )
+    residual = assembly.residual / shortest_link(scene)
+    if not residual <= ASSEMBLED:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/start/angles",
+                    f"The mechanism does not close: {assembly.residual:.3g} (m or rad) remain after"
+                    " Newton's iteration. Check lengths and driver positions, or give start angles"
+                    " nearer to the assembly you mean.",
+                )
+            ]
+        )
+    held = {branch.parent for branch in tree.branches} | {
+        body
+        for name in tree.play
+        for body in (_body(scene.joints[name].bearing), _body(scene.joints[name].journal))  # type: ignore[union-attr]
+    }
+    adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
+    if adrift:
+        raise InvalidInput(
+            [
+                Problem(
+                    f"/scene/bodies/{body}",
+                    f"No joint holds body '{body}'; join it or drop it.",
+                )
+                for body in adrift
+            ]
+        )
+    if assembly.redundant_with_play or assembly.redundant:
+        count = max(assembly.redundant, assembly.redundant_with_play)
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"The mechanism is over-constrained: {count} of {assembly.constraints}"
+                    " constraint equations are redundant; remove a joint or driver, or give one"
+                    " joint clearance.",
+                )
+            ]
+        )
+    if tree.closing and assembly.freedom_with_play:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"Ideal joints close a loop (at {', '.join(tree.closing)}) that can still move;"
+                    " such scenes are not supported yet. Give a joint of each loop a positive"
+                    " clearance, or drive the mechanism fully with every clearance zero.",
+                )
+            ]
+        )
+    return tree, assembly
+
+
+def offered(scene: Scene) -> tuple[Channel, ...]:
+    """Return a scene's channels.
+
+    Raises
+    ------
+    InvalidInput
+        A declared output of an unknown channel.
+    """
+    try:
+        return channels(scene)
+    except InvalidInput as error:
+        raise InvalidInput(
+            Problem(f"/scene{p.pointer}", p.detail) for p in error.problems
+        ) from None
+
+
+def _located(
+    problems: Iterable[Problem], scene: Scene, echo: Mapping[str, float | str | None]
+) -> list[Problem]:
+    """Point at the parameter that put a value there, where there is one."""
+    located = []
+    for problem in problems:
+        name = parameter_of(scene, echo, problem.pointer)
+        pointer = f"/scene/parameters/{name}" if name else f"/scene{problem.pointer}"
+        if Problem(pointer, problem.detail) not in located:
+            located.append(Problem(pointer, problem.detail))
+    return located
+
+
+def _body(reference: str) -> str:
+    return reference.split(".")[0]

@@ -1,0 +1,159 @@
+"""The points of a study as they are written: which parameters, which values, where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.errors import InvalidInput, Problem
+from solver.scene.document import Parameter, Scene
+from solver.scene.near import unknown
+from solver.scene.parameters import allowed_range
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """One parameter that varies, and its values as they are written."""
+
+    parameter: str
+    name_place: str
+    """JSON pointer to where the job names the parameter."""
+    values: Floats
+    """(written,)"""
+    place: Callable[[int], str]
+    """JSON pointer to a written value by its index."""
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Every point of a study.
+
+    Attributes
+    ----------
+    axes : tuple of Axis
+        None where nothing varies.
+    written : (points, axes) int
+        Index of each point's value among those written.
+    whole : callable
+        JSON pointer to what makes a point.
+    """
+
+    axes: tuple[Axis, ...]
+    written: NDArray[np.int64]
+    whole: Callable[[int], str]
+
+    @property
+    def count(self) -> int:
+        """Number of points."""
+        return len(self.written)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return tuple(axis.parameter for axis in self.axes)
+
+    def values(self) -> Floats:
+        """Return (points, axes)."""
+        columns = [axis.values[self.written[:, k]] for k, axis in enumerate(self.axes)]
+        return np.stack(columns, axis=1) if columns else np.empty((self.count, 0))
+
+    def at(self, point: int) -> dict[str, float]:
+        """Return the value of each parameter at a point."""
+        return {
+            axis.parameter: float(axis.values[self.written[point, k]])
+            for k, axis in enumerate(self.axes)
+        }
+
+    def place(self, point: int, parameter: str | None = None) -> str:
+        """Return a JSON pointer to a parameter's value at a point, or to the point."""
+        for k, axis in enumerate(self.axes):
+            if axis.parameter == parameter or len(self.axes) == 1:
+                return axis.place(int(self.written[point, k]))
+        return self.whole(point)
+
+    def name(self, point: int, scene: Scene) -> str:
+        """Return how a sentence begins that is about one point."""
+        values = ", ".join(
+            f"{name} = {value:.6g}" + _unit(scene.parameters[name])
+            for name, value in self.at(point).items()
+        )
+        return f"{'Value' if len(self.axes) == 1 else 'Point'} {point} ({values}): "
+
+
+def one_point(count: int = 1) -> Points:
+    """Return points at which nothing varies."""
+    return Points((), np.zeros((count, 0), np.int64), lambda _point: "/scene")
+
+
+def one_axis(axis: Axis) -> Points:
+    """Return points along one axis."""
+    index = np.arange(len(axis.values), dtype=np.int64)
+    return Points((axis,), index[:, None], axis.place)
+
+
+def product(axes: Sequence[Axis], place: str) -> Points:
+    """Return the Cartesian product of axes, the first varying slowest."""
+    index = np.indices([len(axis.values) for axis in axes], dtype=np.int64)
+    return Points(tuple(axes), index.reshape(len(axes), -1).T, lambda _point: place)
+
+
+def check_parameters(points: Points, scene: Scene) -> None:
+    """Refuse parameters that a scene does not declare or that are no numbers, and wild values.
+
+    Raises
+    ------
+    InvalidInput
+        Each at its name or at its value, which the sentence names with its index.
+    """
+    problems = []
+    for axis in points.axes:
+        parameter = scene.parameters.get(axis.parameter)
+        if parameter is None:
+            sentence = unknown("parameter", axis.parameter, scene.parameters)
+            problems.append(Problem(axis.name_place, sentence))
+        elif parameter.choices is not None:
+            sentence = (
+                f"'{axis.parameter}' is one of {', '.join(parameter.choices)}; only a parameter"
+                " whose values are numbers can vary. Set it in the scene instead."
+            )
+            problems.append(Problem(axis.name_place, sentence))
+        else:
+            problems += _outside(axis, parameter)
+    if problems:
+        raise InvalidInput(problems)
+
+
+MOST_NAMED = 8
+"""Bad values that are named; of any further ones the last sentence gives the number."""
+
+
+def _outside(axis: Axis, parameter: Parameter) -> list[Problem]:
+    values = axis.values
+    low = -np.inf if parameter.minimum is None else parameter.minimum
+    high = np.inf if parameter.maximum is None else parameter.maximum
+    bad = np.flatnonzero(~((low <= values) & (values <= high) & np.isfinite(values)))
+    return [
+        Problem(
+            axis.place(int(index)),
+            f"Value {index} of '{axis.parameter}' is {values[index]:.6g}{_unit(parameter)}; "
+            + f"it {allowed_range(parameter)}."
+            + further(len(bad), nth),
+        )
+        for nth, index in enumerate(bad[:MOST_NAMED])
+    ]
+
+
+def further(count: int, nth: int) -> str:
+    """Return what to add to the nth of `count` similar complaints."""
+    if nth + 1 < MOST_NAMED or count <= MOST_NAMED:
+        return ""
+    return f" So it is with {count - MOST_NAMED} more."
+
+
+def _unit(parameter: Parameter) -> str:
+    return "" if parameter.unit == "1" else f" {parameter.unit}"

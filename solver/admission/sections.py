@@ -1,0 +1,62 @@
+"""Sections of a study that would never be taken are refused before anything is queued."""
+
+from __future__ import annotations
+
+from solver.admission.points import Points
+from solver.admission.spans import Periods
+from solver.admission.varied import CheckedPoints
+from solver.errors import InvalidInput, Problem
+from solver.jobs import ChannelSection, OnsetSection, SectionStudyJob
+from solver.scene.near import unknown
+
+
+def check_section(
+    job: SectionStudyJob, points: Points, checked: CheckedPoints, units: Periods
+) -> None:
+    """Check that a job's section is taken at every point.
+
+    Raises
+    ------
+    InvalidInput
+        With what would be right.
+    """
+    section = job.section
+    if isinstance(section, OnsetSection):
+        problems = _onset(section, checked)
+    elif isinstance(section, ChannelSection):
+        problems = []
+    else:
+        problems = _turns(points, checked, units)
+    if problems:
+        raise InvalidInput(problems)
+
+
+def _turns(points: Points, checked: CheckedPoints, units: Periods) -> list[Problem]:
+    """Sections at a crank angle need a period at every point."""
+    return [
+        Problem(
+            points.place(point) if points.axes else "/section",
+            (points.name(point, checked.declared) if points.axes else "")
+            + note
+            + " A section at onsets of contact or at a channel's crossing needs none.",
+        )
+        for point, note in units.notes.items()
+    ]
+
+
+def _onset(section: OnsetSection, checked: CheckedPoints) -> list[Problem]:
+    joints = checked.declared.joints
+    if section.onset not in joints:
+        return [Problem("/section/onset", unknown("joint", section.onset, joints))]
+    for mechanism in checked.mechanisms:
+        play = mechanism.tree.play
+        if section.onset not in play:
+            there = f"; joints with clearance are: {', '.join(play)}." if play else "."
+            return [
+                Problem(
+                    "/section/onset",
+                    f"Joint '{section.onset}' has no clearance at point {mechanism.point}, so no"
+                    f" contact begins there{there}",
+                )
+            ]
+    return []

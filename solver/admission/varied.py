@@ -1,0 +1,229 @@
+"""Checks of all points of a study at once, at little more than the cost of checking one.
+
+Ranges, bounds and sizes that must fit are checked on columns of numbers; names, assembly and
+freedom once for each distinct structure and geometry. A point that fails is then checked alone,
+by what checks a single job, so that it is refused in the same words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.admission.mechanism import Echo, check, declared, offered, with_parameters
+from solver.admission.points import MOST_NAMED, Points, check_parameters, further
+from solver.assembly import Assembly, link_lengths
+from solver.channels import Channel
+from solver.compiler.length import check_length
+from solver.errors import InvalidInput, LimitExceeded, Problem
+from solver.jobs import Job
+from solver.mechanics.tree import Tree
+from solver.scene.document import Scene
+from solver.scene.parameters import PLACE, set_parameters
+from solver.scene.sizes import ill_sized
+from solver.study.fields import geometry_columns, inadmissible, structure_columns
+from solver.study.scenes import PointScenes, leaves_of
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """The first point of a structure."""
+
+    point: int
+    scene: Scene
+    tree: Tree
+    assembly: Assembly
+    channels: tuple[Channel, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedPoints:
+    """A study's points once all can be simulated."""
+
+    declared: Scene
+    document: dict[str, Any]
+    """The scene document with the parameters that do not vary."""
+    echo: Echo
+    first: dict[str, Any]
+    """The scene document at the first point."""
+    scenes: PointScenes
+    structure: NDArray[np.int64]
+    """(points,) index into `mechanisms`."""
+    mechanisms: tuple[Mechanism, ...]
+
+
+def check_points(job: Job, points: Points) -> CheckedPoints:
+    """Check every point.
+
+    Raises
+    ------
+    InvalidInput
+        At the value that is wrong, with its index; at the scene where it is wrong at every point.
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    written = declared(job)
+    document, scene, given = written
+    check_parameters(points, scene)
+    kept, echo = set_parameters(document, scene, given)
+    values = points.values()
+    one = _One(points, document, scene, given)
+    base = one.first()
+    scenes = PointScenes(base, leaves_of(scene, points.parameters, echo), values)
+    _check_effect(points, scenes, scene, echo)
+    columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
+    one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
+    structure, mechanisms = _mechanisms(job, one, scenes)
+    first, _ = set_parameters(document, scene, {**given, **points.at(0)})
+    return CheckedPoints(scene, kept, echo, first, scenes, structure, mechanisms)
+
+
+@dataclass(frozen=True, eq=False)
+class _One:
+    """Checks one point alone, as the job of a single point would be."""
+
+    points: Points
+    document: Mapping[str, Any]
+    declared: Scene
+    given: Mapping[str, float | str | None]
+
+    def scene(self, point: int) -> Scene:
+        values = {**self.given, **self.points.at(point)}
+        return with_parameters(self.document, self.declared, values)[0]
+
+    def first(self) -> Scene:
+        """Return the scene of a point that is in order; usually that is the first."""
+        failed: dict[int, list[Problem]] = {}
+        for point in dict.fromkeys((0, self.points.count - 1, self.points.count // 2)):
+            try:
+                return self.scene(point)
+            except InvalidInput as error:
+                failed[point] = list(error.problems)
+        alike = len({tuple(problems) for problems in failed.values()}) == 1
+        if len(failed) > 1 and alike:
+            raise InvalidInput(failed[0])
+        raise InvalidInput(self.told(failed, len(failed)))
+
+    def refuse(self, suspects: NDArray[np.bool_]) -> None:
+        """Check the suspects one by one; refuse those that fail."""
+        failed: dict[int, list[Problem]] = {}
+        count = int(suspects.sum())
+        for point in np.flatnonzero(suspects):
+            try:
+                self.scene(int(point))
+            except InvalidInput as error:
+                failed[int(point)] = list(error.problems)
+            if len(failed) == MOST_NAMED:
+                break
+        if failed:
+            raise InvalidInput(self.told(failed, count))
+
+    def told(self, failed: Mapping[int, list[Problem]], count: int) -> Iterator[Problem]:
+        """Yield the problems of points at their values, which begin each sentence."""
+        if not self.points.axes:
+            yield from failed[0]
+            return
+        told: set[Problem] = set()
+        for nth, (point, problems) in enumerate(failed.items()):
+            for problem in problems:
+                parent, _, name = problem.pointer.rpartition("/")
+                varies = parent == PLACE and name in self.points.parameters
+                place = self.points.place(point, name if varies else None)
+                if parent == PLACE and not varies:
+                    place = problem.pointer
+                sentence = self.points.name(point, self.declared) + problem.detail
+                found = Problem(place, sentence + further(count, nth))
+                if found not in told:
+                    told.add(found)
+                    yield found
+
+
+def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo) -> None:
+    """Refuse a parameter that reaches nothing, because others go to the same places after it."""
+    reaching = {leaf.column for leaf in scenes.leaves}
+    problems = []
+    for k, axis in enumerate(points.axes):
+        if k in reaching:
+            continue
+        places = {target.path for target in scene.parameters[axis.parameter].targets}
+        others = [
+            f"'{name}'"
+            for name, parameter in scene.parameters.items()
+            if name != axis.parameter
+            and (name in points.parameters or echo.get(name) is not None)
+            and places & {target.path for target in parameter.targets}
+        ]
+        problems.append(
+            Problem(
+                axis.name_place,
+                f"'{axis.parameter}' changes nothing here: {', '.join(others)} override it."
+                " Leave those out, or vary one of them.",
+            )
+        )
+    if problems:
+        raise InvalidInput(problems)
+
+
+def _mechanisms(
+    job: Job, one: _One, scenes: PointScenes
+) -> tuple[NDArray[np.int64], tuple[Mechanism, ...]]:
+    """Check each distinct structure and geometry; return (points,) structures, first of each."""
+    count = len(scenes.values)
+    forms = list(structure_columns(scenes))
+    shapes = list(geometry_columns(scenes, bearing_is_length=not link_lengths(scenes.base)))
+    structure = _distinct(forms, count)
+    group = _distinct([structure.astype(np.float64), *shapes], count)
+    _, representatives = np.unique(group, return_index=True)
+    failed: dict[int, list[Problem]] = {}
+    found: dict[int, Mechanism] = {}
+    for point in sorted(representatives.tolist()):
+        try:
+            mechanism = _mechanism(job, one, point, new=int(structure[point]) not in found)
+            found.setdefault(int(structure[point]), mechanism)
+        except LimitExceeded:
+            raise
+        except InvalidInput as error:
+            failed[point] = list(error.problems)
+            if len(failed) == MOST_NAMED:
+                break
+    if failed:
+        alike = len({tuple(problems) for problems in failed.values()}) == 1
+        everywhere = not found and alike and (len(failed) > 1 or not (forms or shapes))
+        problems = next(iter(failed.values()))
+        raise InvalidInput(problems if everywhere else one.told(failed, len(failed)))
+    return structure, tuple(found[index] for index in range(len(found)))
+
+
+def _mechanism(job: Job, one: _One, point: int, *, new: bool) -> Mechanism:
+    scene = one.scene(point)
+    tree, assembly = check(scene)
+    if assembly.freedom_with_play == 0:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene",
+                    "No joint has clearance and the drivers leave no freedom: the motion follows"
+                    f" without integration and has nothing for a {job.kind} to find. Give a joint"
+                    " a positive clearance; a job of kind 'simulate' runs the ideal mechanism.",
+                )
+            ]
+        )
+    if new:
+        check_length(scene, tree, job.formulation)
+    return Mechanism(point, scene, tree, assembly, offered(scene))
+
+
+def _distinct(columns: list[NDArray[Any]], count: int) -> NDArray[np.int64]:
+    """Return (points,) the number of each point's combination, by first appearance."""
+    if not columns:
+        return np.zeros(count, np.int64)
+    _, first, which = np.unique(
+        np.stack(columns, axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    order = np.empty(len(first), np.int64)
+    order[np.argsort(first)] = np.arange(len(first))
+    return np.asarray(order[which.reshape(-1)], np.int64)

@@ -1,0 +1,57 @@
+"""Where Poincare sections are taken: at a crank angle, at onsets of contact, at a crossing."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from solver.scene.forms import form, has, told_by
+from solver.scene.quantities import Name, Strict
+
+
+class CrankSection(Strict):
+    """Once a period, when the first driver has turned that far past its start."""
+
+    crank_angle: Annotated[
+        float, Field(ge=0.0, lt=6.283185307179586, json_schema_extra={"unit": "rad"})
+    ] = 0.0
+
+
+class OnsetSection(Strict):
+    """At each onset of contact (impact) in a joint with clearance."""
+
+    onset: Annotated[Name, Field(description="a joint with clearance")]
+
+
+class ChannelSection(Strict):
+    """Each time that a channel crosses a value in one direction."""
+
+    channel: Annotated[str, Field(min_length=1, max_length=80)]
+    value: Annotated[float, Field(json_schema_extra={"unit": "the channel's unit"})]
+    direction: Annotated[
+        Literal["up", "down"], Field(description="up: the channel grows while it crosses")
+    ] = "up"
+
+
+def _form_of_section(value: Any) -> str | None:
+    for field in ("onset", "channel"):
+        if has(value, field):
+            return field
+    return "crank_angle" if isinstance(value, dict | CrankSection) else None
+
+
+Section = Annotated[
+    Annotated[CrankSection, form("crank_angle")]
+    | Annotated[OnsetSection, form("onset")]
+    | Annotated[ChannelSection, form("channel")],
+    told_by(
+        _form_of_section,
+        "'section' must be an object with 'crank_angle', with 'onset', or with 'channel' and"
+        " 'value'",
+    ),
+    Field(
+        description=(
+            "where sections are taken: at a crank angle of the first driver, once a period; at each"
+            " onset of contact in a joint; each time a channel crosses a value"
+        )
+    ),
+]

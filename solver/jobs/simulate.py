@@ -1,0 +1,28 @@
+"""The job of kind ``simulate``: one trajectory from the scene's start."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from solver.jobs.job import ChannelChoice, Job
+from solver.jobs.section import CrankSection
+
+
+class SimulateJob(Job):
+    """One trajectory from the scene's start."""
+
+    kind: Literal["simulate"]
+    duration: Annotated[
+        float,
+        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
+    ]
+    output_step: Annotated[
+        float | None,
+        Field(
+            ge=1e-15,
+            description="time between samples; default duration/2000",
+            json_schema_extra={"unit": "s"},
+        ),
+    ] = None
+    channels: ChannelChoice = ["*"]
+    section: CrankSection = CrankSection()

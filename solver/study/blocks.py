@@ -1,0 +1,69 @@
+"""How the points of a study are cut: into chains of continuation, and into blocks of work.
+
+Nothing here depends on the workers: the same study always has the same chains and blocks.
+"""
+
+from __future__ import annotations
+
+from itertools import accumulate, pairwise
+
+LANES = 8
+"""Points, or chains, that run side by side."""
+MOST_POINTS = 64
+"""Of a block without continuation: eight octets."""
+BLOCKS = 8
+"""That a study is cut into while its blocks are smaller than that."""
+
+Chains = tuple[tuple[int, ...], ...]
+Blocks = tuple[tuple[int, int], ...]
+
+
+def independent_blocks(points: int) -> Blocks:
+    """Return (first, count) of equal blocks of whole octets; the last one may be shorter."""
+    octets = -(-points // LANES)
+    size = LANES * min(max(-(-octets // BLOCKS), 1), MOST_POINTS // LANES)
+    return tuple((first, min(size, points - first)) for first in range(0, points, size))
+
+
+def segments(values: int, count: int) -> list[range]:
+    """Return `count` contiguous segments of the values, none empty, lengths within one."""
+    count = min(count, values)
+    short, longer = divmod(values, count)
+    ends = accumulate([0] + [short + 1] * longer + [short] * (count - longer))
+    return [range(first, last) for first, last in pairwise(ends)]
+
+
+def chains_of(values: int, continuation: str, count: int) -> Chains:
+    """Return the points of each chain in the order of computing.
+
+    Points are numbered in the order of the values; where both directions are computed, the
+    backward ones follow all forward ones, again in the order of the values.
+    """
+    if continuation == "none":
+        return tuple((point,) for point in range(values))
+    found: list[tuple[int, ...]] = []
+    if continuation in ("forward", "both"):
+        found += [tuple(segment) for segment in segments(values, count)]
+    if continuation in ("backward", "both"):
+        shift = values if continuation == "both" else 0
+        found += [
+            tuple(shift + point for point in reversed(segment))
+            for segment in segments(values, count)
+        ]
+    return tuple(found)
+
+
+def chained_blocks(chains: Chains, values: int) -> Blocks:
+    """Return (first, count) of blocks of up to eight whole chains of one direction.
+
+    Each lane runs a chain, so a block is as long as eight of them, however many points that is.
+    """
+    blocks: list[tuple[int, int]] = []
+    directions = sum(len(chain) for chain in chains) // values
+    per_direction = len(chains) // directions
+    for direction in range(directions):
+        own = chains[direction * per_direction : (direction + 1) * per_direction]
+        for begin in range(0, per_direction, LANES):
+            group = own[begin : begin + LANES]
+            blocks.append((min(map(min, group)), sum(map(len, group))))
+    return tuple(blocks)
