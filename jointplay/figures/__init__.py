@@ -1,8 +1,8 @@
-"""Figures of a run, as a journal would print them; PNG and SVG from the same code.
+"""Figures of runs and studies, as a journal would print them; PNG and SVG from the same code.
 
-A family: one figure a file, the roster below. Every figure takes a `jointplay.source.Source`
-and a `Selection`. Importing this package does not load matplotlib; drawing does, without
-touching pyplot or the caller's settings.
+A family: one figure a file, the rosters below. Every figure takes a `jointplay.source.Source`, or
+a `jointplay.study_source.StudySource`, and a `Selection`. Importing this package does not load
+matplotlib; drawing does, without touching pyplot or the caller's settings.
 
 >>> from jointplay import figures
 >>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
@@ -11,23 +11,29 @@ touching pyplot or the caller's settings.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from jointplay.figures import page, scene_facts
+from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
+from jointplay.figures.section import SECTION
+from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
 from jointplay.source import Source
+from jointplay.study_source import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from typing_extensions import TypeIs
 
 __all__ = [
     "ROSTER",
+    "STUDY_ROSTER",
     "FigureError",
     "FigureKind",
     "Listed",
@@ -37,12 +43,23 @@ __all__ = [
     "available",
     "draw",
     "draw_mechanism",
+    "is_study",
     "render",
     "render_mechanism",
     "required",
 ]
 
-ROSTER: Final = (OUTPUTS, CONTACT_FORCE, ORBIT, PHASE_PORTRAIT, MECHANISM, TIME_HISTORY)
+ROSTER: Final[tuple[RunFigure, ...]] = (
+    OUTPUTS,
+    CONTACT_FORCE,
+    ORBIT,
+    PHASE_PORTRAIT,
+    MECHANISM,
+    TIME_HISTORY,
+)
+"""Figures of one run."""
+STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION)
+"""Figures of a study."""
 
 
 class Listed(NamedTuple):
@@ -52,19 +69,23 @@ class Listed(NamedTuple):
     title: str
 
 
-def available(source: Source) -> tuple[Listed, ...]:
+def available(source: Source | StudySource) -> tuple[Listed, ...]:
     """List what can be drawn of these results without any selection.
 
-    The figures of the roster whose channels were stored, then each declared output by its name.
-    Besides these, the name of any stored channel is a figure: its time history.
+    The figures of the roster whose channels were stored, then, of a run, each declared output by
+    its name. Besides these, the name of any stored channel is a figure: its time history, its
+    bifurcation diagram, or its extremes over the parameters.
     """
-    listed = [Listed(kind.name, kind.title) for kind in ROSTER if _drawable(kind, source)]
-    named = {channel.name: channel.long_name for channel in source.channels}
-    listed += [Listed(name, named[name]) for name in scene_facts.outputs(source)]
+    listed = [Listed(kind.name, kind.title) for kind in _roster(source) if _drawable(kind, source)]
+    if not is_study(source):
+        named = {channel.name: channel.long_name for channel in source.channels}
+        listed += [Listed(name, named[name]) for name in scene_facts.outputs(source)]
     return tuple(listed)
 
 
-def required(source: Source, name: str, selection: Selection | None = None) -> tuple[str, ...]:
+def required(
+    source: Source | StudySource, name: str, selection: Selection | None = None
+) -> tuple[str, ...]:
     """Name the channels whose values a figure reads; only source's metadata is looked at.
 
     Raises
@@ -78,7 +99,7 @@ def required(source: Source, name: str, selection: Selection | None = None) -> t
     return kind.channels(source, selection)
 
 
-def draw(source: Source, name: str, selection: Selection | None = None) -> Figure:
+def draw(source: Source | StudySource, name: str, selection: Selection | None = None) -> Figure:
     """Draw a figure.
 
     Parameters
@@ -86,9 +107,9 @@ def draw(source: Source, name: str, selection: Selection | None = None) -> Figur
     source
         The results.
     name
-        A figure of the roster, or a stored channel for its time history.
+        A figure of the roster, or a stored channel for its own picture.
     selection
-        Channels, joints and window of time; by default all.
+        Channels, joints, window of time or points; by default all.
 
     Raises
     ------
@@ -103,25 +124,53 @@ def draw(source: Source, name: str, selection: Selection | None = None) -> Figur
         return kind.draw(source, selection)
 
 
-def render(source: Source, name: str, form: page.Form, selection: Selection | None = None) -> bytes:
+def render(
+    source: Source | StudySource, name: str, form: page.Form, selection: Selection | None = None
+) -> bytes:
     """Draw a figure and give the bytes of a PNG or SVG file; errors as for `draw`."""
     with page.style():
         return page.save(draw(source, name, selection), form)
 
 
-def _find(source: Source, name: str, selection: Selection | None) -> tuple[FigureKind, Selection]:
+def is_study(source: Source | StudySource) -> TypeIs[StudySource]:
+    """Tell whether results are those of a study, and not of one run."""
+    return hasattr(source, "observables")
+
+
+def _find(
+    source: Source | StudySource, name: str, selection: Selection | None
+) -> tuple[FigureKind[Any], Selection]:
     selection = selection or Selection()
-    for kind in ROSTER:
+    for kind in _roster(source):
         if kind.name == name:
+            kind.check(selection)
             return kind, selection
-    if any(channel.name == name for channel in source.channels):
-        return TIME_HISTORY, replace(selection, channels=(name,))
-    raise UnknownFigure(name, [kind.name for kind in ROSTER])
+    found = _of_channel(source, name)
+    if found is None:
+        raise UnknownFigure(name, [kind.name for kind in _roster(source)])
+    if selection.channels:
+        raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
+    found.check(selection)
+    return found, replace(selection, channels=(name,))
 
 
-def _drawable(kind: FigureKind, source: Source) -> bool:
+def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | None:
+    """Give the figure that the name of a channel stands for."""
+    if not is_study(source):
+        stored = any(channel.name == name for channel in source.channels)
+        return TIME_HISTORY if stored else None
+    if source.kind == "bifurcation" and any(one.name == name for one in source.observables):
+        return BIFURCATION
+    return SWEEP if any(one.name == name for one in source.channels) else None
+
+
+def _roster(source: Source | StudySource) -> tuple[FigureKind[Any], ...]:
+    return STUDY_ROSTER if is_study(source) else ROSTER
+
+
+def _drawable(kind: FigureKind[Any], source: Source | StudySource) -> bool:
     try:
         kind.channels(source, Selection())
     except NotDrawable:
         return False
-    return source.samples > 0
+    return is_study(source) or source.samples > 0

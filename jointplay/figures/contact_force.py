@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import page, sampling, scene_facts
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
 
@@ -83,9 +83,10 @@ def _between_samples(
     return rows["onset"], rows["peak_force"]
 
 
-CONTACT_FORCE = FigureKind(
+CONTACT_FORCE = RunFigure(
     name="contact-force",
     title="Contact force at each clearance joint",
+    uses=("joints", "start", "stop"),
     channels=_channels,
     draw=_draw,
 )

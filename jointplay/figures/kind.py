@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Generic, TypeVar
 
+from jointplay.figures.errors import NotDrawable
 from jointplay.source import Source
+from jointplay.study_source import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+Results = TypeVar("Results", Source, StudySource)
 
 
 @dataclass(frozen=True)
@@ -24,17 +28,25 @@ class Selection:
         Names of clearance joints, where a figure draws one panel a joint.
     start, stop
         Window of time [s], both ends included.
+    first, last
+        Points of a study, both ends included.
     """
 
     channels: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     start: float | None = None
     stop: float | None = None
+    first: int | None = None
+    last: int | None = None
+
+    def given(self) -> list[str]:
+        """Name what was chosen."""
+        return [one.name for one in fields(self) if getattr(self, one.name) not in ((), None)]
 
 
 @dataclass(frozen=True)
-class FigureKind:
-    """One figure of the roster.
+class FigureKind(Generic[Results]):
+    """One figure of a roster.
 
     Parameters
     ----------
@@ -42,6 +54,8 @@ class FigureKind:
         As it is asked for.
     title
         What it shows, for lists.
+    uses
+        Fields of the selection that mean something for it.
     channels
         Channels whose values it reads; raises `NotDrawable` where the source or the selection
         does not have what it needs.
@@ -51,5 +65,18 @@ class FigureKind:
 
     name: str
     title: str
-    channels: Callable[[Source, Selection], tuple[str, ...]]
-    draw: Callable[[Source, Selection], Figure]
+    uses: tuple[str, ...]
+    channels: Callable[[Results, Selection], tuple[str, ...]]
+    draw: Callable[[Results, Selection], Figure]
+
+    def check(self, selection: Selection) -> None:
+        """Refuse what cannot be chosen here, with `NotDrawable`."""
+        for name in selection.given():
+            if name not in self.uses:
+                raise NotDrawable(
+                    f"The figure {self.name!r} does not depend on {name}; leave it out.", name
+                )
+
+
+RunFigure = FigureKind[Source]
+StudyFigure = FigureKind[StudySource]

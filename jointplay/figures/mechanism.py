@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.figures import page, scene_facts
 from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.mechanism_geometry import Geometry, Pose, geometry
 from jointplay.figures.mechanism_labels import draw_labels
 from jointplay.figures.mechanism_marks import (
@@ -113,9 +113,10 @@ def _draw_first(source: Source, selection: Selection) -> Figure:
     return draw_mechanism(scene, pose)
 
 
-MECHANISM = FigureKind(
+MECHANISM = RunFigure(
     name="mechanism",
     title="The mechanism at the first sample of the window",
+    uses=("start", "stop"),
     channels=_channels,
     draw=_draw_first,
 )

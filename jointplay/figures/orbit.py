@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import page, sampling, scene_facts
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
 
@@ -78,9 +78,10 @@ def _orbit(axes: Axes, x: Floats, y: Floats, radius: float) -> None:
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
 
 
-ORBIT = FigureKind(
+ORBIT = RunFigure(
     name="orbit",
     title="Path of each journal's centre inside its clearance circle",
+    uses=("joints", "start", "stop"),
     channels=_channels,
     draw=_draw,
 )

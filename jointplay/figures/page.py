@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Final, Literal
@@ -18,19 +18,24 @@ COLUMN_WIDTH: Final = 85.0
 """Width of a journal's column [mm]."""
 DOTS_PER_INCH: Final = 300
 LEGEND_HEIGHT: Final = 5.0
-"""Height of a legend above the panels [mm]."""
+"""Height of a legend above the panels [mm], for each row of it."""
+LEGEND_COLUMNS: Final = 4
 
 # Okabe and Ito 2008: told apart with any colour vision, and in grey
 BLUE: Final = "#0072B2"
 VERMILION: Final = "#D55E00"
 BLACK: Final = "#000000"
 GREY: Final = "#767676"
+GREEN: Final = "#009E73"
+SHADE: Final = "#E8E8E8"
+"""Behind what is not finished."""
 
 MOST_VECTOR_POINTS: Final = 20_000
 """Longer curves become pixels inside an SVG, or no viewer would open it."""
 MOST_VECTOR_MARKS: Final = 4000
 """The same for marks that stand alone; each takes ten times the bytes."""
 
+_LONGEST_LABEL: Final = 20
 _MILLIMETRES_AN_INCH: Final = 25.4
 _STYLE: Final[dict[str, Any]] = {
     "font.family": "DejaVu Sans",  # comes with matplotlib: the same everywhere
@@ -89,6 +94,7 @@ def panels(
     *,
     share_x: bool | Literal["col"] = False,
     share_y: bool | Literal["row"] = False,
+    row_heights: Sequence[float] | None = None,
 ) -> tuple[Figure, list[list[Axes]]]:
     """Make a figure of column width.
 
@@ -100,12 +106,21 @@ def panels(
         Of the figure [mm].
     share_x, share_y
         As matplotlib's `sharex` and `sharey`.
+    row_heights
+        Of the rows, relative to each other; by default all the same.
     """
     from matplotlib.figure import Figure as NewFigure
 
     size = (COLUMN_WIDTH / _MILLIMETRES_AN_INCH, height / _MILLIMETRES_AN_INCH)
     figure = NewFigure(figsize=size, layout="constrained")
-    grid = figure.subplots(rows, columns, sharex=share_x, sharey=share_y, squeeze=False)
+    grid = figure.subplots(
+        rows,
+        columns,
+        sharex=share_x,
+        sharey=share_y,
+        squeeze=False,
+        height_ratios=row_heights,
+    )
     return figure, [list(row) for row in grid]
 
 
@@ -114,10 +129,43 @@ def corner_text(axes: Axes, text: str) -> None:
     axes.set_title(text, loc="left", fontsize=7.0, pad=2.5)
 
 
+def in_two_lines(label: str) -> str:
+    """Break the label of an axis after the owner of a channel, where it is long."""
+    if len(label) <= _LONGEST_LABEL:
+        return label
+    owner, dot, quantity = label.partition(".")
+    return f"{owner}\n{quantity}" if dot else label
+
+
 def legend(figure: Figure, axes: Axes) -> None:
     """Explain the curves of a panel once for all panels, above them."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4, borderaxespad=0.2)
+    figure.legend(
+        handles, labels, loc="outside upper center", ncols=LEGEND_COLUMNS, borderaxespad=0.2
+    )
+
+
+def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> None:
+    """Explain marks that are too fine to be recognised in a legend, above the panels.
+
+    Parameters
+    ----------
+    entries
+        By label, marker and colour.
+    """
+    from matplotlib.lines import Line2D
+
+    handles = [
+        Line2D([], [], linestyle="", marker=marker, color=colour, markersize=3.0, label=label)
+        for label, (marker, colour) in entries.items()
+    ]
+    figure.legend(
+        handles=handles,
+        loc="outside upper center",
+        ncols=LEGEND_COLUMNS,
+        borderaxespad=0.2,
+        handletextpad=0.1,
+    )
 
 
 def save(figure: Figure, form: Form) -> bytes:

@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
 
@@ -35,6 +35,8 @@ class _Panel:
 
 def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
     if selection.channels:
+        if selection.joints:
+            raise NotDrawable("Choose joints or channels, not both.", "joints")
         if len(selection.channels) != 2:
             sentence = "A phase portrait is drawn of two channels: position and rate."
             raise NotDrawable(sentence, "channels")
@@ -117,9 +119,10 @@ def _sections(source: Source, names: tuple[str, str], selection: Selection) -> d
     return {name: points[name][inside] for name in names}
 
 
-PHASE_PORTRAIT = FigureKind(
+PHASE_PORTRAIT = RunFigure(
     name="phase-portrait",
     title="Phase portrait with Poincaré points at each clearance joint",
+    uses=("channels", "joints", "start", "stop"),
     channels=_channels,
     draw=_draw,
 )

@@ -8,7 +8,7 @@ import numpy as np
 
 from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import FigureKind, Selection
+from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
 
@@ -95,16 +95,18 @@ def _missed_extremes(
     return points[:, 0], points[:, 1]
 
 
-TIME_HISTORY = FigureKind(
+TIME_HISTORY = RunFigure(
     name="time-history",
     title="Chosen channels over time",
+    uses=("channels", "start", "stop"),
     channels=_chosen,
     draw=lambda source, selection: panels_over_time(source, _chosen(source, selection), selection),
 )
 
-OUTPUTS = FigureKind(
+OUTPUTS = RunFigure(
     name="outputs",
     title="The scene's declared outputs over time",
+    uses=("channels", "start", "stop"),
     channels=_declared,
     draw=lambda source, selection: panels_over_time(
         source, _declared(source, selection), selection

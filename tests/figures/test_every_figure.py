@@ -91,7 +91,11 @@ def visible_texts(figure):
 
 
 def test_the_numbers_along_its_axes_stand_apart(motion, name):
-    figure = drawn(motion, name)
+    stand_apart(drawn(motion, name))
+
+
+def stand_apart(figure):
+    """Hold the numbers along each axis to a distance."""
     for axes in figure.axes:
         labels = [label for label in axes.get_xticklabels() if label in visible_texts(figure)]
         boxes = sorted((label.get_window_extent() for label in labels), key=lambda box: box.x0)
@@ -224,6 +228,23 @@ def test_joints_are_chosen_by_name(motion, each):
     assert all(channel.startswith("right.") for channel in needed)
     with pytest.raises(NotDrawable, match="those that do are left, right"):
         figures.draw(motion, each, Selection(joints=("closed",)))
+
+
+@pytest.mark.parametrize(
+    ("each", "selection", "cause"),
+    [
+        ("outputs", Selection(joints=("left",)), "joints"),
+        ("orbit", Selection(channels=("stroke",)), "channels"),
+        ("stroke", Selection(joints=("left",)), "joints"),
+        ("stroke", Selection(channels=("pace",)), "channels"),
+        ("phase-portrait", Selection(channels=("pace",), joints=("left",)), "joints"),
+        ("orbit", Selection(first=3), "first"),
+    ],
+)
+def test_a_choice_that_means_nothing_for_a_figure_is_refused(motion, each, selection, cause):
+    with pytest.raises(NotDrawable) as caught:
+        figures.draw(motion, each, selection)
+    assert caught.value.cause == cause
 
 
 @pytest.mark.parametrize("each", ["contact-force", "orbit", "phase-portrait"])

@@ -1,0 +1,161 @@
+"""Studies that are known in closed form, to draw: the logistic map as a machine's sections."""
+
+import numpy as np
+
+from jointplay.dataset import Channel
+from jointplay.study_dataset import Extremes, Failure, StudyDataset
+from jointplay.study_source import DONE, FAILED, RUNNING, WAITING
+
+VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
+SCENE = {"name": "logistic", "bodies": {}, "joints": {"left": {"clearance": {}}}}
+OBSERVED = (
+    ("left.eccentricity_x", "m", 5e-4),
+    ("left.eccentricity_y", "m", 2e-4),
+    ("left.eccentricity_rate_x", "m/s", 0.05),
+    ("left.eccentricity_rate_y", "m/s", 0.02),
+    ("block.x", "m", 0.3),
+    ("block.vx", "m/s", 2.0),
+)
+PERIOD = 2.0  # s
+
+
+def logistic(growth, record, start=0.3, settle=500):
+    """(points, record) iterates of x -> growth x (1 - x) after settling."""
+    x = np.full(len(growth), start)
+    rows = []
+    for step in range(settle + record):
+        x = growth * x * (1.0 - x)
+        if step >= settle:
+            rows.append(x)
+    return np.array(rows).T
+
+
+def exponents(growth):
+    """(points,) Lyapunov exponents of the logistic map in 1/s, a step taking a period."""
+    x = logistic(growth, 2000)
+    return np.log(np.abs(growth[:, None] * (1.0 - 2.0 * x)) + 1e-12).mean(axis=1) / PERIOD
+
+
+def bifurcation(
+    points=120,
+    record=50,
+    *,
+    low=1e-4,
+    high=1e-3,
+    logarithmic=False,
+    judged=False,
+    both=False,
+    failed=(),
+    unfinished=(),
+):
+    """Radial clearances from `low` to `high` that stand for growth rates of 2.9 to 4."""
+    spaced = np.geomspace if logarithmic else np.linspace
+    values = spaced(low, high, points)
+    growth = 2.9 + 1.1 * (values - low) / (high - low)
+    if both:
+        values, growth = np.tile(values, 2), np.tile(growth, 2)
+    status = np.full(len(values), DONE, dtype=np.uint8)
+    status[list(failed)] = FAILED
+    status[list(unfinished)] = RUNNING
+    status[list(unfinished)[len(list(unfinished)) // 2 :]] = WAITING
+    x = logistic(growth, record + 1)
+    x[status != DONE] = np.nan
+    sections = {
+        name: scale * (x[:, 1:] if "rate" in name or "v" in name else x[:, :-1])
+        for name, _, scale in OBSERVED
+    }
+    if both:
+        sections = {name: rows * np.repeat([1.0, 0.97], points)[:, None] for name, rows in
+                    sections.items()}  # fmt: skip
+    times = PERIOD * (100 + np.arange(1.0, record + 1)) + 0.0 * x[:, :-1]
+    indicators, verdicts = {}, None
+    if judged:
+        exponent = np.where(status == DONE, exponents(growth), np.nan)
+        verdicts = np.select(
+            [status != DONE, exponent > 0.05, exponent < -0.02], [-1, 3, 1], default=0
+        )
+        verdicts[(verdicts == 1) & (growth > 2.95) & (growth < 3.0)] = 2
+        indicators = {"lyapunov": exponent, "lyapunov_error": 0.02 + 0.0 * exponent}
+    return StudyDataset(
+        attributes={
+            "job": {"kind": "bifurcation", "continuation": "both" if both else "none"},
+            "scene": SCENE,
+        },
+        parameters=(Channel("play", "m", "radial clearance"),),
+        values=values[:, None],
+        status=status,
+        observables=tuple(Channel(name, unit, name) for name, unit, _ in OBSERVED),
+        times=times,
+        section_values=sections,
+        failures={
+            point: Failure("step-size-underflow", "The step fell below 1e-15 s.", 0.7)
+            for point in failed
+        },
+        statistics={"steps": np.full(len(values), 1000.0)},
+        indicators=indicators,
+        verdicts=verdicts,
+        verdict_names=VERDICTS,
+    )
+
+
+def one_point(kind="poincare", members=1, record=400):
+    """A quasi-periodic section: a closed curve, for each member from another start."""
+    turns = np.arange(record) * (np.sqrt(5.0) - 1.0) / 2.0
+    angle = 2.0 * np.pi * (turns[None, :] + np.linspace(0.0, 1e-3, members)[:, None])
+    sections = {
+        name: scale * ((np.cos if "rate" in name or "v" in name else np.sin)(angle))
+        for name, _, scale in OBSERVED
+    }
+    return StudyDataset(
+        attributes={"job": {"kind": kind}, "scene": SCENE},
+        parameters=(),
+        values=np.empty((members, 0)),
+        status=np.full(members, DONE, dtype=np.uint8),
+        observables=tuple(Channel(name, unit, name) for name, unit, _ in OBSERVED),
+        times=np.broadcast_to(PERIOD * np.arange(1.0, record + 1), (members, record)),
+        section_values=sections,
+        verdict_names=VERDICTS,
+    )
+
+
+def sweep(sizes=(40,), *, failed=(), unfinished=()):
+    """Peaks over one, two or three parameters: an even and an odd function of the first."""
+    axes = [
+        values
+        for values, _ in zip(
+            (
+                np.linspace(1e-4, 1e-3, sizes[0]),
+                np.geomspace(1e-2, 1.0, sizes[1] if len(sizes) > 1 else 1),
+                np.linspace(1.0, 2.0, sizes[2] if len(sizes) > 2 else 1),
+            ),
+            sizes,
+            strict=False,
+        )
+    ]
+    values = np.stack([one.ravel() for one in np.meshgrid(*axes, indexing="ij")], axis=1)
+    status = np.full(len(values), DONE, dtype=np.uint8)
+    status[list(failed)] = FAILED
+    status[list(unfinished)] = WAITING
+    force = 3e6 * values[:, 0] ** 1.5 * (values[:, 1] ** 0.3 if len(sizes) > 1 else 1e2) * 1e2
+    force[status != DONE] = np.nan
+    stroke = 0.528 - 2.0 * values[:, 0] + 0.0 * force
+    moment = 0.1 + 0.0 * force
+    return StudyDataset(
+        attributes={"job": {"kind": "sweep"}, "scene": SCENE},
+        parameters=(
+            Channel("play", "m", "radial clearance"),
+            Channel("friction", "1", "coefficient of friction"),
+            Channel("speed", "rad/s", "speed of the crank"),
+        )[: len(sizes)],
+        values=values,
+        status=status,
+        channels=(
+            Channel("stroke", "m", "stroke"),
+            Channel("left.normal_force", "N", "normal force"),
+        ),
+        extremes={
+            "stroke": Extremes(stroke - 0.5, moment, stroke, moment),
+            "left.normal_force": Extremes(0.0 * force, moment, force, moment),
+        },
+        failures={point: Failure("step-size-underflow", "No step.", 0.1) for point in failed},
+    )

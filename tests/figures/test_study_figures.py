@@ -1,0 +1,279 @@
+"""What figures of studies show, and the specification that every figure meets, for these too."""
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from closed_form_study import bifurcation, one_point, sweep
+from matplotlib.colors import to_hex
+from PIL import Image
+from test_every_figure import MILLIMETRES_AN_INCH, drawn_with, stand_apart, visible_texts
+
+from jointplay import figures
+from jointplay.dataset import Channel
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+
+UNITS = {"", "m", "mm", "m/s", "mm/s", "N", "kN", "1/s"}
+CASES = {
+    "bifurcation": (bifurcation(points=60), "bifurcation", None),
+    "with verdicts": (
+        bifurcation(points=60, judged=True, failed=(7, 30), unfinished=range(40, 50)),
+        "bifurcation",
+        None,
+    ),
+    "in both directions": (bifurcation(points=40, judged=True, both=True), "bifurcation", None),
+    "over decades": (
+        bifurcation(points=60, logarithmic=True, low=1e-6),
+        "bifurcation",
+        Selection(channels=("block.x",)),
+    ),
+    "one value": (bifurcation(points=1), "bifurcation", None),
+    "section": (one_point(record=100), "section", None),
+    "section of a value": (bifurcation(points=30), "section", Selection(first=29, last=29)),
+    "section of an ensemble": (
+        one_point("ensemble", 9, record=50),
+        "section",
+        Selection(channels=("block.x", "block.vx")),
+    ),
+    "sweep": (sweep(failed=(7,), unfinished=range(20, 28)), "sweep", None),
+    "sweep of one point": (sweep((1,)), "sweep", None),
+    "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
+}
+
+
+@pytest.fixture(params=CASES.values(), ids=CASES)
+def case(request):
+    return request.param
+
+
+def test_it_is_as_wide_as_a_journal_column(case):
+    source, name, selection = case
+    picture = Image.open(io.BytesIO(figures.render(source, name, "png", selection)))
+    assert picture.width / page.DOTS_PER_INCH * MILLIMETRES_AN_INCH == pytest.approx(85.0, abs=0.1)
+    assert 30.0 < picture.height / page.DOTS_PER_INCH * MILLIMETRES_AN_INCH < 235.0
+
+
+def test_its_axes_say_quantity_and_unit(case):
+    for axes in drawn_with(*case).axes:
+        for label in (axes.get_xlabel(), axes.get_ylabel()):
+            if label:
+                quantity, _, unit = label.replace("\n", " ").partition(" [")
+                assert quantity
+                assert unit.removesuffix("]") in UNITS
+
+
+def test_its_text_is_readable_and_inside_the_page(case):
+    figure = drawn_with(*case)
+    width, height = figure.bbox.size
+    for text in visible_texts(figure):
+        assert text.get_fontsize() >= 6.0
+        box = text.get_window_extent()
+        assert -0.5 <= box.x0 <= box.x1 <= width + 0.5, text.get_text()
+        assert -0.5 <= box.y0 <= box.y1 <= height + 0.5, text.get_text()
+        assert "$" not in text.get_text()  # mathematics that nobody typesets
+
+
+def test_the_numbers_along_its_axes_stand_apart(case):
+    stand_apart(drawn_with(*case))
+
+
+@pytest.mark.parametrize("form", ["png", "svg"])
+def test_the_same_results_give_the_same_bytes(case, form):
+    source, name, selection = case
+    first = figures.render(source, name, form, selection)
+    assert figures.render(source, name, form, selection) == first
+
+
+def test_the_required_channels_are_all_it_reads(case):
+    source, name, selection = case
+    needed = figures.required(source, name, selection)
+    fewer = replace(
+        source,
+        section_values={one: v for one, v in source.section_values.items() if one in needed},
+        extremes={one: v for one, v in source.extremes.items() if one in needed},
+    )
+    assert figures.render(fewer, name, "png", selection) == figures.render(
+        source, name, "png", selection
+    )
+
+
+@pytest.mark.parametrize(
+    ("source", "names"),
+    [
+        (bifurcation(points=3), ["bifurcation"]),
+        (one_point(), ["section"]),
+        (one_point("ensemble", 3), ["section"]),
+        (sweep(), ["sweep"]),
+        (sweep((3, 3, 3)), []),
+    ],
+    ids=["bifurcation", "poincare", "ensemble", "sweep", "sweep of three"],
+)
+def test_the_list_holds_what_can_be_drawn_without_a_choice(source, names):
+    assert [listed.name for listed in figures.available(source)] == names
+
+
+def marks_of(axes):
+    """The clouds of marks by colour, as rows of x and y."""
+    return {
+        to_hex(line.get_color()).upper(): np.column_stack(line.get_data())
+        for line in axes.lines
+        if line.get_marker() == "o"
+    }
+
+
+def test_a_diagram_shows_every_section_at_its_value():
+    source = bifurcation(points=20, record=7)
+    (axes,) = drawn_with(source, "left.eccentricity_x", None).axes
+    (marks,) = marks_of(axes).values()
+    rows = source.section_values["left.eccentricity_x"]
+    expected = np.column_stack([np.repeat(source.values[:, 0], 7), rows.ravel()]) * 1e3
+    np.testing.assert_allclose(marks, expected)  # drawn in mm
+
+
+def test_verdicts_colour_the_sections_of_their_values():
+    source = bifurcation(points=60, record=5, judged=True)
+    axes, exponents = drawn_with(source, "block.x", None).axes
+    marks = marks_of(axes)
+    for verdict, colour in ((1, page.BLUE), (3, page.VERMILION), (0, page.GREY)):
+        judged = source.values[source.verdicts == verdict, 0]
+        np.testing.assert_allclose(np.unique(marks[colour.upper()][:, 0]), judged * 1e3)
+    assert exponents.get_ylabel() == "exponent [1/s]"
+    shown = np.concatenate([rows[:, 1] for rows in marks_of(exponents).values()])
+    np.testing.assert_array_equal(np.sort(shown), np.sort(source.indicators["lyapunov"]))
+
+
+def test_directions_have_two_colours_and_their_verdicts_a_strip():
+    source = bifurcation(points=40, record=5, judged=True, both=True)
+    axes, _, strip = drawn_with(source, "block.x", None).axes
+    marks = marks_of(axes)
+    np.testing.assert_allclose(
+        marks[page.BLUE.upper()][:, 1], source.section_values["block.x"][:40].ravel()
+    )
+    np.testing.assert_allclose(
+        marks[page.VERMILION.upper()][:, 1], source.section_values["block.x"][40:].ravel()
+    )
+    assert [label.get_text() for label in strip.get_yticklabels()] == ["forward", "backward"]
+    cells = sum(len(one.get_paths()) for one in strip.collections)
+    assert cells == 80
+
+
+def test_failed_values_are_marked_and_unfinished_ranges_shaded():
+    source = bifurcation(points=60, failed=(7, 30), unfinished=range(40, 50))
+    (axes,) = drawn_with(source, "block.x", None).axes
+    (crosses,) = [line for line in axes.lines if line.get_marker() == "x"]
+    np.testing.assert_allclose(crosses.get_xdata(), source.values[[7, 30], 0] * 1e3)
+    (shade,) = axes.patches
+    low, high = source.values[[39, 40], 0].mean(), source.values[[49, 50], 0].mean()
+    assert (shade.get_x(), shade.get_width()) == pytest.approx((low * 1e3, (high - low) * 1e3))
+
+
+def test_values_spaced_by_ratio_have_a_logarithmic_axis():
+    spaced = bifurcation(points=30, logarithmic=True, low=1e-6)
+    assert drawn_with(spaced, "block.x", None).axes[0].get_xscale() == "log"
+    assert drawn_with(bifurcation(low=1e-6), "block.x", None).axes[0].get_xscale() == "linear"
+
+
+def test_a_range_of_points_is_a_part_of_the_diagram():
+    source = bifurcation(points=60)
+    (axes,) = drawn_with(source, "block.x", Selection(first=10, last=19)).axes
+    (marks,) = marks_of(axes).values()
+    np.testing.assert_allclose(np.unique(marks[:, 0]), source.values[10:20, 0] * 1e3)
+
+
+def test_a_diagram_of_a_million_sections_is_no_large_file():
+    source = bifurcation(points=1000, record=1000)
+    assert len(figures.render(source, "bifurcation", "svg")) < 1_500_000
+
+
+def test_a_section_shows_each_position_against_its_rate():
+    source = one_point(record=50)
+    panels = drawn_with(source, "section", None).axes
+    assert [axes.get_xlabel() for axes in panels] == ["eccentricity x [mm]", "eccentricity y [mm]"]
+    (marks,) = marks_of(panels[0]).values()
+    sections = source.section_values
+    expected = np.stack(
+        [sections["left.eccentricity_x"][0], sections["left.eccentricity_rate_x"][0]], axis=1
+    )
+    np.testing.assert_allclose(marks, expected * 1e3)
+
+
+def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
+    source = sweep((30,))
+    order = np.random.default_rng(1).permutation(30)
+    shuffled = replace(
+        source,
+        values=source.values[order],
+        extremes={
+            name: type(peaks)(*(column[order] for column in peaks))
+            for name, peaks in source.extremes.items()
+        },
+    )
+    largest, smallest = drawn_with(shuffled, "left.normal_force", None).axes
+    np.testing.assert_allclose(largest.lines[0].get_xdata(), source.values[:, 0] * 1e3)
+    force = source.extremes["left.normal_force"]
+    np.testing.assert_allclose(largest.lines[0].get_ydata(), force.maximum * 1e-3)
+    np.testing.assert_allclose(smallest.lines[0].get_ydata(), force.minimum)
+
+
+def test_a_map_has_each_value_in_the_cell_of_its_parameters():
+    source = sweep((8, 6), failed=(3,))
+    largest = drawn_with(source, "stroke", None).axes[0]
+    (mesh,) = largest.collections
+    table = np.ma.filled(mesh.get_array(), np.nan)
+    expected = source.extremes["stroke"].maximum.reshape(8, 6).T.copy()
+    np.testing.assert_allclose(table, expected)
+    assert np.isnan(table).sum() == 1
+
+
+def test_a_range_in_which_two_parameters_vary_is_a_map():
+    source = sweep((4, 3, 5))
+    with pytest.raises(NotDrawable, match="play, friction, speed vary"):
+        figures.draw(source, "sweep")
+    assert figures.render(source, "sweep", "png", Selection(first=0, last=14))
+
+
+@pytest.mark.parametrize(
+    ("source", "name", "selection", "says", "cause"),
+    [
+        (sweep(), "bifurcation", None, "of kind bifurcation", "name"),
+        (sweep(), "section", None, "not of a sweep", "name"),
+        (bifurcation(points=3), "sweep", None, "kept extremes", "name"),
+        (bifurcation(points=3), "section", None, "Choose one point", "first"),
+        (bifurcation(points=3), "bifurcation", Selection(first=3), "points 0 to 2", "first"),
+        (bifurcation(points=3), "bifurcation", Selection(last=3), "points 0 to 2", "last"),
+        (
+            bifurcation(points=3),
+            "bifurcation",
+            Selection(channels=("block.X",)),
+            r"did you mean block\.x",
+            "channels",
+        ),
+        (bifurcation(points=3), "bifurcation", Selection(joints=("left",)), "joints", "joints"),
+        (bifurcation(points=3), "bifurcation", Selection(start=1.0), "start", "start"),
+        (one_point(), "section", Selection(joints=("right",)), "joint 'right'", "joints"),
+        (one_point(), "section", Selection(channels=("block.x",)), "two channels", "channels"),
+    ],
+)
+def test_what_cannot_be_shown_is_said(source, name, selection, says, cause):
+    with pytest.raises(NotDrawable, match=says) as caught:
+        figures.draw(source, name, selection)
+    assert caught.value.cause == cause
+
+
+def test_an_unknown_figure_is_refused_with_those_there_are():
+    with pytest.raises(UnknownFigure, match="bifurcation, sweep, section"):
+        figures.draw(sweep(), "orbit")
+
+
+def test_a_study_before_its_first_result_is_drawn_empty():
+    waiting = bifurcation(points=10, unfinished=range(10))
+    assert figures.render(waiting, "bifurcation", "png")
+    assert figures.render(sweep((5,), unfinished=range(5)), "sweep", "png")
+    assert figures.render(sweep((3, 3), unfinished=range(9)), "sweep", "png")
+
+
+def test_a_study_of_one_observable_without_rate_is_drawn():
+    source = bifurcation(points=5)
+    alone = replace(source, observables=(Channel("block.x", "m", "position"),))
+    assert figures.required(alone, "bifurcation") == ("block.x",)
