@@ -12,6 +12,12 @@ class Layout:
     def __init__(self) -> None:
         self._slots: dict[str, int] = {}
 
+    def copy(self) -> Layout:
+        """Return a layout that begins with the same slots."""
+        copied = Layout()
+        copied._slots.update(self._slots)
+        return copied
+
     @property
     def size(self) -> int:
         """Number of slots."""

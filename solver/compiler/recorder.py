@@ -29,6 +29,8 @@ class Recorder:
     def __init__(self) -> None:
         self._nodes: dict[tuple[object, ...], Expression] = {}
         self.numbers: dict[str, float] = {}
+        self.functions: dict[int, Function] = {}
+        """What is known of nodes that stand for a function of one expression."""
 
     def constant(self, value: float) -> Expression:
         """Return the node of a literal number; minus zero is zero."""
@@ -199,7 +201,10 @@ class Expression:
         """Sine and cosine by our own lane functions; outside the kernel where x is fixed."""
         if self.fixed:
             return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
-        return lane_functions.sine_cosine(self)
+        sine, cosine = lane_functions.sine_cosine(self)
+        self.recorder.functions[sine.index] = Function("sine", self, cosine)
+        self.recorder.functions[cosine.index] = Function("cosine", self, sine)
+        return sine, cosine
 
     def power(self, exponent: object) -> Expression:
         """X ** exponent for x >= 0 by our own lane functions."""
@@ -207,4 +212,18 @@ class Expression:
         if self.fixed and lifted.fixed:
             return self.recorder.apply("pow", self, lifted)
         result: Expression = lane_functions.power(self, lifted)
+        if lifted.fixed:
+            self.recorder.functions[result.index] = Function("power", self, lifted)
         return result
+
+
+@dataclass(frozen=True)
+class Function:
+    """What a node stands for, though it is recorded as arithmetic: derivatives need not go there.
+
+    `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power.
+    """
+
+    name: str
+    argument: Expression
+    partner: Expression

@@ -53,6 +53,12 @@ class Slot(IntEnum):
     APPROACH = 37
     ONSET_TOTAL = 38
     OPENED = 39
+    WEIGHT = 40
+    TANGENT = 41
+    TANGENT_IMPACT_RATE = 42
+    TANGENT_GAP = 43
+    STEPS = 44
+    PACE_AT = 45
 
 
 COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "SIZE")

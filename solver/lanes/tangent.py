@@ -1,0 +1,95 @@
+"""Tangent vectors of lanes: their start, their jump where a contact begins, their growth."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slot
+from solver.jit import kernel
+
+GOLDEN = 0.6180339887498949
+"""Its multiples less their whole parts are unrelated: a direction that no symmetry singles out."""
+SHORTEST = 1e-290
+"""Length below which a tangent counts as vanished: its inverse would overflow."""
+
+
+@kernel()
+def start_tangent(lane: int, slots: np.ndarray, work: np.ndarray) -> None:
+    """Give a lane a tangent of length 1 that has a share of every coordinate and speed."""
+    for i in range(slots[Slot.STATES]):
+        share = (i + 1) * GOLDEN - math.floor((i + 1) * GOLDEN) + 0.5
+        weight = work[(slots[Slot.WEIGHT] + i) * LANES + lane]
+        work[(slots[Slot.TANGENT] + i) * LANES + lane] = share / weight
+    for j in range(slots[Slot.JOINTS]):
+        work[(slots[Slot.TANGENT_IMPACT_RATE] + j) * LANES + lane] = 0.0
+    scale_tangent(1.0 / tangent_length(lane, slots, work), lane, slots, work)
+
+
+@kernel()
+def latch_tangent(j: int, lane: int, slots: np.ndarray, work: np.ndarray) -> None:
+    """Give the latched impact rate of joint j its derivative along the tangent.
+
+    To be called once `begin_contact` has latched the rate and `tangent_gaps` was evaluated at the
+    same state. A neighbouring run has its onset later by dt = -dδ / δ̇, so it latches
+    dδ̇ + δ̈ dt more; a floored rate is the same for all neighbours.
+
+    The tangent of the state itself does not jump (its saltation matrix, Müller 1995, is the
+    identity): that matrix is I + (f_after - f_before) ⊗ ∇δ / δ̇, and a contact law whose force
+    grows from zero at δ = 0, K δ^n with n >= 1 and friction proportional to it, makes the slope f
+    continuous there. The same holds where contact ends. It fails for a law whose force jumps at
+    touch, such as a viscous damper without the factor δ^n. It also fails for friction with equal
+    limit velocities: the force then jumps where the slip reverses, which is no onset; the
+    derivative of the branch in force, zero, leaves that jump out.
+    """
+    gap_slot = slots[Slot.GAP] + 4 * j
+    tangent_slot = slots[Slot.TANGENT_GAP] + 3 * j
+    rate = work[(gap_slot + 1) * LANES + lane]
+    latched = 0.0
+    if rate > work[(slots[Slot.IMPACT_FLOOR] + j) * LANES + lane]:
+        later = -work[tangent_slot * LANES + lane] / rate
+        latched = work[(tangent_slot + 1) * LANES + lane]
+        latched += work[(tangent_slot + 2) * LANES + lane] * later
+    work[(slots[Slot.TANGENT_IMPACT_RATE] + j) * LANES + lane] = latched
+
+
+@kernel()
+def renormalise(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
+    """Bring a lane's tangent back to length 1; the logarithm of the length that it had.
+
+    A tangent that has vanished or overflowed starts afresh, and its logarithm is not finite.
+    """
+    length = tangent_length(lane, slots, work)
+    if SHORTEST < length < math.inf:
+        scale_tangent(1.0 / length, lane, slots, work)
+    else:
+        start_tangent(lane, slots, work)
+    return math.log(length)
+
+
+@kernel()
+def tangent_length(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
+    """Length in the metric of the error weights: the scene's own scales for metres and radians."""
+    largest = 0.0
+    for i in range(slots[Slot.STATES]):
+        weight = work[(slots[Slot.WEIGHT] + i) * LANES + lane]
+        largest = max(largest, abs(work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight))
+    if largest == 0.0:
+        return 0.0
+    square = 0.0
+    for i in range(slots[Slot.STATES]):
+        weight = work[(slots[Slot.WEIGHT] + i) * LANES + lane]
+        share = work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight / largest
+        square += share * share
+    return largest * math.sqrt(square)
+
+
+@kernel()
+def scale_tangent(factor: float, lane: int, slots: np.ndarray, work: np.ndarray) -> None:
+    """Multiply a lane's tangent."""
+    for i in range(slots[Slot.STATES]):
+        work[(slots[Slot.TANGENT] + i) * LANES + lane] *= factor
+    for j in range(slots[Slot.JOINTS]):
+        work[(slots[Slot.TANGENT_IMPACT_RATE] + j) * LANES + lane] *= factor
