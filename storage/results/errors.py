@@ -33,6 +33,10 @@ class CheckpointMismatch(ResultsError):
     """The checkpoint belongs to another layout, or to a folder that lacks its rows."""
 
 
+class IncompleteStudy(ResultsError):
+    """Blocks of a study are missing that should be there when it is sealed."""
+
+
 class UnknownChannel(ResultsError):
     """A channel was asked for that the store does not have."""
 

@@ -1,7 +1,7 @@
 """The list of a sealed store's files, written last: a store that has it is all on the disk."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from storage.results.durable import PARTIAL, DurableFolder, Record, measure
@@ -11,12 +11,16 @@ from storage.results.layout import MANIFEST, SCHEMA_VERSION
 _MOST_NAMED = 5
 
 
-def seal(folder: DurableFolder) -> None:
-    """Write the manifest of all files of a store and make it durable."""
-    files = {
-        key: {"bytes": record.size, "sha256": record.digest}
-        for key, record in ((key, folder.record(key)) for key in sorted(keys(folder.root)))
-    }
+def seal(folder: DurableFolder, advanced: Callable[[], None] = lambda: None) -> None:
+    """Write the manifest of all files of a store and make it durable.
+
+    `advanced` is called after each file.
+    """
+    files = {}
+    for key in sorted(keys(folder.root)):
+        record = folder.record(key)
+        files[key] = {"bytes": record.size, "sha256": record.digest}
+        advanced()
     document = {"result_schema": SCHEMA_VERSION, "files": files}
     folder.write(MANIFEST, json.dumps(document, indent=0).encode())
     folder.commit()

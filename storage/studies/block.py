@@ -1,0 +1,238 @@
+"""One block of a study on its way to the store.
+
+A file of an array is written once, when nothing in it can change any more: its bytes depend on
+the results alone, and a worker that was given up and comes back late writes the same bytes.
+"""
+
+import secrets
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+
+from storage.results import shards
+from storage.results.durable import PARTIAL, DurableFolder
+from storage.results.errors import InvalidAppend, ResultsError
+from storage.results.layout import TIME
+from storage.studies import part
+from storage.studies.layout import StudyLayout
+from storage.studies.part import Failure, Floats, Part, PointStatus
+from storage.studies.pieces import End, Piece, Rows
+
+_ENDED = (PointStatus.done, PointStatus.failed)
+
+
+class StudyBlock:
+    """Takes what a block's computation hands out; memory is bounded by the points in work.
+
+    Parameters
+    ----------
+    folder
+        Of the store, which `create` made.
+    layout
+        Of the study.
+    index
+        Of the block in the layout.
+    attempt
+        Which try at the block this is; each has its own restart file.
+    """
+
+    def __init__(self, folder: Path, layout: StudyLayout, index: int, attempt: int = 1) -> None:
+        self._layout = layout
+        self._first, self._count = layout.blocks[index]
+        self._attempt = attempt
+        self._folder = DurableFolder(folder, f".{secrets.token_hex(4)}{PARTIAL}")
+        self._part = Part.empty(layout, index)
+        names = [spec.name for spec in layout.observables]
+        self._columns = [*names, TIME]
+
+    @classmethod
+    def resume(
+        cls, folder: Path, layout: StudyLayout, index: int, attempt: int, name: str
+    ) -> tuple[Self, bytes]:
+        """Go on from what `flush` of an earlier attempt wrote under a name.
+
+        Returns
+        -------
+        tuple
+            The block, and the bytes that were given to `flush`.
+
+        Raises
+        ------
+        FileNotFoundError, CorruptStore, CheckpointMismatch
+            There is nothing to go on from: begin anew.
+        """
+        block = cls(folder, layout, index, attempt)
+        found = Part.read(folder / part.FOLDER / name, layout.digest)
+        for key, rows in found.open.items():
+            chunk = block._new_chunk()
+            chunk[:, :, : rows.shape[2]] = rows
+            found.open[key] = chunk
+        carried, found.carried = found.carried, b""
+        block._part = found
+        return block, carried
+
+    @staticmethod
+    def done(folder: Path, layout: StudyLayout, index: int) -> bool:
+        """Whether some attempt finished this block; then there is nothing left to compute."""
+        try:
+            Part.read(folder / part.FOLDER / part.final_name(index), layout.digest)
+        except (FileNotFoundError, ResultsError):
+            return False
+        return True
+
+    @property
+    def watermark(self) -> int:
+        """Points that have ended."""
+        return int(np.isin(self._part.status, _ENDED).sum())
+
+    def take(self, piece: Piece) -> None:
+        """Add what became known; chunks that are full go to the disk, durable with `flush`.
+
+        Raises
+        ------
+        InvalidAppend
+            A point of another block, sections out of turn or too many, or a point that ended
+            before.
+        """
+        touched: set[int] = set()
+        for point in piece.started:
+            self._part.status[self._row(point)] = PointStatus.running
+        for rows in piece.rows:
+            touched.add(self._add_rows(rows))
+        for end in piece.ended:
+            touched.add(self._add_end(end))
+        for row in sorted(touched):
+            self._write_full_chunks(row)
+
+    def flush(self, carried: bytes) -> str:
+        """Bring everything taken so far to the disk, with what continues the computation.
+
+        Returns
+        -------
+        str
+            The name for `resume`; it stays valid, also while later calls replace the file.
+        """
+        self._folder.commit()
+        self._folder.records.clear()
+        name = part.name_of(self._part.index, self._attempt)
+        self._write_part(name, self._trimmed(), carried)
+        return name
+
+    def finish(self) -> None:
+        """Write what is left of a block whose points have all ended; durable on return.
+
+        Raises
+        ------
+        InvalidAppend
+            Some points have not ended.
+        """
+        missing = self._count - self.watermark
+        if missing:
+            raise InvalidAppend(f"{missing} points of block {self._part.index} have not ended")
+        self._folder.commit()
+        self._folder.records.clear()
+        self._write_part(part.final_name(self._part.index), {}, b"")
+        for path in (self._folder.root / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
+            path.unlink(missing_ok=True)
+
+    def _add_rows(self, rows: Rows) -> int:
+        place = self._row(rows.point)
+        count, known = len(rows.time), int(self._part.counts[place])
+        width = len(self._layout.observables)
+        if rows.values.shape != (count, width):
+            raise InvalidAppend(f"sections need shape {(count, width)}, not {rows.values.shape}")
+        if rows.first != known or known + count > self._layout.record:
+            raise InvalidAppend(
+                f"point {rows.point} has {known} of {self._layout.record} sections; sections"
+                f" {rows.first} to {rows.first + count - 1} do not follow"
+            )
+        if self._part.status[place] in _ENDED:
+            raise InvalidAppend(f"point {rows.point} has ended and takes no more sections")
+        points, sections = self._layout.chunk
+        row, within = divmod(rows.point, points)
+        taken = 0
+        while taken < count:
+            column, start = divmod(known + taken, sections)
+            step = min(sections - start, count - taken)
+            chunk = self._part.open.get((row, column))
+            if chunk is None:
+                chunk = self._part.open[row, column] = self._new_chunk()
+            chunk[:-1, within, start : start + step] = rows.values[taken : taken + step].T
+            chunk[-1, within, start : start + step] = rows.time[taken : taken + step]
+            taken += step
+        self._part.counts[place] = known + count
+        return row
+
+    def _add_end(self, end: End) -> int:
+        place = self._row(end.point)
+        if self._part.status[place] in _ENDED:
+            raise InvalidAppend(f"point {end.point} ended before")
+        if end.code:
+            self._part.failures[end.point] = Failure(end.code, end.detail, float(end.time))
+        self._part.status[place] = PointStatus.failed if end.code else PointStatus.done
+        if end.peaks.size:
+            self._part.peaks[place] = end.peaks
+        for numbers, new in (
+            (self._part.statistics, end.statistics),
+            (self._part.indicators, end.indicators),
+        ):
+            for name, value in new.items():
+                if name not in numbers:
+                    numbers[name] = np.full(self._count, np.nan)
+                numbers[name][place] = value
+        return end.point // self._layout.chunk[0]
+
+    def _write_full_chunks(self, row: int) -> None:
+        """Write the chunks of one row of the grid that can get no more sections."""
+        points, sections = self._layout.chunk
+        begin = row * points - self._first
+        members = slice(begin, min(begin + points, self._count))
+        going = ~np.isin(self._part.status[members], _ENDED)
+        counts = self._part.counts[members][going]
+        passed = int(counts.min()) // sections if going.any() else self._layout.record
+        full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)
+        for key in full:
+            chunk = self._part.open.pop(key)
+            for name, values in zip(self._columns, chunk, strict=True):
+                path = f"sections/{name}/c/{key[0]}/{key[1]}"
+                self._folder.write(path, shards.compress(values))
+
+    def _trimmed(self) -> dict[tuple[int, int], Floats]:
+        """Open chunks without the columns that no point has reached."""
+        return {key: chunk[:, :, : _last(chunk[-1])] for key, chunk in self._part.open.items()}
+
+    def _write_part(self, name: str, chunks: dict[tuple[int, int], Floats], carried: bytes) -> None:
+        known = self._part
+        shown = Part(
+            known.index,
+            known.status,
+            known.counts,
+            known.peaks,
+            known.failures,
+            known.statistics,
+            known.indicators,
+            chunks,
+            carried,
+        )
+        self._folder.write(f"{part.FOLDER}/{name}", shown.encode(self._layout))
+        self._folder.commit()
+        self._folder.records.clear()
+
+    def _new_chunk(self) -> Floats:
+        return np.full((len(self._columns), *self._layout.chunk), np.nan)
+
+    def _row(self, point: int) -> int:
+        row = point - self._first
+        if not 0 <= row < self._count:
+            raise InvalidAppend(
+                f"point {point} is not one of the {self._count} from {self._first} on that block"
+                f" {self._part.index} has"
+            )
+        return row
+
+
+def _last(times: Floats) -> int:
+    """Count the columns of a (points, sections) array up to the last one with a number."""
+    reached = np.flatnonzero(np.isfinite(times).any(axis=0))
+    return int(reached[-1]) + 1 if len(reached) else 0

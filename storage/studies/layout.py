@@ -1,0 +1,130 @@
+"""What a study's store holds: many points, and for each its sections, peaks and numbers."""
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import sha256
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results.errors import InvalidLayout
+from storage.results.layout import TIME, ArraySpec, check_name
+
+STUDY_SCHEMA: Final = 1
+CHUNK_VALUES: Final = 16_384
+"""Most values that are compressed together."""
+CHUNK_SECTIONS: Final = 4096
+"""Most sections of one point in a chunk: what waits for its chunk is rewritten every second."""
+
+
+@dataclass(frozen=True, eq=False)
+class StudyLayout:
+    """Everything that fixes a study's arrays before the first number is known.
+
+    Parameters
+    ----------
+    parameters
+        What differs between points; none for one point that is only perturbed.
+    values
+        (points, parameters), in the units of the parameters.
+    observables
+        What is stored at each section, beside its time.
+    record
+        Most sections of a point; 0 where none are taken.
+    channels
+        Whose extremes are kept for each point.
+    blocks
+        (first, count) of the contiguous points that are computed together.
+    attributes
+        JSON document for the root group: the filled-in job, the scene, versions, code tables.
+    meanings
+        Units and long names of statistics and indicators, by name, as far as they are known.
+
+    Raises
+    ------
+    InvalidLayout
+        A name that a store cannot hold or that occurs twice, blocks that leave points out, or
+        attributes that JSON cannot carry.
+    """
+
+    parameters: tuple[ArraySpec, ...]
+    values: NDArray[np.float64]
+    observables: tuple[ArraySpec, ...]
+    record: int
+    channels: tuple[ArraySpec, ...]
+    blocks: tuple[tuple[int, int], ...]
+    attributes: dict[str, Any] = field(default_factory=dict)
+    meanings: Mapping[str, ArraySpec] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.values.ndim != 2 or self.values.shape[1] != len(self.parameters):
+            raise InvalidLayout(
+                f"values of {len(self.parameters)} parameters need as many columns, not the shape"
+                f" {self.values.shape}"
+            )
+        _check_names(self.parameters, "parameter", ())
+        _check_names(self.observables, "observable", (TIME,))
+        _check_names(self.channels, "channel", ())
+        if self.record < 0 or bool(self.record) != bool(self.observables):
+            raise InvalidLayout("sections are recorded of observables, and of nothing else")
+        reached = 0
+        for first, count in self.blocks:
+            if first != reached or count < 1:
+                raise InvalidLayout(f"the block after point {reached} begins at point {first}")
+            reached += count
+        if reached != self.points:
+            raise InvalidLayout(f"the blocks hold {reached} of {self.points} points")
+        try:
+            json.dumps(self.attributes, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise InvalidLayout(f"attributes must be finite JSON values: {error}") from error
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return int(self.values.shape[0])
+
+    @cached_property
+    def chunk(self) -> tuple[int, int]:
+        """Points and sections in one chunk of the arrays of sections, which is one file.
+
+        No two blocks touch one chunk: its points divide every number at which a block begins.
+        A chunk holds several points only with all their sections, so that it waits for the
+        points that are computed together and not for the next ones.
+        """
+        sections = max(min(self.record, CHUNK_SECTIONS), 1)
+        most = CHUNK_VALUES // sections if self.record <= sections else 1
+        begins = math.gcd(*(first for first, _ in self.blocks))
+        if begins == 0:  # one block
+            return max(min(most, self.points), 1), sections
+        fitting = (d for d in range(min(most, begins), 0, -1) if begins % d == 0)
+        return next(fitting, 1), sections
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 over arrays, values and attributes: stores of one digest are one store."""
+        shape = [
+            STUDY_SCHEMA,
+            [
+                [[spec.name, spec.unit, spec.long_name] for spec in specs]
+                for specs in (self.parameters, self.observables, self.channels)
+            ],
+            self.record,
+            self.blocks,
+            sha256(np.ascontiguousarray(self.values, dtype="<f8").tobytes()).hexdigest(),
+            self.attributes,
+        ]
+        return sha256(json.dumps(shape).encode()).hexdigest()
+
+
+def _check_names(specs: Iterable[ArraySpec], what: str, taken: Iterable[str]) -> None:
+    seen = set(taken)
+    for spec in specs:
+        check_name(spec.name)
+        if spec.name in seen:
+            raise InvalidLayout(f"{what} {spec.name!r} occurs twice; names are unique")
+        seen.add(spec.name)

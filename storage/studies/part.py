@@ -1,0 +1,184 @@
+"""What is known of one block beside its finished chunks: one file, replaced as the block advances.
+
+It holds the status and the numbers of every point of the block, the sections whose chunk is not
+full yet, and the restart point of the computation, all of one moment. When a block is done its
+last part remains until the study is sealed.
+"""
+
+import json
+from dataclasses import dataclass, field
+from enum import IntEnum
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Final, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results.errors import CheckpointMismatch, CorruptStore
+from storage.studies.layout import StudyLayout
+
+FOLDER: Final = ".parts"
+_MAGIC: Final = b"jointplay part of a study 1\n"
+
+Floats = NDArray[np.float64]
+
+
+class PointStatus(IntEnum):
+    """What a point of a study is doing."""
+
+    waiting = 0
+    running = 1
+    done = 2
+    failed = 3
+
+
+class Failure(NamedTuple):
+    """Why a point has not all its sections: a code, a sentence, the simulated time reached [s]."""
+
+    code: str
+    detail: str
+    time: float
+
+
+@dataclass
+class Part:
+    """A block's points as far as they are known.
+
+    Arrays have a row for each point of the block. `open` holds by (row, column) of the grid of
+    chunks the sections of chunks that are not in the store yet: (observables + 1, points,
+    sections), times last.
+    """
+
+    index: int
+    status: NDArray[np.uint8]
+    counts: NDArray[np.int32]
+    peaks: Floats
+    """(points, channels, 4): minimum, its time, maximum, its time."""
+    failures: dict[int, Failure] = field(default_factory=dict)
+    """By point of the study."""
+    statistics: dict[str, Floats] = field(default_factory=dict)
+    indicators: dict[str, Floats] = field(default_factory=dict)
+    open: dict[tuple[int, int], Floats] = field(default_factory=dict)
+    carried: bytes = b""
+    """Whatever continues the computation from this moment; empty when the block is done."""
+
+    @classmethod
+    def empty(cls, layout: StudyLayout, index: int) -> Self:
+        """Begin a block of which nothing is known."""
+        count = layout.blocks[index][1]
+        return cls(
+            index,
+            np.zeros(count, np.uint8),
+            np.zeros(count, np.int32),
+            np.full((count, len(layout.channels), 4), np.nan),
+        )
+
+    def encode(self, layout: StudyLayout) -> bytes:
+        """Give the bytes of the file: the same for the same part."""
+        arrays: dict[str, NDArray[Any]] = {
+            "status": self.status,
+            "counts": self.counts,
+            "peaks": self.peaks,
+        }
+        for group, numbers in (("statistics", self.statistics), ("indicators", self.indicators)):
+            arrays |= {f"{group}/{name}": numbers[name] for name in sorted(numbers)}
+        arrays |= {
+            f"open/{row}/{column}": self.open[row, column] for row, column in sorted(self.open)
+        }
+        packed = [array.astype(array.dtype.newbyteorder("<")) for array in arrays.values()]
+        body = b"".join((*(array.tobytes() for array in packed), self.carried))
+        header = {
+            "layout": layout.digest,
+            "block": self.index,
+            "arrays": [
+                [name, array.dtype.str, array.shape]
+                for name, array in zip(arrays, packed, strict=True)
+            ],
+            "failures": {
+                str(point): [failure.code, failure.detail, failure.time.hex()]
+                for point, failure in sorted(self.failures.items())
+            },
+            "sha256": sha256(body).hexdigest(),
+        }
+        return _MAGIC + json.dumps(header, separators=(",", ":")).encode() + b"\n" + body
+
+    @classmethod
+    def read(cls, path: Path, digest: str) -> Self:
+        """Read a part of the store with this layout's digest.
+
+        Raises
+        ------
+        FileNotFoundError
+            It is not there (any more).
+        CorruptStore
+            It is damaged.
+        CheckpointMismatch
+            It belongs to another study.
+        """
+        content = path.read_bytes()
+        try:
+            header, body = _opened(content)
+        except (ValueError, KeyError, TypeError) as error:
+            raise CorruptStore(f"{path} cannot be read: {error}") from error
+        if header["layout"] != digest:
+            raise CheckpointMismatch(f"{path} belongs to another study")
+        arrays: dict[str, NDArray[Any]] = {}
+        offset = 0
+        for name, dtype, shape in header["arrays"]:
+            array = np.frombuffer(body, dtype, int(np.prod(shape)), offset).reshape(shape)
+            arrays[name] = array.copy()  # to be written to
+            offset += array.nbytes
+        part = cls(header["block"], arrays["status"], arrays["counts"], arrays["peaks"])
+        for name, array in arrays.items():
+            group, _, member = name.partition("/")
+            if group == "open":
+                row, _, column = member.partition("/")
+                part.open[int(row), int(column)] = array
+            elif member:
+                getattr(part, group)[member] = array
+        part.failures = {
+            int(point): Failure(code, detail, float.fromhex(time))
+            for point, (code, detail, time) in header["failures"].items()
+        }
+        part.carried = bytes(body[offset:])
+        return part
+
+
+def _opened(content: bytes) -> tuple[dict[str, Any], memoryview]:
+    """Split a file into header and body; ValueError if it is not whole."""
+    if not content.startswith(_MAGIC):
+        raise ValueError("it begins with other bytes")
+    end = content.index(b"\n", len(_MAGIC))
+    header: dict[str, Any] = json.loads(content[len(_MAGIC) : end])
+    body = memoryview(content)[end + 1 :]
+    if sha256(body).hexdigest() != header["sha256"]:
+        raise ValueError("its checksum differs")
+    return header, body
+
+
+def final_name(index: int) -> str:
+    """Name the last part of a block, below `FOLDER`."""
+    return f"{index:05d}"
+
+
+def name_of(index: int, attempt: int) -> str:
+    """Name what one attempt at a block has reached, below `FOLDER`."""
+    return f"{index:05d}-a{attempt}"
+
+
+def newest(folder: Path) -> dict[int, Path]:
+    """Find each block's last part, or else that of its latest attempt, by the block's index."""
+    found: dict[int, tuple[float, Path]] = {}
+    try:
+        paths = sorted((folder / FOLDER).iterdir())
+    except FileNotFoundError:
+        return {}
+    for path in paths:
+        index, _, attempt = path.name.partition("-a")
+        if not index.isdigit() or not (attempt.isdigit() or not attempt):
+            continue  # being written
+        rank = float(attempt or "inf")
+        if int(index) not in found or rank > found[int(index)][0]:
+            found[int(index)] = (rank, path)
+    return {index: path for index, (_, path) in found.items()}

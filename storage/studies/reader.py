@@ -1,0 +1,301 @@
+"""Read a study's store, also while it is being filled: stock zarr, with the parts laid over it."""
+
+import json
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+import zarr
+from numpy.typing import NDArray
+
+from storage.results import manifest
+from storage.results.errors import NotAStore, UnknownChannel
+from storage.results.layout import MANIFEST, TIME, ArraySpec
+from storage.results.metadata import FILE
+from storage.studies import part
+from storage.studies.layout import STUDY_SCHEMA
+from storage.studies.part import Failure, Floats, Part
+from storage.studies.points import Points, together
+from storage.studies.store import FAILURES
+
+_PATIENCE = 100  # times that parts may be replaced while they are being read
+
+
+class Extremes(NamedTuple):
+    """Signed extremes of one channel at every point, each with its time [s]: (points,) arrays."""
+
+    minimum: Floats
+    minimum_time: Floats
+    maximum: Floats
+    maximum_time: Floats
+
+
+class StudyReader:
+    """One study's store as it is at this moment: sealed, growing, or left incomplete.
+
+    Opening reads one small file; everything else is read when it is asked for.
+
+    Parameters
+    ----------
+    folder
+        Of the store.
+
+    Raises
+    ------
+    NotAStore
+        There is no store of a study, or one of a schema that this version does not know.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.path = Path(folder)
+        self._open()
+
+    def _open(self) -> None:
+        self.sealed = (self.path / MANIFEST).exists()
+        """Nothing will be added any more."""
+        try:
+            root = json.loads((self.path / FILE).read_bytes())
+            self.attributes: dict[str, Any] = root["attributes"]
+            schema = self.attributes.get("study_schema")
+        except (FileNotFoundError, ValueError, KeyError, TypeError) as error:
+            raise NotAStore(f"{self.path} holds no store of a study") from error
+        if schema != STUDY_SCHEMA:
+            raise NotAStore(
+                f"{self.path} has study schema {schema}; this version reads {STUDY_SCHEMA}"
+            )
+        self.complete = bool(self.attributes["complete"])
+        """Every point has ended; False while it runs and when it failed or was cancelled."""
+        self.points = int(self.attributes["points"])
+        self.record = int(self.attributes["record"])
+        """Sections that a point records at most."""
+        self.parameters = _specs(self.attributes["parameters"])
+        self.observables = _specs(self.attributes["observables"])
+        self.channels = _specs(self.attributes["channels"])
+        self.__dict__.pop("_root", None)  # its documents were those of the growing store
+
+    @property
+    def kind(self) -> str:
+        """Kind of the job."""
+        return str(self.attributes["job"]["kind"])
+
+    @cached_property
+    def values(self) -> Floats:
+        """(points, parameters), in the units of the parameters."""
+        columns = [self._array(f"values/{spec.name}")[:] for spec in self.parameters]
+        return np.asarray(columns, dtype=np.float64).reshape(len(columns), self.points).T
+
+    @property
+    def status(self) -> NDArray[np.uint8]:
+        """(points,) codes of `PointStatus`: waiting, running, done, failed."""
+        return self._numbers.status
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """(points,) sections recorded so far."""
+        return self._numbers.counts.astype(np.int64)
+
+    @property
+    def failures(self) -> Mapping[int, Failure]:
+        """Failed points: code, sentence, simulated time reached."""
+        return self._numbers.failures
+
+    @property
+    def statistics(self) -> Mapping[str, Floats]:
+        """(points,) by name; NaN at points that have not ended."""
+        return self._numbers.statistics
+
+    @property
+    def indicators(self) -> Mapping[str, Floats]:
+        """(points,) by name; NaN at points that have not ended."""
+        return self._numbers.indicators
+
+    @property
+    def verdicts(self) -> NDArray[np.int64] | None:
+        """(points,) codes into `verdict_names`, -1 where there is none yet; None: not asked for."""
+        found = self.indicators.get("verdict")
+        if found is None:
+            return None
+        return np.where(np.isnan(found), -1, np.nan_to_num(found)).astype(np.int64)
+
+    @property
+    def verdict_names(self) -> Sequence[str]:
+        """Names of the verdicts."""
+        return tuple(self.attributes.get("verdicts", ()))
+
+    def peaks(self, channel: str) -> Extremes:
+        """Give the extremes of a channel at every point; NaN at points that have not ended.
+
+        Raises
+        ------
+        UnknownChannel
+            Peaks of this channel are not kept.
+        """
+        column = _position(channel, self.channels)
+        numbers = self._numbers
+        if not self.sealed:
+            return Extremes(*numbers.peaks[:, column, :].T)
+        return Extremes(
+            *(
+                np.asarray(self._array(f"peaks/{name}")[:, column], np.float64)
+                for name in Extremes._fields
+            )
+        )
+
+    def section_times(self, start: int = 0, stop: int | None = None) -> Floats:
+        """Give (stop - start, record) times [s] of the sections of points, NaN-filled."""
+        return self._sections(TIME, len(self.observables), start, stop)
+
+    def sections(self, observable: str, start: int = 0, stop: int | None = None) -> Floats:
+        """Give (stop - start, record) values of an observable at points, NaN-filled.
+
+        Raises
+        ------
+        UnknownChannel
+            The observable was not recorded.
+        """
+        column = _position(observable, self.observables)
+        return self._sections(observable, column, start, stop)
+
+    def point_sections(
+        self,
+        point: int,
+        observables: Sequence[str] | None = None,
+        first: int = 0,
+        stop: int | None = None,
+    ) -> tuple[Floats, dict[str, Floats]]:
+        """Give sections `first` to `stop` - 1 of one point, as far as they were recorded.
+
+        Memory is bounded by the window: a million sections can be read piece by piece.
+
+        Returns
+        -------
+        tuple
+            (k,) times [s] and by observable (default: all) (k,) values.
+
+        Raises
+        ------
+        UnknownChannel
+            An observable was not recorded.
+        """
+        names = [spec.name for spec in self.observables] if observables is None else observables
+        positions = {name: _position(name, self.observables) for name in names}
+        recorded = int(self.counts[point])
+        window = slice(max(first, 0), recorded if stop is None else max(min(stop, recorded), 0))
+        columns = {
+            name: self._window(name, column, slice(point, point + 1), window)[0]
+            for name, column in {TIME: len(self.observables), **positions}.items()
+        }
+        return columns.pop(TIME), columns
+
+    def verify(self) -> None:
+        """Compare every file with the manifest.
+
+        Raises
+        ------
+        NotAStore
+            The store is not sealed.
+        CorruptStore
+            A file is missing, differs or was added.
+        """
+        manifest.verify(self.path)
+
+    def _sections(self, name: str, column: int, start: int, stop: int | None) -> Floats:
+        points = slice(*slice(start, stop).indices(self.points))
+        return self._window(name, column, points, slice(0, self.record))
+
+    def _window(self, name: str, column: int, points: slice, sections: slice) -> Floats:
+        """Read from the array, then lay what no chunk holds yet over it."""
+        if not self.record:
+            return np.empty((max(points.stop - points.start, 0), 0))
+        parts = self._parts  # before the array: what has left them is in it by then
+        array = self._array(f"sections/{name}")
+        found = np.array(array[points, sections], dtype=np.float64)
+        height, width = array.chunks
+        for known in parts.values():
+            for (row, section), chunk in known.open.items():
+                inside, of_chunk = _overlap(points, row * height, chunk.shape[1])
+                within, of_row = _overlap(sections, section * width, chunk.shape[2])
+                new = chunk[column][of_chunk, of_row]
+                np.copyto(found[inside, within], new, where=~np.isnan(new))
+        return found
+
+    @cached_property
+    def _parts(self) -> dict[int, Part]:
+        """Parts of a store that is not sealed, by block, each of one moment.
+
+        They go when the study is sealed, after the manifest is there: if there is none when they
+        have been read, they were all there.
+        """
+        found: dict[int, Part] = {}
+        for _ in range(_PATIENCE):
+            if self.sealed:
+                return {}
+            try:
+                found = {
+                    index: Part.read(path, self.attributes["layout"])
+                    for index, path in part.newest(self.path).items()
+                }
+            except FileNotFoundError:  # one was replaced by the last part of its block
+                continue
+            if not (self.path / MANIFEST).exists():
+                return found
+            self._open()
+        raise NotAStore(f"{self.path} changes faster than it can be read")
+
+    @cached_property
+    def _numbers(self) -> Points:
+        """What has one number a point."""
+        parts = self._parts
+        if not self.sealed:
+            blocks = [(int(first), int(count)) for first, count in self.attributes["blocks"]]
+            return together(parts.get, blocks, len(self.channels), 0, self.points)
+        numbers = {
+            group: {name: np.asarray(array[:], np.float64) for name, array in self._members(group)}
+            for group in ("statistics", "indicators")
+        }
+        return Points(
+            np.asarray(self._array("status")[:], np.uint8),
+            np.asarray(self._array("count")[:], np.int32),
+            np.empty((0, 0, 4)),
+            self._failures(),
+            numbers["statistics"],
+            numbers["indicators"],
+        )
+
+    def _failures(self) -> dict[int, Failure]:
+        try:
+            found = json.loads((self.path / FAILURES).read_bytes())
+        except FileNotFoundError:
+            return {}
+        return {int(point): Failure(*failure) for point, failure in found.items()}
+
+    def _members(self, group: str) -> list[tuple[str, zarr.Array[Any]]]:
+        found = self._root.get(group)
+        return list(found.arrays()) if isinstance(found, zarr.Group) else []
+
+    def _array(self, key: str) -> zarr.Array[Any]:
+        return cast("zarr.Array[Any]", self._root[key])
+
+    @cached_property
+    def _root(self) -> zarr.Group:
+        return zarr.open_group(self.path, mode="r", zarr_format=3)
+
+
+def _specs(listed: Sequence[Sequence[str]]) -> tuple[ArraySpec, ...]:
+    return tuple(ArraySpec(*spec) for spec in listed)
+
+
+def _position(name: str, specs: Sequence[ArraySpec]) -> int:
+    names = tuple(spec.name for spec in specs)
+    if name not in names:
+        raise UnknownChannel(name, names)
+    return names.index(name)
+
+
+def _overlap(window: slice, begin: int, length: int) -> tuple[slice, slice]:
+    """Where a window and a range meet: as slices of the window, and of the range."""
+    low = max(window.start, begin)
+    high = max(min(window.stop, begin + length), low)
+    return slice(low - window.start, high - window.start), slice(low - begin, high - begin)

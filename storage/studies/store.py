@@ -1,0 +1,197 @@
+"""A study's store as a whole: made by whichever block comes first, sealed when all are done."""
+
+import json
+import secrets
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from shutil import rmtree
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results import manifest, metadata, shards
+from storage.results.durable import PARTIAL, DurableFolder
+from storage.results.errors import IncompleteStudy, StoreExists
+from storage.results.layout import MANIFEST
+from storage.studies import documents, part
+from storage.studies.layout import StudyLayout
+from storage.studies.part import Failure, Part, PointStatus
+from storage.studies.points import Points, together
+
+FAILURES: Final = "failures.json"
+"""Failed points with code, sentence and time reached: what no array can hold."""
+
+
+def create(folder: Path, layout: StudyLayout) -> None:
+    """Make an empty store, or find that this study's store is there already.
+
+    Several processes may do it at once: each writes the same bytes, whole files at a time.
+
+    Raises
+    ------
+    StoreExists
+        The folder holds a store of something else, or of the same study computed by another
+        version of the program.
+    """
+    try:
+        root = json.loads((folder / metadata.FILE).read_bytes())
+        present = root["attributes"].get("layout")
+    except (FileNotFoundError, ValueError, KeyError, TypeError):
+        pass  # none, or cut off by a power failure
+    else:
+        if present != layout.digest:
+            raise StoreExists(
+                f"{folder} holds other results, or some of this study from another version of"
+                " the program; choose another folder, or submit the study again"
+            )
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    writing = _writer(folder)
+    for key, content in _values(layout):
+        writing.draft(key, content)
+    for key, document in documents.running(layout).items():
+        writing.draft(key, metadata.serialise(document))
+
+
+def seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None] = lambda: None) -> None:
+    """Finish a store whose blocks are all done; it is durable, and never changes, on return.
+
+    May be repeated, also after an interruption and by several processes.
+
+    Parameters
+    ----------
+    folder, layout
+        As for `create`.
+    advanced
+        Called now and then; a large store takes a while.
+
+    Raises
+    ------
+    IncompleteStudy
+        A block is not done.
+    CorruptStore
+        What a block left is damaged.
+    """
+    try:
+        _seal(folder, layout, advanced)
+    except (FileNotFoundError, IncompleteStudy):
+        if not (folder / MANIFEST).exists():
+            raise
+        # sealed before, or by somebody else in the meantime
+    rmtree(folder / part.FOLDER, ignore_errors=True)
+
+
+def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> None:
+    finals = {
+        index: folder / part.FOLDER / part.final_name(index) for index in range(len(layout.blocks))
+    }
+    missing = [index for index, path in finals.items() if not path.exists()]
+    if missing:
+        raise IncompleteStudy(
+            f"{len(missing)} blocks of {folder} are not done, such as {missing[0]}"
+        )
+
+    def part_of(index: int) -> Part:
+        return Part.read(finals[index], layout.digest)
+
+    writing = _writer(folder)
+    for key, content in _values(layout):
+        writing.write(key, content)
+    names, failures, ended = _survey(part_of, layout)
+    codes = sorted({failure.code for failure in failures.values()})
+    for key, content in _columns(part_of, layout, names, codes):
+        writing.write(key, content)
+        advanced()
+    if failures:
+        writing.write(FAILURES, metadata.serialise({str(p): f for p, f in failures.items()}))
+    attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
+    for key, document in documents.sealed(layout, names, attributes).items():
+        writing.write(key, metadata.serialise(document))
+    writing.commit()
+    for litter in folder.rglob(f"*{PARTIAL}"):
+        litter.unlink(missing_ok=True)
+    manifest.seal(writing, advanced)
+
+
+def _survey(
+    part_of: Callable[[int], Part], layout: StudyLayout
+) -> tuple[dict[str, list[str]], dict[int, Failure], dict[str, int]]:
+    """Names of all numbers by group, failed points, and how many points are done and failed."""
+    groups: dict[str, set[str]] = {"statistics": set(), "indicators": set()}
+    failures: dict[int, Failure] = {}
+    done = 0
+    for index in range(len(layout.blocks)):
+        found = part_of(index)
+        groups["statistics"] |= found.statistics.keys()
+        groups["indicators"] |= found.indicators.keys()
+        failures |= found.failures
+        done += int((found.status == PointStatus.done).sum())
+    names = {group: sorted(found) for group, found in groups.items()}
+    return names, failures, {"done": done, "failed": len(failures)}
+
+
+def _columns(
+    part_of: Callable[[int], Part],
+    layout: StudyLayout,
+    names: dict[str, list[str]],
+    codes: list[str],
+) -> Iterator[tuple[str, bytes]]:
+    """Every chunk of the arrays with one number, or one of each channel, a point."""
+    width = len(layout.channels)
+
+    def window(first: int, size: int) -> Points:
+        stop = min(first + size, layout.points)
+        return together(part_of, layout.blocks, width, first, stop)
+
+    size = documents.point_chunk(layout)
+    for chunk, first in enumerate(range(0, layout.points, size)):
+        for name, column in _scalars(window(first, size), first, names, codes).items():
+            yield f"{name}/c/{chunk}", _encoded(column, size)
+    if width:
+        size = documents.point_chunk(layout, width)
+        for chunk, first in enumerate(range(0, layout.points, size)):
+            peaks = window(first, size).peaks
+            for position, name in enumerate(documents.PEAKS):
+                yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
+
+
+def _scalars(
+    points: Points, first: int, names: dict[str, list[str]], codes: list[str]
+) -> dict[str, NDArray[Any]]:
+    failure = np.zeros(len(points.status), np.uint8)
+    failure_time = np.full(len(points.status), np.nan)
+    for point, found in points.failures.items():
+        failure[point - first] = 1 + codes.index(found.code)
+        failure_time[point - first] = found.time
+    columns: dict[str, NDArray[Any]] = {
+        "status": points.status,
+        "count": points.counts,
+        "failure": failure,
+        "failure_time": failure_time,
+    }
+    nothing = np.full(len(points.status), np.nan)
+    for group, known in (("statistics", points.statistics), ("indicators", points.indicators)):
+        columns |= {f"{group}/{name}": known.get(name, nothing) for name in names[group]}
+    return columns
+
+
+def _values(layout: StudyLayout) -> Iterator[tuple[str, bytes]]:
+    size = documents.point_chunk(layout)
+    for position, spec in enumerate(layout.parameters):
+        for chunk, first in enumerate(range(0, layout.points, size)):
+            column = layout.values[first : first + size, position]
+            yield f"values/{spec.name}/c/{chunk}", _encoded(column.astype("<f8"), size)
+
+
+def _encoded(column: NDArray[Any], size: int) -> bytes:
+    """Compress a chunk of `size` points, the last one of an array filled up."""
+    missing = size - len(column)
+    if missing:
+        empty = np.full((missing, *column.shape[1:]), shards.fill(column.dtype), column.dtype)
+        column = np.concatenate([column, empty])
+    return shards.compress(column)
+
+
+def _writer(folder: Path) -> DurableFolder:
+    return DurableFolder(folder, f".{secrets.token_hex(4)}{PARTIAL}")

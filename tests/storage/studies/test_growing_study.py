@@ -1,0 +1,379 @@
+"""A study that runs shows what is known, and its bytes depend on the results alone."""
+
+import json
+import random
+import threading
+import tracemalloc
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import zarr
+from made_up_studies import MadeUpStudy, files, made_up_layout
+
+from solver.study.results import StudySlice
+from storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
+from storage.results.errors import IncompleteStudy
+from storage.studies import StudyBlock, StudyReader, create, seal
+
+SHAPES = {
+    "a chunk a block": made_up_layout(),
+    "a chunk a point": made_up_layout(points=10, blocks=((0, 5), (5, 3), (8, 2))),
+    "more sections than a chunk": made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))),
+}
+STEP = {"more sections than a chunk": 1000}
+
+
+@pytest.fixture(params=SHAPES)
+def shape(request):
+    return request.param
+
+
+@pytest.fixture
+def study(shape):
+    return MadeUpStudy(SHAPES[shape])
+
+
+@pytest.fixture
+def step(shape):
+    return STEP.get(shape, 2)
+
+
+@pytest.fixture
+def undisturbed(tmp_path, study):
+    return files(study.write(tmp_path / "undisturbed"))
+
+
+def test_a_running_study_shows_every_flush(tmp_path, study, step):
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    _, count = study.layout.blocks[0]
+    known = np.zeros(study.layout.points, int)
+    status = np.zeros(study.layout.points, int)
+    for piece in study.slices(0, step):
+        block.take(piece)
+        block.flush(b"")
+        for point in piece.started:
+            status[point] = 1
+        for rows in piece.rows:
+            known[rows.point] = rows.first + len(rows.time)
+        for end in piece.ended:
+            status[end.point] = 3 if end.code else 2
+        reader = StudyReader(tmp_path)
+        np.testing.assert_array_equal(reader.status, status)
+        np.testing.assert_array_equal(reader.counts, known)
+        expected = study.sections[:, :, 1].copy()
+        for point, sections in enumerate(known):
+            expected[point, sections:] = np.nan
+        np.testing.assert_array_equal(reader.sections("slider7.q1"), expected)
+        np.testing.assert_array_equal(reader.sections("slider7.q1", 1, 4), expected[1:4])
+        ended = status >= 2
+        np.testing.assert_array_equal(
+            reader.statistics.get("steps", np.full(len(ended), np.nan)),
+            np.where(ended, study.steps, np.nan),
+        )
+        np.testing.assert_array_equal(
+            reader.peaks("A.force1").maximum, np.where(ended, study.peaks[:, 1, 2], np.nan)
+        )
+    assert block.watermark == count
+    assert not StudyReader(tmp_path).complete
+
+
+def test_stock_zarr_sees_finished_chunks_and_nan_elsewhere(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    study.write_block(tmp_path, 1)
+    stock = zarr.open_group(tmp_path, mode="r")
+    np.testing.assert_array_equal(stock["sections/slider7.q0"][8:16], study.sections[8:16, :, 0])
+    assert np.isnan(stock["sections/slider7.q0"][:8]).all()
+    np.testing.assert_array_equal(stock["values/clearance"][:], study.layout.values[:, 0])
+
+
+def test_the_bytes_do_not_depend_on_slices_order_or_number_of_writers(
+    tmp_path, study, step, undisturbed
+):
+    folder = tmp_path / "other"
+
+    def write(index):
+        create(folder, study.layout)
+        block = StudyBlock(folder, study.layout, index)
+        for piece in study.slices(index, step + 1, lanes=3):
+            block.take(piece)
+            block.flush(b"checkpoint")
+        block.finish()
+
+    writers = [
+        threading.Thread(target=write, args=(index,))
+        for index in reversed(range(len(study.layout.blocks)))
+    ]
+    for writer in writers:
+        writer.start()
+    for writer in writers:
+        writer.join()
+    seal(folder, study.layout)
+    assert files(folder) == undisturbed
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_block_left_and_resumed_anywhere_has_the_same_bytes(
+    tmp_path, study, step, undisturbed, seed
+):
+    chance = random.Random(seed)
+    folder = tmp_path / "interrupted"
+    create(folder, study.layout)
+    for index in range(len(study.layout.blocks)):
+        pieces = list(study.slices(index, step))
+        attempt, reached, name = 1, 0, None
+        block = StudyBlock(folder, study.layout, index, attempt)
+        while reached < len(pieces):
+            stop = chance.randint(reached, len(pieces))
+            for piece in pieces[reached:stop]:
+                block.take(piece)
+            if chance.random() < 0.7 or stop == len(pieces):
+                reached = stop
+                name = block.flush(reached.to_bytes(4, "little"))
+            elif name is None:
+                reached = 0
+            attempt += 1  # killed: what came after the last flush is gone
+            if name is None:
+                block = StudyBlock(folder, study.layout, index, attempt)
+            else:
+                block, carried = StudyBlock.resume(folder, study.layout, index, attempt, name)
+                assert int.from_bytes(carried, "little") == reached
+        block.finish()
+    seal(folder, study.layout)
+    assert files(folder) == undisturbed
+
+
+def test_a_late_worker_changes_nothing(tmp_path, study, step, undisturbed):
+    """Given up in mid-block, it goes on while another takes over, finishes and seals."""
+    folder = tmp_path / "store"
+    create(folder, study.layout)
+    pieces = list(study.slices(0, step))
+    late = StudyBlock(folder, study.layout, 0, attempt=1)
+    for piece in pieces[: len(pieces) // 2]:
+        late.take(piece)
+    name = late.flush(b"")
+    held_up = iter(pieces[len(pieces) // 2 :])
+    late.take(next(held_up))
+
+    other, _ = StudyBlock.resume(folder, study.layout, 0, 2, name)
+    for piece in pieces[len(pieces) // 2 :]:
+        other.take(piece)
+    late.flush(b"")
+    other.finish()
+    for index in range(1, len(study.layout.blocks)):
+        study.write_block(folder, index)
+    late.flush(b"")
+    reader = StudyReader(folder)
+    assert (reader.status >= 2).all()  # the last part counts, not that of an attempt
+    seal(folder, study.layout)
+
+    for piece in held_up:
+        late.take(piece)
+    with pytest.raises(FileNotFoundError):  # chunks are written over, restart files have no place
+        late.finish()
+    left = {key: content for key, content in files(folder).items() if not key.startswith(".")}
+    assert left == undisturbed
+    reader = StudyReader(folder)
+    assert (reader.status >= 2).all()
+    reader.verify()
+
+
+def test_sealing_may_be_repeated_and_takes_scaffolding_away(tmp_path, study, undisturbed):
+    folder = study.write(tmp_path / "store")
+    seal(folder, study.layout)
+    create(folder, study.layout)
+    assert files(folder) == undisturbed
+    assert not any(key.startswith(".") for key in undisturbed)
+
+
+def test_an_interrupted_sealing_is_done_again(tmp_path, study, undisturbed):
+    folder = tmp_path / "store"
+    create(folder, study.layout)
+    for index in range(len(study.layout.blocks)):
+        study.write_block(folder, index)
+
+    def interrupt():
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        seal(folder, study.layout, interrupt)
+    assert not StudyReader(folder).sealed
+    (folder / "status/c/0.1234.partial").parent.mkdir(parents=True, exist_ok=True)
+    (folder / "status/c/0.1234.partial").write_bytes(b"litter of a killed worker")
+    seal(folder, study.layout)
+    assert files(folder) == undisturbed
+
+
+def test_nothing_is_sealed_before_every_block_is_done(tmp_path, study):
+    create(tmp_path, study.layout)
+    study.write_block(tmp_path, 0)
+    with pytest.raises(IncompleteStudy, match=r"blocks of .* are not done, such as 1"):
+        seal(tmp_path, study.layout)
+
+
+def test_a_reader_survives_that_the_study_is_sealed_under_it(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    for index in range(len(study.layout.blocks)):
+        study.write_block(tmp_path, index)
+    early = StudyReader(tmp_path)
+    np.testing.assert_array_equal(early.values, study.layout.values)
+    seal(tmp_path, study.layout)
+    assert (early.status >= 2).all()
+    np.testing.assert_array_equal(early.sections("slider7.q0"), study.sections[:, :, 0])
+    np.testing.assert_array_equal(early.peaks("A.force0").minimum, study.peaks[:, 0, 0])
+
+
+def test_readers_beside_writers_see_only_what_is_so(tmp_path):
+    """Values, once seen, are right and never go again, while blocks finish and the seal is set."""
+    study = MadeUpStudy(made_up_layout(points=64, record=40))
+    create(tmp_path, study.layout)
+    done = threading.Event()
+    findings = []
+
+    def read():
+        seen = 0
+        while True:
+            last = done.is_set()
+            reader = StudyReader(tmp_path)
+            status, found = reader.status, reader.sections("slider7.q0")
+            known = ~np.isnan(found)
+            if not np.array_equal(found[known], study.sections[:, :, 0][known]):
+                findings.append("wrong values")
+            if (known.sum(axis=1) < reader.counts).any():
+                findings.append("fewer sections than counted")
+            if (status >= 2).sum() < seen:
+                findings.append("points went back")
+            seen = (status >= 2).sum()
+            if last:
+                return
+
+    reading = threading.Thread(target=read)
+    reading.start()
+    for index in range(len(study.layout.blocks)):
+        block = StudyBlock(tmp_path, study.layout, index)
+        for piece in study.slices(index):
+            block.take(piece)
+            block.flush(b"")
+        block.finish()
+    seal(tmp_path, study.layout)
+    done.set()
+    reading.join()
+    assert findings == []
+
+
+def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path / "store", study.layout)
+    block = StudyBlock(tmp_path / "store", study.layout, 0)
+    block.take(next(study.slices(0)))
+    name = block.flush(b"checkpoint")
+    path = tmp_path / "store/.parts" / name
+    content = path.read_bytes()
+    for damaged in (content[:-3], content[:-3] + b"xyz", b"other" + content, b""):
+        path.write_bytes(damaged)
+        with pytest.raises(CorruptStore, match="cannot be read"):
+            StudyBlock.resume(tmp_path / "store", study.layout, 0, 2, name)
+    path.write_bytes(content)
+    other = made_up_layout(attributes={"job": {"kind": "sweep"}})
+    with pytest.raises(CheckpointMismatch, match="another study"):
+        StudyBlock.resume(tmp_path / "store", other, 0, 2, name)
+    with pytest.raises(FileNotFoundError):
+        StudyBlock.resume(tmp_path / "store", study.layout, 1, 2, "00001-a1")
+    with pytest.raises(StoreExists, match="another version"):
+        create(tmp_path / "store", other)
+
+
+def test_a_store_cut_off_while_it_was_made_is_made_again(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    whole = files(tmp_path)
+    (tmp_path / "zarr.json").write_bytes(b"")
+    create(tmp_path, study.layout)
+    assert files(tmp_path) == whole
+
+
+@pytest.mark.parametrize(
+    ("piece", "sentence"),
+    [
+        (lambda study: StudySlice(0, (8,), (), ()), "point 8 is not one of the 8 from 0"),
+        (lambda study: StudySlice(0, (), (study.rows(1, 2, 3),), ()), "sections 2 to 2 do not"),
+        (
+            lambda study: StudySlice(0, (), (replace(study.rows(1, 0, 2), first=6),), ()),
+            "do not follow",
+        ),
+        (
+            lambda study: StudySlice(
+                0, (), (replace(study.rows(1, 0, 2), values=np.zeros((2, 5))),), ()
+            ),
+            r"need shape \(2, 2\)",
+        ),
+        (lambda study: StudySlice(0, (), (), (study.end(1), study.end(1))), "1 ended before"),
+        (
+            lambda study: StudySlice(0, (), (study.rows(0, 0, 1),), (study.end(0),)),
+            "0 has ended and takes no more",
+        ),
+    ],
+)
+def test_what_does_not_fit_is_refused(tmp_path, piece, sentence):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    if "takes no more" in sentence:
+        block.take(StudySlice(0, (), (), (study.end(0),)))
+    with pytest.raises(InvalidAppend, match=sentence):
+        block.take(piece(study))
+
+
+def test_a_block_is_not_finished_before_its_points_are(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    block.take(StudySlice(0.1, (0,), (), (study.end(0),)))
+    with pytest.raises(InvalidAppend, match="7 points of block 0 have not ended"):
+        block.finish()
+    assert not StudyBlock.done(tmp_path, study.layout, 0)
+    study.write_block(tmp_path, 0)
+    assert StudyBlock.done(tmp_path, study.layout, 0)
+
+
+def test_memory_is_flat_in_periods_and_values(tmp_path):
+    def peak(points, record, step):
+        layout = made_up_layout(points=points, record=record, observables=4, blocks=((0, points),))
+        folder = tmp_path / f"{points}x{record}"
+        create(folder, layout)
+        block = StudyBlock(folder, layout, 0)
+        values = np.random.default_rng(0).normal(size=(step, 4))
+        time = np.arange(float(step))
+        rows_type, end_type = type(made_up.rows(0, 0, 0)), type(made_up.end(0))
+        nothing = np.full((3, 4), np.nan)
+        tracemalloc.start()
+        for point in range(points):
+            for first in range(0, record, step):
+                block.take(StudySlice(0, (), (rows_type(point, first, time + first, values),), ()))
+                if first % (7 * step) == 0:
+                    block.flush(b"")
+            block.take(StudySlice(0, (), (), (end_type(point, "", "", 1.0, nothing, {}, {}),)))
+        block.finish()
+        found = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return found
+
+    made_up = MadeUpStudy(made_up_layout())
+    few = peak(1, 50_000, 1000)
+    assert peak(1, 1_000_000, 1000) < 1.2 * few
+    assert peak(100, 5000, 1000) < 1.2 * few  # each point has some numbers beside its sections
+
+
+def test_json_of_a_growing_store_says_that_it_is_not_complete(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    root = json.loads((tmp_path / "zarr.json").read_bytes())
+    assert root["attributes"]["complete"] is False
+    assert root["attributes"]["job"] == {"kind": "bifurcation"}
+    reader = StudyReader(tmp_path)
+    assert (reader.status == 0).all()
+    assert np.isnan(reader.sections("slider7.q0")).all()
+    assert reader.verdicts is None
