@@ -10,7 +10,7 @@ from solver.jobs.values import count
 from solver.study.plan import Study
 
 
-def admit_bifurcation(job: BifurcationJob) -> Study:
+def admit_bifurcation(job: BifurcationJob, *, thorough: bool = True) -> Study:
     """Check a parsed job and fill in its defaults.
 
     Raises
@@ -23,4 +23,6 @@ def admit_bifurcation(job: BifurcationJob) -> Study:
     twice = 2 if job.continuation == "both" else 1
     check_count(twice * count(job.values), "/values")
     points = one_axis(axis(job.parameter, job.values, "/parameter", "/values"))
-    return section_study(job, points, continuation=job.continuation, chains=job.chains)
+    return section_study(
+        job, points, thorough=thorough, continuation=job.continuation, chains=job.chains
+    )

@@ -11,6 +11,8 @@ DEFAULT_SAMPLES = 2000
 
 MOST_POINTS = 100_000
 """Of a study."""
+MOST_GEOMETRIES = 2000
+"""Of a study, or structures: each takes about two milliseconds to put together."""
 MOST_PERIODS = 1e8
 """Of all points of a study together."""
 LONGEST_SETTLING = 2000

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from solver.admission.crossings import crossing_problems
+from solver.admission.observables import shared_channels
 from solver.admission.points import Points
 from solver.admission.spans import Periods
 from solver.admission.varied import CheckedPoints
@@ -11,9 +13,9 @@ from solver.scene.near import unknown
 
 
 def check_section(
-    job: SectionStudyJob, points: Points, checked: CheckedPoints, units: Periods
+    job: SectionStudyJob, points: Points, checked: CheckedPoints, units: Periods, *, thorough: bool
 ) -> None:
-    """Check that a job's section is taken at every point.
+    """Check that a job's section is taken at every point; crossings only if `thorough`.
 
     Raises
     ------
@@ -24,7 +26,7 @@ def check_section(
     if isinstance(section, OnsetSection):
         problems = _onset(section, checked)
     elif isinstance(section, ChannelSection):
-        problems = []
+        problems = _crossing(section, points, checked) if thorough else []
     else:
         problems = _turns(points, checked, units)
     if problems:
@@ -42,6 +44,15 @@ def _turns(points: Points, checked: CheckedPoints, units: Periods) -> list[Probl
         )
         for point, note in units.notes.items()
     ]
+
+
+def _crossing(section: ChannelSection, points: Points, checked: CheckedPoints) -> list[Problem]:
+    shared = shared_channels(checked)
+    found = next((channel for channel in shared if channel.name == section.channel), None)
+    if found is None:
+        sentence = unknown("channel", section.channel, [channel.name for channel in shared])
+        return [Problem("/section/channel", sentence)]
+    return list(crossing_problems(section, found, points, checked))
 
 
 def _onset(section: OnsetSection, checked: CheckedPoints) -> list[Problem]:

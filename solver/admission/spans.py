@@ -12,9 +12,11 @@ from solver.admission.varied import CheckedPoints
 from solver.assembly import shortest_link
 from solver.drive import characteristic_time, common_period
 from solver.scene.document import Revolute, Scene
+from solver.study.fields import distinct, geometry_columns
 
 Floats = NDArray[np.float64]
 _SPEED = re.compile(r"/drivers/[^/]+/speed")
+_GRAVITY = re.compile(r"/gravity/\d")
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +27,6 @@ class Periods:
     ----------
     seconds : (points,) float
         The least common period of the drivers, s; where there is none, the scene's time scale.
-    common : (points,) bool
-        Whether it is a common period.
     notes : dict
         By point without one, first of its kind: why there is none.
     first_speed : (points,) float
@@ -34,7 +34,6 @@ class Periods:
     """
 
     seconds: Floats
-    common: NDArray[np.bool_]
     notes: dict[int, str]
     first_speed: Floats
 
@@ -43,25 +42,36 @@ def periods(checked: CheckedPoints) -> Periods:
     """Return the time units of all points."""
     scenes = checked.scenes
     count = len(scenes.values)
-    changing = any(_SPEED.fullmatch(leaf.path) for leaf in scenes.leaves)
+    driven = [scenes.column(leaf) for leaf in scenes.leaves if _SPEED.fullmatch(leaf.path)]
+    group = distinct(driven, count)
     seconds, speed = np.empty(count), np.empty(count)
-    common = np.empty(count, np.bool_)
     notes: dict[int, str] = {}
-    for point in range(count if changing else 1):
+    lacking = np.zeros(count, np.bool_)
+    firsts = np.unique(group, return_index=True)[1].tolist()
+    alike = _members(group)
+    for index, point in enumerate(firsts):
         scene = scenes.scene(point)
         period = common_period(scene)
-        common[point] = period.seconds is not None
-        if period.seconds is None and period.note not in notes.values():
-            notes[point] = period.note
-        seconds[point] = period.seconds or characteristic_time(scene, shortest_link(scene))
-        speed[point] = first_speed(scene)
-    if not changing:
-        seconds[:], common[:], speed[:] = seconds[0], common[0], speed[0]
-        if not common[0]:  # gravity and lengths set the time scale
-            for point in range(1, count):
-                scene = scenes.scene(point)
-                seconds[point] = characteristic_time(scene, shortest_link(scene))
-    return Periods(seconds, common, notes, speed)
+        speed[alike[index]] = first_speed(scene)
+        seconds[alike[index]] = period.seconds or 0.0
+        if period.seconds is None:
+            lacking[alike[index]] = True
+            if period.note not in notes.values():
+                notes[point] = period.note
+    if notes:
+        weights = [scenes.column(leaf) for leaf in scenes.leaves if _GRAVITY.fullmatch(leaf.path)]
+        group = distinct([*driven, *weights, *geometry_columns(scenes)], count)
+        for same in _members(group):
+            if lacking[same[0]]:
+                scene = scenes.scene(int(same[0]))
+                seconds[same] = characteristic_time(scene, shortest_link(scene))
+    return Periods(seconds, notes, speed)
+
+
+def _members(group: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Return the points of each group, in order."""
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
 
 
 def first_speed(scene: Scene) -> float:

@@ -33,9 +33,14 @@ Floats = NDArray[np.float64]
 
 
 def section_study(
-    job: SectionStudyJob, points: Points, *, continuation: str = "none", chains: int = 1
+    job: SectionStudyJob,
+    points: Points,
+    *,
+    thorough: bool,
+    continuation: str = "none",
+    chains: int = 1,
 ) -> Study:
-    """Check a study of sections and fill it in.
+    """Check a study of sections and fill it in; see `solver.admission.readmit` for `thorough`.
 
     Raises
     ------
@@ -45,10 +50,10 @@ def section_study(
         The study is sound but too large; the sentence gives the estimate.
     """
     documents.tolerance(job)
-    checked = check_points(job, points)
+    checked = check_points(job, points, thorough=thorough)
     observables = chosen(checked, job.observables, coordinate_channels(checked), "/observables")
     units = periods(checked)
-    check_section(job, points, checked, units)
+    check_section(job, points, checked, units, thorough=thorough)
     settle = LONGEST_SETTLING if job.settle == "auto" else job.settle
     turning = isinstance(job.section, CrankSection)
     offset = (
@@ -59,7 +64,13 @@ def section_study(
     recording = job.record if turning else EVENT_PATIENCE * job.record
     twice = 2 if continuation == "both" else 1
     indicators = indicators_of(job)
-    stored = check_limits(points.count * twice, settle + recording, job.record, len(observables), 0)
+    stored = check_limits(
+        points.count * twice,
+        settle + recording,
+        "/settle" if isinstance(job.settle, int) and job.settle > recording else "/record",
+        record=job.record,
+        observables=len(observables),
+    )
     filled = documents.filled(
         job,
         checked.document,
@@ -67,7 +78,7 @@ def section_study(
         observables=[channel.name for channel in observables],
         indicators=list(indicators),
     )
-    return _study(
+    return make_study(
         job,
         points,
         checked,
@@ -107,14 +118,24 @@ def check_count(count: int, pointer: str) -> None:
                 Problem(
                     pointer,
                     f"These are {count:.6g} points; the limit of a study is {MOST_POINTS}. Ask for"
-                    " fewer values, or divide them among several jobs.",
+                    " fewer, or divide them among several jobs.",
                 )
             ]
         )
 
 
-def check_limits(points: int, run: float, record: int, observables: int, channels: int) -> int:
+def check_limits(
+    points: int,
+    run: float,
+    place: str,
+    *,
+    record: int = 0,
+    observables: int = 0,
+    channels: int = 0,
+) -> int:
     """Refuse what takes too long or too much space; return the bytes that it takes.
+
+    `run` is the longest run of a point in periods, `place` where the job says so.
 
     Raises
     ------
@@ -122,18 +143,18 @@ def check_limits(points: int, run: float, record: int, observables: int, channel
         With the estimate.
     """
     problems = []
-    if run > LONGEST_RUN:
+    if not run <= LONGEST_RUN:
         problems.append(
             Problem(
-                "/record",
-                f"A point runs for up to {run:.3g} periods; the limit is {LONGEST_RUN:g}. Ask for"
-                " fewer periods of settling or fewer sections.",
+                place,
+                f"A point runs for up to {run:.7g} periods; the limit is {LONGEST_RUN:g}. Ask for"
+                " fewer.",
             )
         )
     elif run * points > MOST_PERIODS:
         problems.append(
             Problem(
-                "/record",
+                place,
                 f"{points} points of up to {run:.3g} periods are {run * points:.3g} periods; the"
                 f" limit of a study is {MOST_PERIODS:g}. Ask for fewer points or periods.",
             )
@@ -143,7 +164,7 @@ def check_limits(points: int, run: float, record: int, observables: int, channel
     if stored > MOST_BYTES:
         problems.append(
             Problem(
-                "/record",
+                place,
                 f"{points} points with {record} sections of {observables} observables are about"
                 f" {stored / 1e9:.3g} GB; the limit is {MOST_BYTES / 1e9:g} GB. Record fewer"
                 " sections, or fewer observables.",
@@ -154,7 +175,7 @@ def check_limits(points: int, run: float, record: int, observables: int, channel
     return int(stored)
 
 
-def _study(
+def make_study(
     job: Job,
     points: Points,
     checked: CheckedPoints,
@@ -171,6 +192,10 @@ def _study(
     channels: tuple[Channel, ...] = (),
     indicators: tuple[str, ...] = (),
 ) -> Study:
+    """Return the study of checked points; periods and times are (points,) s.
+
+    `continuation` : the direction, and the number of chains in each.
+    """
     direction, segments = continuation
     chains = chains_of(points.count, direction, segments)
     total = sum(len(chain) for chain in chains)

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.admission.limits import MOST_GEOMETRIES
 from solver.admission.mechanism import Echo, check, declared, offered, with_parameters
 from solver.admission.points import MOST_NAMED, Points, check_parameters, further
-from solver.assembly import Assembly, link_lengths
+from solver.assembly import Assembly
 from solver.channels import Channel
 from solver.compiler.length import check_length
 from solver.errors import InvalidInput, LimitExceeded, Problem
@@ -25,7 +26,7 @@ from solver.mechanics.tree import Tree
 from solver.scene.document import Scene
 from solver.scene.parameters import PLACE, set_parameters
 from solver.scene.sizes import ill_sized
-from solver.study.fields import geometry_columns, inadmissible, structure_columns
+from solver.study.fields import distinct, geometry_columns, inadmissible, structure_columns
 from solver.study.scenes import PointScenes, leaves_of
 
 
@@ -56,8 +57,8 @@ class CheckedPoints:
     mechanisms: tuple[Mechanism, ...]
 
 
-def check_points(job: Job, points: Points) -> CheckedPoints:
-    """Check every point.
+def check_points(job: Job, points: Points, *, thorough: bool) -> CheckedPoints:
+    """Check every point; if not `thorough`, one of each structure whatever its geometry.
 
     Raises
     ------
@@ -77,7 +78,7 @@ def check_points(job: Job, points: Points) -> CheckedPoints:
     _check_effect(points, scenes, scene, echo)
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
     one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
-    structure, mechanisms = _mechanisms(job, one, scenes)
+    structure, mechanisms = _mechanisms(job, one, scenes, thorough=thorough)
     first, _ = set_parameters(document, scene, {**given, **points.at(0)})
     return CheckedPoints(scene, kept, echo, first, scenes, structure, mechanisms)
 
@@ -169,15 +170,16 @@ def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo)
 
 
 def _mechanisms(
-    job: Job, one: _One, scenes: PointScenes
+    job: Job, one: _One, scenes: PointScenes, *, thorough: bool
 ) -> tuple[NDArray[np.int64], tuple[Mechanism, ...]]:
     """Check each distinct structure and geometry; return (points,) structures, first of each."""
     count = len(scenes.values)
     forms = list(structure_columns(scenes))
-    shapes = list(geometry_columns(scenes, bearing_is_length=not link_lengths(scenes.base)))
-    structure = _distinct(forms, count)
-    group = _distinct([structure.astype(np.float64), *shapes], count)
+    shapes = list(geometry_columns(scenes)) if thorough else []
+    structure = distinct(forms, count)
+    group = distinct([structure.astype(np.float64), *shapes], count)
     _, representatives = np.unique(group, return_index=True)
+    _check_geometries(one.points, len(representatives))
     failed: dict[int, list[Problem]] = {}
     found: dict[int, Mechanism] = {}
     for point in sorted(representatives.tolist()):
@@ -206,9 +208,9 @@ def _mechanism(job: Job, one: _One, point: int, *, new: bool) -> Mechanism:
             [
                 Problem(
                     "/scene",
-                    "No joint has clearance and the drivers leave no freedom: the motion follows"
-                    f" without integration and has nothing for a {job.kind} to find. Give a joint"
-                    " a positive clearance; a job of kind 'simulate' runs the ideal mechanism.",
+                    "No joint has clearance and the drivers leave no freedom, so there is no motion"
+                    " to integrate. Give a joint a positive clearance; a job of kind 'simulate'"
+                    " runs the ideal mechanism.",
                 )
             ]
         )
@@ -217,13 +219,15 @@ def _mechanism(job: Job, one: _One, point: int, *, new: bool) -> Mechanism:
     return Mechanism(point, scene, tree, assembly, offered(scene))
 
 
-def _distinct(columns: list[NDArray[Any]], count: int) -> NDArray[np.int64]:
-    """Return (points,) the number of each point's combination, by first appearance."""
-    if not columns:
-        return np.zeros(count, np.int64)
-    _, first, which = np.unique(
-        np.stack(columns, axis=1), axis=0, return_index=True, return_inverse=True
-    )
-    order = np.empty(len(first), np.int64)
-    order[np.argsort(first)] = np.arange(len(first))
-    return np.asarray(order[which.reshape(-1)], np.int64)
+def _check_geometries(points: Points, count: int) -> None:
+    if count > MOST_GEOMETRIES:
+        raise LimitExceeded(
+            [
+                Problem(
+                    points.axes[0].name_place,
+                    f"The {points.count} points have {count} geometries, each of which is put"
+                    f" together when the job is checked; the limit is {MOST_GEOMETRIES}. Ask for"
+                    " fewer values, or divide them among several jobs.",
+                )
+            ]
+        )

@@ -7,14 +7,15 @@ neighbouring instant; the mechanism repeats after a period.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from solver.assembly import ASSEMBLED, assemble, shortest_link
+from solver.compensated import product_difference
 from solver.drive import characteristic_time
 from solver.errors import SimulationFailed
 from solver.extremes import Floats
-from solver.lanes.clock import product_difference
 from solver.mechanics.absolute import AbsoluteMechanism, Row
 from solver.mechanics.motion import BodyMotion, Motion
 from solver.mechanics.reactions import joint_reactions
@@ -97,13 +98,28 @@ class IdealMotion:
             force[:, 3 * i + 2] = -body.inertia * accelerations[:, 3 * i + 2]
         return force
 
+    def displacements(self, play: Mapping[str, float]) -> Floats:
+        """Return (poses of `table`, 3 bodies) m, rad: how far play lets bodies leave their poses.
+
+        To first order, every journal at its clearance (m, by joint) in the worst direction.
+        """
+        count, n = self.table.shape
+        still = np.zeros_like(self.table)
+        driven = self._driven(np.zeros(count))  # Jacobians do not depend on it
+        rows = self.mechanism.rows(_columns(self.table), _columns(still), driven)
+        gaps = np.zeros((count, len(rows), len(rows)))
+        for i, row in enumerate(rows):
+            gaps[:, i, i] = play.get(row.joint, 0.0)
+        displaced = np.linalg.solve(_jacobian(rows, count, n), gaps)
+        return np.asarray(np.abs(displaced).sum(axis=2), np.float64)
+
     def local(self, count: Floats, step: float | Floats) -> Floats:
         """Return count * step less whole periods, with the rounding of both products undone."""
         times = count * step
         if self.period is None:
             return times
         whole = np.floor(times / self.period)
-        local = product_difference.py_func(count, step, whole, self.period)
+        local = product_difference(count, step, whole, self.period)
         return np.asarray(local, np.float64)
 
     def _driven(self, local: Floats) -> dict[str, Floats]:

@@ -33,5 +33,6 @@ class BifurcationJob(SectionStudyJob):
                 "contiguous segments that a continuation is cut into; the first value of each"
                 " starts by the start rule; 1 is the strict continuation"
             ),
+            json_schema_extra={"unit": "1"},
         ),
     ] = 8

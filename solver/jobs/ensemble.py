@@ -11,7 +11,9 @@ class EnsembleJob(SectionStudyJob):
     """The sections of many runs that differ in their start alone; the first is unperturbed."""
 
     kind: Literal["ensemble"]
-    members: Annotated[int, Field(ge=1, le=10**12, description="number of starts")]
+    members: Annotated[
+        int, Field(ge=1, le=10**12, description="number of starts", json_schema_extra={"unit": "1"})
+    ]
     spread: Annotated[
         float,
         Field(
@@ -25,5 +27,11 @@ class EnsembleJob(SectionStudyJob):
         ),
     ] = 1e-3
     seed: Annotated[
-        int, Field(ge=0, le=2**53 - 1, description="of the perturbations; the same gives the same")
+        int,
+        Field(
+            ge=0,
+            le=2**53 - 1,
+            description="of the perturbations; the same gives the same",
+            json_schema_extra={"unit": "1"},
+        ),
     ] = 0

@@ -17,7 +17,9 @@ class Range(Strict):
 
     start: Annotated[float, Field(alias="from", json_schema_extra=UNIT)]
     stop: Annotated[float, Field(alias="to", json_schema_extra=UNIT)]
-    count: Annotated[int, Field(ge=1, le=10**12, description="number of values")]
+    count: Annotated[
+        int, Field(ge=1, le=10**12, description="number of values", json_schema_extra={"unit": "1"})
+    ]
     spacing: Annotated[
         Literal["linear", "log"],
         Field(description="linear: equal steps; log: equal ratios, for values of one sign"),

@@ -94,7 +94,7 @@ def _place(location: list[str]) -> list[str]:
 
 
 def _no_such_field(field: str, known: frozenset[str]) -> str:
-    meant = did_you_mean(field, known)
+    meant = did_you_mean(field, known - {field})
     return f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
 
 

@@ -7,7 +7,7 @@ go to, with the same validation as that of the whole document.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, get_args
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.fields import FieldInfo
 
+from solver.assembly import link_lengths
 from solver.scene.document import Revolute, Scene
 from solver.scene.quantities import Strict
 from solver.study.scenes import PointScenes, value_at
@@ -61,15 +62,26 @@ def structure_columns(scenes: PointScenes) -> Iterator[NDArray[np.int64]]:
             yield (column > 0.0).astype(np.int64)
 
 
-def geometry_columns(scenes: PointScenes, *, bearing_is_length: bool) -> Iterator[Floats]:
-    """Yield (points,) numbers on which the assembly depends.
-
-    `bearing_is_length`: no body has two joints apart, so that bearing radii scale the mechanism.
-    """
+def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
+    """Yield (points,) numbers on which the assembly depends."""
+    without_lengths = not link_lengths(scenes.base)
     for leaf in scenes.leaves:
-        length = bearing_is_length and leaf.path.endswith("/bearing_radius")
-        if length or not HARMLESS.fullmatch(leaf.path):
+        # bearings give the scale of a mechanism none of whose bodies has two joints apart
+        scale = without_lengths and leaf.path.endswith("/bearing_radius")
+        if scale or not HARMLESS.fullmatch(leaf.path):
             yield scenes.column(leaf)
+
+
+def distinct(columns: Sequence[NDArray[Any]], count: int) -> NDArray[np.int64]:
+    """Return (points,) the number of each point's combination, by first appearance."""
+    if not columns:
+        return np.zeros(count, np.int64)
+    _, first, which = np.unique(
+        np.stack(columns, axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    order = np.empty(len(first), np.int64)
+    order[np.argsort(first)] = np.arange(len(first))
+    return np.asarray(order[which.reshape(-1)], np.int64)
 
 
 def _is_clearance(scene: Scene, path: str) -> bool:

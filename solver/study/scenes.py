@@ -53,6 +53,13 @@ class PointScenes:
         """Return what stands at a leaf, (points,)."""
         return np.asarray(self.values[:, leaf.column] * leaf.factor, np.float64)
 
+    def numbers(self, path: str) -> Floats:
+        """Return the number that stands at a path, varied or not, (points,)."""
+        for leaf in self.leaves:
+            if leaf.path == path:
+                return self.column(leaf)
+        return np.full(len(self.values), float(value_at(self.base, path)))
+
     def at_rows(self, rows: NDArray[np.int64]) -> PointScenes:
         """Return the scenes of other points: rows of the values, in that order."""
         return PointScenes(self.base, self.leaves, self.values[rows])
