@@ -5,6 +5,7 @@ the results alone, and a worker that was given up and comes back late writes the
 """
 
 import secrets
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Self
 
@@ -43,8 +44,6 @@ class StudyBlock:
         self._attempt = attempt
         self._folder = DurableFolder(folder, f".{secrets.token_hex(4)}{PARTIAL}")
         self._part = Part.empty(layout, index)
-        names = [spec.name for spec in layout.observables]
-        self._columns = [*names, TIME]
 
     @classmethod
     def resume(
@@ -132,7 +131,7 @@ class StudyBlock:
             raise InvalidAppend(f"{missing} points of block {self._part.index} have not ended")
         self._folder.commit()
         self._folder.records.clear()
-        self._write_part(part.final_name(self._part.index), {}, b"")
+        self._write_part(part.final_name(self._part.index), self._trimmed(), b"")
         for path in (self._folder.root / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
             path.unlink(missing_ok=True)
 
@@ -184,19 +183,24 @@ class StudyBlock:
         return end.point // self._layout.chunk[0]
 
     def _write_full_chunks(self, row: int) -> None:
-        """Write the chunks of one row of the grid that can get no more sections."""
+        """Write the chunks of one row of the grid that can get no more sections.
+
+        A row that has points of other blocks too stays in the part, until the study is sealed.
+        """
         points, sections = self._layout.chunk
         begin = row * points - self._first
-        members = slice(begin, min(begin + points, self._count))
+        end = min((row + 1) * points, self._layout.points) - self._first
+        if begin < 0 or end > self._count:
+            return
+        members = slice(begin, end)
         going = ~np.isin(self._part.status[members], _ENDED)
         counts = self._part.counts[members][going]
         passed = int(counts.min()) // sections if going.any() else self._layout.record
         full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)
         for key in full:
             chunk = self._part.open.pop(key)
-            for name, values in zip(self._columns, chunk, strict=True):
-                path = f"sections/{name}/c/{key[0]}/{key[1]}"
-                self._folder.write(path, shards.compress(values))
+            for path, content in chunk_files(self._layout, key, chunk):
+                self._folder.write(path, content)
 
     def _trimmed(self) -> dict[tuple[int, int], Floats]:
         """Open chunks without the columns that no point has reached."""
@@ -220,7 +224,7 @@ class StudyBlock:
         self._folder.records.clear()
 
     def _new_chunk(self) -> Floats:
-        return np.full((len(self._columns), *self._layout.chunk), np.nan)
+        return np.full((len(self._layout.observables) + 1, *self._layout.chunk), np.nan)
 
     def _row(self, point: int) -> int:
         row = point - self._first
@@ -230,6 +234,18 @@ class StudyBlock:
                 f" {self._part.index} has"
             )
         return row
+
+
+def chunk_files(
+    layout: StudyLayout, key: tuple[int, int], chunk: Floats
+) -> Iterator[tuple[str, bytes]]:
+    """Give path and content of the file of one chunk in each array of sections.
+
+    `chunk` is (observables + 1, points, sections), times last, by (row, column) in the grid.
+    """
+    names = [*(spec.name for spec in layout.observables), TIME]
+    for name, values in zip(names, chunk, strict=True):
+        yield f"sections/{name}/c/{key[0]}/{key[1]}", shards.compress(values)
 
 
 def _last(times: Floats) -> int:

@@ -20,6 +20,8 @@ CHUNK_VALUES: Final = 16_384
 CHUNK_SECTIONS: Final = 4096
 """Most sections of one point in a chunk: what waits for its chunk is rewritten every second."""
 
+_FEWEST_POINTS: Final = 8
+
 
 @dataclass(frozen=True, eq=False)
 class StudyLayout:
@@ -92,17 +94,17 @@ class StudyLayout:
     def chunk(self) -> tuple[int, int]:
         """Points and sections in one chunk of the arrays of sections, which is one file.
 
-        No two blocks touch one chunk: its points divide every number at which a block begins.
-        A chunk holds several points only with all their sections, so that it waits for the
-        points that are computed together and not for the next ones.
+        Its points divide every number at which a block begins, so that no two blocks touch one
+        chunk, unless that would make chunks of less than an octet: then the chunks on a boundary
+        are written when the study is sealed. A chunk holds several points only with all their
+        sections; otherwise each would wait for the slowest of them.
         """
         sections = max(min(self.record, CHUNK_SECTIONS), 1)
         most = CHUNK_VALUES // sections if self.record <= sections else 1
+        most = max(min(most, self.points), 1)
         begins = math.gcd(*(first for first, _ in self.blocks))
-        if begins == 0:  # one block
-            return max(min(most, self.points), 1), sections
-        fitting = (d for d in range(min(most, begins), 0, -1) if begins % d == 0)
-        return next(fitting, 1), sections
+        aligned = next((d for d in range(most, 0, -1) if begins % d == 0), most)
+        return (aligned if aligned >= min(most, _FEWEST_POINTS) else most), sections
 
     @cached_property
     def digest(self) -> str:

@@ -15,8 +15,9 @@ from storage.results.durable import PARTIAL, DurableFolder
 from storage.results.errors import IncompleteStudy, StoreExists
 from storage.results.layout import MANIFEST
 from storage.studies import documents, part
+from storage.studies.block import chunk_files
 from storage.studies.layout import StudyLayout
-from storage.studies.part import Failure, Part, PointStatus
+from storage.studies.part import Failure, Floats, Part, PointStatus
 from storage.studies.points import Points, together
 
 FAILURES: Final = "failures.json"
@@ -103,6 +104,9 @@ def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> No
     for key, content in _columns(part_of, layout, names, codes):
         writing.write(key, content)
         advanced()
+    for key, content in _boundary_chunks(part_of, layout):
+        writing.write(key, content)
+        advanced()
     if failures:
         writing.write(FAILURES, metadata.serialise({str(p): f for p, f in failures.items()}))
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
@@ -154,6 +158,24 @@ def _columns(
             peaks = window(first, size).peaks
             for position, name in enumerate(documents.PEAKS):
                 yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
+
+
+def _boundary_chunks(
+    part_of: Callable[[int], Part], layout: StudyLayout
+) -> Iterator[tuple[str, bytes]]:
+    """Chunks of sections that belong to several blocks, each of which left its points' rows."""
+    points, sections = layout.chunk
+    waiting: dict[tuple[int, int], Floats] = {}
+    for index, (first, count) in enumerate(layout.blocks):
+        for key, rows in part_of(index).open.items():
+            if key not in waiting:
+                waiting[key] = np.full((len(rows), points, sections), np.nan)
+            shown = waiting[key][:, :, : rows.shape[2]]
+            np.copyto(shown, rows, where=~np.isnan(rows))
+        reached = first + count
+        whole = [key for key in waiting if min((key[0] + 1) * points, layout.points) <= reached]
+        for key in sorted(whole):
+            yield from chunk_files(layout, key, waiting.pop(key))
 
 
 def _scalars(

@@ -18,10 +18,11 @@ from storage.studies import StudyBlock, StudyReader, create, seal
 
 SHAPES = {
     "a chunk a block": made_up_layout(),
-    "a chunk a point": made_up_layout(points=10, blocks=((0, 5), (5, 3), (8, 2))),
+    "one chunk for all blocks": made_up_layout(points=10, blocks=((0, 5), (5, 3), (8, 2))),
+    "chunks on boundaries": made_up_layout(points=20, record=3000, blocks=((0, 11), (11, 9))),
     "more sections than a chunk": made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))),
 }
-STEP = {"more sections than a chunk": 1000}
+STEP = {"more sections than a chunk": 1000, "chunks on boundaries": 500}
 
 
 @pytest.fixture(params=SHAPES)
