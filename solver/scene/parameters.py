@@ -69,7 +69,10 @@ def targeted_paths(scene: Scene) -> frozenset[str]:
 
 
 def has_place(document: Any, path: str) -> bool:
-    """Whether a JSON pointer leads to a value, or to a field beside existing ones."""
+    """Whether a JSON pointer leads to a single value, or to a field beside existing ones.
+
+    What holds other values is no place: two parameters might then be put into each other.
+    """
     *parents, last = path.strip("/").split("/")
     for key in parents:
         if isinstance(document, list) and key.isdigit() and int(key) < len(document):
@@ -78,9 +81,10 @@ def has_place(document: Any, path: str) -> bool:
             document = document[key]
         else:
             return False
-    return isinstance(document, dict) or (
-        isinstance(document, list) and last.isdigit() and int(last) < len(document)
-    )
+    if isinstance(document, dict):
+        return not isinstance(document.get(last), dict | list)
+    inside = isinstance(document, list) and last.isdigit() and int(last) < len(document)
+    return inside and not isinstance(document[int(last)], dict | list)
 
 
 def _complaint(name: str, parameter: Parameter, value: object) -> str | None:

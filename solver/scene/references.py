@@ -67,7 +67,7 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
             if not has_place(document, target.path):
                 yield Problem(
                     f"/parameters/{name}/targets/{index}/path",
-                    f"'{target.path}' leads nowhere in this scene.",
+                    f"'{target.path}' leads nowhere in this scene; name a single value.",
                 )
 
 
