@@ -2,9 +2,10 @@
 
 from typing import TYPE_CHECKING, Any
 
-from storage.catalogue.errors import CatalogueError, Fenced, JobNotFound, KeyReused
+from storage.catalogue.errors import BatchNotFound, CatalogueError, Fenced, JobNotFound, KeyReused
 from storage.catalogue.records import (
     Attempt,
+    Batch,
     Block,
     BlockState,
     Claim,
@@ -18,6 +19,7 @@ from storage.catalogue.records import (
     Reaped,
     SubmissionKey,
     Submitted,
+    SubmittedBatch,
     Verdict,
     WakeUp,
 )
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Attempt",
+    "Batch",
+    "BatchNotFound",
     "Block",
     "BlockState",
     "Catalogue",
@@ -45,6 +49,7 @@ __all__ = [
     "Reaped",
     "SubmissionKey",
     "Submitted",
+    "SubmittedBatch",
     "Verdict",
     "WakeUp",
 ]

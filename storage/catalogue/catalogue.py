@@ -4,15 +4,16 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from sqlalchemy import text
 
-from storage.catalogue import holding, listing, schema, submission, upkeep
+from storage.catalogue import batches, holding, listing, schema, submission, upkeep
 from storage.catalogue.connections import Connections
 from storage.catalogue.identifiers import Identifiers
 from storage.catalogue.records import (
     Attempt,
+    Batch,
     Block,
     BlockState,
     Claim,
@@ -25,6 +26,7 @@ from storage.catalogue.records import (
     Reaped,
     SubmissionKey,
     Submitted,
+    SubmittedBatch,
     Verdict,
     WakeUp,
 )
@@ -98,6 +100,55 @@ class Catalogue:
         with self._connections.writing(durable=True) as connection:
             return submission.request_cancel(connection, job, self._clock())
 
+    def submit_batch(
+        self,
+        jobs: Sequence[NewJob],
+        *,
+        owner: str = "",
+        label: str | None = None,
+        key: SubmissionKey | None = None,
+    ) -> SubmittedBatch:
+        """Accept many jobs or none; they survive a power cut once this returns.
+
+        Jobs get this owner and the batch's id. With a key that was used before the earlier batch
+        is returned, and `created` is false.
+
+        Raises
+        ------
+        ValueError
+            There is no job, or there are more than 10 000.
+        KeyReused
+            The key was used before with another fingerprint.
+        """
+        if not 1 <= len(jobs) <= batches.LARGEST_BATCH:
+            raise ValueError(f"a batch has 1 to {batches.LARGEST_BATCH} jobs, not {len(jobs)}")
+        now = self._clock()
+        identifier, *members = [self._identifiers.next(now) for _ in range(len(jobs) + 1)]
+        with self._connections.writing(durable=True) as connection:
+            return batches.submit_batch(
+                connection, identifier, members, jobs, owner, label, key, now
+            )
+
+    def batch(self, batch: str) -> Batch:
+        """Return a batch and how far the whole of it is; its jobs are listed by `jobs`.
+
+        Raises
+        ------
+        BatchNotFound
+        """
+        with self._connections.reading() as connection:
+            return batches.find_batch(connection, batch)
+
+    def cancel_batch(self, batch: str) -> Batch:
+        """Cancel every job of a batch that has not ended, as `request_cancel` does.
+
+        Raises
+        ------
+        BatchNotFound
+        """
+        with self._connections.writing(durable=True) as connection:
+            return batches.cancel_batch(connection, batch, self._clock())
+
     def get(self, job: str) -> Job:
         """Return a job.
 
@@ -118,8 +169,11 @@ class Catalogue:
         label: str | None = None,
         owner: str | None = None,
         batch: str | None = None,
+        oldest_first: bool = False,
     ) -> JobPage:
         """Return one page of jobs, newest first; `after` is the `next` of the page before.
+
+        `oldest_first` turns it round: the jobs of a batch then come as they were submitted.
 
         Raises
         ------
@@ -136,6 +190,7 @@ class Catalogue:
                 label=label,
                 owner=owner,
                 batch=batch,
+                oldest_first=oldest_first,
             )
 
     def blocks(self, job: str) -> tuple[Block, ...]:
@@ -183,6 +238,14 @@ class Catalogue:
             return holding.record_progress(
                 connection, block, attempt, lease, self._clock(), time=time, fraction=fraction
             )
+
+    def note_activity(self, block: str, attempt: int, activity: str) -> None:
+        """Show a word for what the job is busy with until it advances; or Fenced.
+
+        It is recorded as an event, too. For what takes long and has no progress: compiling.
+        """
+        with self._connections.writing() as connection:
+            holding.note_activity(connection, block, attempt, activity, self._clock())
 
     def record_checkpoint(
         self, block: str, attempt: int, *, watermark: int, checkpoint: str

@@ -13,6 +13,14 @@ class JobNotFound(CatalogueError):
         self.job = job
 
 
+class BatchNotFound(CatalogueError):
+    """No batch has this id."""
+
+    def __init__(self, batch: str) -> None:
+        super().__init__(f"there is no batch {batch!r}")
+        self.batch = batch
+
+
 class KeyReused(CatalogueError):
     """An idempotency key came back with a different request."""
 

@@ -146,6 +146,19 @@ def record_checkpoint(
     _change_held(connection, block_id, attempt, watermark=watermark, checkpoint=checkpoint)
 
 
+def note_activity(
+    connection: Connection, block_id: str, attempt: int, activity: str, now: float
+) -> None:
+    """Show what the job is busy with until it advances, and record it as an event."""
+    verdict(connection, block_id, attempt)
+    held = select(_block.c.job).where(_block.c.id == block_id)
+    job = lock_job(connection, connection.execute(held).scalar_one())
+    connection.execute(
+        update(tables.job).where(tables.job.c.id == job.id).values(activity=activity)
+    )
+    record_event(connection, job.id, now, activity, {"block": block_id, "attempt": attempt})
+
+
 def _sum_progress(connection: Connection, job_id: str) -> None:
     weighted = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
     fraction, time = connection.execute(
@@ -154,7 +167,7 @@ def _sum_progress(connection: Connection, job_id: str) -> None:
     connection.execute(
         update(tables.job)
         .where(tables.job.c.id == job_id)
-        .values(progress_fraction=fraction, progress_time=time)
+        .values(progress_fraction=fraction, progress_time=time, activity=None)
     )
 
 
@@ -197,16 +210,33 @@ def finish(
 
 
 def _settle(connection: Connection, job_id: str, error: JobError | None, now: float) -> JobState:
-    """End the job if nothing of it is left to do, or at once if a block failed."""
+    """End the job if nothing of it is left to do, or at once if a block failed.
+
+    When only the block that seals is left, it is queued, ahead of blocks that never started.
+    """
     if error is not None:
         drop_queued_blocks(connection, job_id, untouched=False)
         step_job(connection, job_id, JobState.failed, now, error=error)
         return lock_job(connection, job_id).state
-    states = set(connection.execute(select(_block.c.state).where(_block.c.job == job_id)).scalars())
-    if not states & {BlockState.queued.value, BlockState.running.value}:
+    of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
+    states = set(connection.execute(of_job).scalars())
+    if states == {BlockState.done.value, BlockState.waiting.value}:
+        _queue_waiting(connection, job_id, now)
+    elif not states & {BlockState.queued.value, BlockState.running.value}:
         all_done = states == {BlockState.done.value}
         step_job(connection, job_id, JobState.succeeded if all_done else JobState.cancelled, now)
     return lock_job(connection, job_id).state
+
+
+def _queue_waiting(connection: Connection, job_id: str, now: float) -> None:
+    queued = connection.execute(
+        update(_block)
+        .where(_block.c.job == job_id, _block.c.state == BlockState.waiting.value)
+        .values(state=BlockState.queued.value)
+        .returning(_block.c.id)
+    )
+    for block_id in queued.scalars().all():
+        queue_again(connection, block_id, now)
 
 
 def release(connection: Connection, block_id: str, attempt: int, now: float) -> None:
@@ -221,6 +251,7 @@ def release(connection: Connection, block_id: str, attempt: int, now: float) -> 
     )
     job = lock_job(connection, job_id)
     _end_attempt(connection, block_id, attempt, "released", now)
+    _sum_progress(connection, job_id)
     record_event(connection, job_id, now, "released", {"block": block_id, "attempt": attempt})
     if job.state.terminal:
         drop_queued_blocks(connection, job_id, untouched=False)
@@ -249,6 +280,7 @@ def lose(
     )
     job = lock_job(connection, job_id)
     _end_attempt(connection, block_id, attempt, "lost", now)
+    _sum_progress(connection, job_id)
     record_event(connection, job_id, now, "lost", {"block": block_id, "attempt": attempt})
     losses = connection.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
     if losses < max_attempts and not job.state.terminal:

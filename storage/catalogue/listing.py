@@ -19,14 +19,16 @@ def page_of_jobs(
     label: str | None,
     owner: str | None,
     batch: str | None,
+    oldest_first: bool,
 ) -> JobPage:
-    """Return jobs older than `after`, newest first; pages do not shift when jobs arrive."""
+    """Return jobs beyond `after`, newest or oldest first; pages do not shift when jobs arrive."""
     if not 1 <= limit <= LARGEST_PAGE:
         raise ValueError(f"a page has 1 to {LARGEST_PAGE} jobs, not {limit}")
     columns = tables.job.c
-    statement = select(tables.job).order_by(columns.id.desc()).limit(limit + 1)
+    order = columns.id.asc() if oldest_first else columns.id.desc()
+    statement = select(tables.job).order_by(order).limit(limit + 1)
     if after is not None:
-        statement = statement.where(columns.id < after)
+        statement = statement.where(columns.id > after if oldest_first else columns.id < after)
     for column, wanted in (
         (columns.state, state.value if state else None),
         (columns.kind, kind),

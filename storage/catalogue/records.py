@@ -36,8 +36,12 @@ LEGAL_STEPS: Mapping[JobState, frozenset[JobState]] = {
 
 
 class BlockState(StrEnum):
-    """What a block is doing; a lost or released one goes from running back to queued."""
+    """What a block is doing; a lost or released one goes from running back to queued.
 
+    The block that seals a study is waiting until all others are done.
+    """
+
+    waiting = "waiting"
     queued = "queued"
     running = "running"
     done = "done"
@@ -64,7 +68,11 @@ class JobError:
 
 @dataclass(frozen=True)
 class NewJob:
-    """A checked job about to be submitted; `blocks` are (first, count) of its units of work."""
+    """A checked job about to be submitted; `blocks` are (first, count) of its units of work.
+
+    With `seal` there is one more, with a count of 0, that is queued when all others are done: it
+    finishes the store that they filled, and the job succeeds with it.
+    """
 
     kind: str
     spec: dict[str, Any]
@@ -76,6 +84,7 @@ class NewJob:
     batch: str | None = None
     expires: float | None = None
     blocks: tuple[tuple[int, int], ...] = ((0, 1),)
+    seal: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,6 +119,7 @@ class Job:
     started: float | None
     finished: float | None
     expires: float | None
+    activity: str | None  # a word for what takes long before anything advances: "compiling"
 
 
 @dataclass(frozen=True)
@@ -126,6 +136,33 @@ class JobPage:
 
     jobs: tuple[Job, ...]
     next: str | None
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Jobs that were submitted together, and how far the whole of them is."""
+
+    id: str
+    owner: str
+    label: str | None
+    created: float
+    count: int  # jobs
+    states: Mapping[JobState, int]  # how many jobs are in each state; every state is there
+    fraction: float  # 0..1, every job weighing the same; a job that ended lacks nothing
+
+    @property
+    def finished(self) -> bool:
+        """Whether no job of it will ever change again."""
+        return sum(n for state, n in self.states.items() if state.terminal) == self.count
+
+
+@dataclass(frozen=True)
+class SubmittedBatch:
+    """Answer to a batch: ids of its jobs, in the order in which they were submitted."""
+
+    batch: Batch
+    jobs: tuple[str, ...]
+    created: bool
 
 
 @dataclass(frozen=True)

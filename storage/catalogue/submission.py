@@ -1,6 +1,20 @@
 """Accepting jobs and cancelling them: what users ask for."""
 
-from sqlalchemy import Connection, and_, delete, exists, func, insert, select, update
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from sqlalchemy import (
+    ColumnElement,
+    Connection,
+    Row,
+    and_,
+    delete,
+    exists,
+    func,
+    insert,
+    select,
+    update,
+)
 
 from storage.catalogue import tables
 from storage.catalogue.errors import KeyReused
@@ -12,7 +26,7 @@ from storage.catalogue.records import (
     SubmissionKey,
     Submitted,
 )
-from storage.catalogue.rows import find_job, lock_job, record_event, step_job
+from storage.catalogue.rows import find_job, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
 _LIVE = (BlockState.queued.value, BlockState.running.value)
@@ -23,82 +37,119 @@ def submit(
 ) -> Submitted:
     """Store a job, its blocks and their wake-ups, or find the job an earlier request made."""
     if key is not None:
-        earlier = _earlier_job(connection, key, now)
-        if earlier is not None:
-            return Submitted(earlier, created=False)
-    connection.execute(
-        insert(tables.job).values(
-            id=job_id,
-            kind=new.kind,
-            owner=new.owner,
-            label=new.label,
-            batch=new.batch,
-            spec=new.spec,
-            digest=new.digest,
-            solver_version=new.solver_version,
-            result_schema=new.result_schema,
-            state=JobState.queued.value,
-            progress_time=0.0,
-            progress_fraction=0.0,
-            attempt=0,
-            created=now,
-            expires=new.expires,
-        )
-    )
-    names = [f"{job_id}-{index}" for index in range(len(new.blocks))]
-    connection.execute(
-        insert(tables.block),
-        [
-            {
-                "id": name,
-                "job": job_id,
-                "index": index,
-                "first": first,
-                "count": count,
-                "state": BlockState.queued.value,
-                "attempt": 0,
-                "losses": 0,
-                "watermark": 0,
-                "progress_time": 0.0,
-                "progress_fraction": 0.0,
-            }
-            for index, (name, (first, count)) in enumerate(zip(names, new.blocks, strict=True))
-        ],
-    )
-    connection.execute(
-        insert(tables.outbox),
-        [
-            {"block": name, "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
-            for name in names
-        ],
-    )
-    record_event(connection, job_id, now, JobState.queued.value, {})
+        earlier = earlier_answer(connection, key, now)
+        if earlier is not None and earlier.job is not None:
+            return Submitted(find_job(connection, earlier.job), created=False)
+    insert_jobs(connection, [(job_id, new)], now)
     if key is not None:
-        connection.execute(
-            insert(tables.idempotency).values(
-                owner=key.owner,
-                key=key.key,
-                fingerprint=key.fingerprint,
-                job=job_id,
-                created=now,
-                expires=now + key.seconds,
-            )
-        )
+        remember_key(connection, key, now, job=job_id)
     return Submitted(find_job(connection, job_id), created=True)
 
 
-def _earlier_job(connection: Connection, key: SubmissionKey, now: float) -> Job | None:
+def insert_jobs(connection: Connection, jobs: Sequence[tuple[str, NewJob]], now: float) -> None:
+    """Store new jobs with their ids, all their blocks, wake-ups and first events."""
+    connection.execute(insert(tables.job), [_job_row(job_id, new, now) for job_id, new in jobs])
+    blocks = [row for job_id, new in jobs for row in _block_rows(job_id, new)]
+    connection.execute(insert(tables.block), blocks)
+    connection.execute(
+        insert(tables.outbox),
+        [
+            {"block": block["id"], "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
+            for block in blocks
+            if block["state"] == BlockState.queued.value
+        ],
+    )
+    connection.execute(
+        insert(tables.event),
+        [
+            {"job": job_id, "seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
+            for job_id, _ in jobs
+        ],
+    )
+
+
+def _job_row(job_id: str, new: NewJob, now: float) -> dict[str, Any]:
+    return {
+        "id": job_id,
+        "kind": new.kind,
+        "owner": new.owner,
+        "label": new.label,
+        "batch": new.batch,
+        "spec": new.spec,
+        "digest": new.digest,
+        "solver_version": new.solver_version,
+        "result_schema": new.result_schema,
+        "state": JobState.queued.value,
+        "progress_time": 0.0,
+        "progress_fraction": 0.0,
+        "attempt": 0,
+        "created": now,
+        "expires": new.expires,
+    }
+
+
+def _block_rows(job_id: str, new: NewJob) -> Iterator[dict[str, Any]]:
+    cuts = [(first, count, BlockState.queued) for first, count in new.blocks]
+    if new.seal:
+        first, count = new.blocks[-1]
+        cuts.append((first + count, 0, BlockState.waiting))
+    for index, (first, count, state) in enumerate(cuts):
+        yield {
+            "id": f"{job_id}-{index}",
+            "job": job_id,
+            "index": index,
+            "first": first,
+            "count": count,
+            "state": state.value,
+            "attempt": 0,
+            "losses": 0,
+            "watermark": 0,
+            "progress_time": 0.0,
+            "progress_fraction": 0.0,
+        }
+
+
+def earlier_answer(connection: Connection, key: SubmissionKey, now: float) -> Row[Any] | None:
+    """Find what a key was answered with (its job or batch), if it is still remembered.
+
+    Raises
+    ------
+    KeyReused
+        It was used for another request.
+    """
     table = tables.idempotency
     same_key = and_(table.c.owner == key.owner, table.c.key == key.key)
     row = connection.execute(select(table).where(same_key)).one_or_none()
     if row is None:
         return None
-    if row.expires <= now or row.job is None:
+    if row.expires <= now or (row.job is None and row.batch is None):
         connection.execute(delete(table).where(same_key))
         return None
     if row.fingerprint != key.fingerprint:
         raise KeyReused(key.key)
-    return find_job(connection, row.job)
+    return row
+
+
+def remember_key(
+    connection: Connection,
+    key: SubmissionKey,
+    now: float,
+    *,
+    job: str | None = None,
+    batch: str | None = None,
+) -> None:
+    """Have a key find this job or batch while it is remembered."""
+    connection.execute(
+        insert(tables.idempotency).values(
+            owner=key.owner,
+            key=key.key,
+            fingerprint=key.fingerprint,
+            job=job,
+            batch=batch,
+            created=now,
+            expires=now + key.seconds,
+        )
+    )
 
 
 def request_cancel(connection: Connection, job_id: str, now: float) -> Job:
@@ -123,9 +174,14 @@ def request_cancel(connection: Connection, job_id: str, now: float) -> Job:
 
 
 def drop_queued_blocks(connection: Connection, job_id: str, *, untouched: bool) -> None:
-    """Cancel a job's queued blocks, or those no worker ever held; forget their wake-ups."""
+    """Cancel a job's blocks that nobody holds, or that nobody ever held; forget their wake-ups."""
+    drop_blocks(connection, tables.block.c.job == job_id, untouched=untouched)
+
+
+def drop_blocks(connection: Connection, of: ColumnElement[bool], *, untouched: bool) -> None:
+    """Cancel those blocks among some that nobody holds, or that nobody ever held."""
     block, outbox = tables.block, tables.outbox
-    dropped = and_(block.c.job == job_id, block.c.state == BlockState.queued.value)
+    dropped = and_(of, block.c.state.in_((BlockState.queued.value, BlockState.waiting.value)))
     if untouched:
         dropped = and_(dropped, block.c.attempt == 0)
     connection.execute(

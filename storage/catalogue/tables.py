@@ -46,12 +46,25 @@ job = Table(
     Column("started", Float(53)),
     Column("finished", Float(53)),
     Column("expires", Float(53)),
+    Column("activity", String(32)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_owner_id", "owner", "id"),
     Index("ix_job_batch_id", "batch", "id"),
+    # progress of a whole batch without a look at its jobs' documents
+    Index("ix_job_batch_state", "batch", "state", "progress_fraction"),
     Index("ix_job_digest_id", "digest", "id"),
     Index("ix_job_expires", "expires"),
+)
+
+batch = Table(
+    "batch",
+    metadata,
+    Column("id", String(26), primary_key=True),
+    Column("owner", String(64), nullable=False),
+    Column("label", Text),
+    Column("created", Float(53), nullable=False),
+    Column("count", Integer, nullable=False),
 )
 
 block = Table(
@@ -108,6 +121,8 @@ outbox = Table(
     Column("due", Float(53), nullable=False),
     Column("tries", Integer, nullable=False),
     Index("ix_outbox_due", "due"),
+    # what to publish next, however many wait
+    Index("ix_outbox_queue_due", "queue", "due", "block"),
 )
 
 idempotency = Table(

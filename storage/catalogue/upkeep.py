@@ -5,6 +5,7 @@ from sqlalchemy import Connection, case, delete, func, select, update
 from storage.catalogue import tables
 from storage.catalogue.holding import RECOVERED_QUEUE, lose
 from storage.catalogue.records import BlockState, Reaped, WakeUp
+from storage.catalogue.submission import FRESH_QUEUE
 
 _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most so many times `republish_after`
@@ -20,13 +21,16 @@ def due_wake_ups(connection: Connection, outstanding: int, now: float) -> tuple[
     on_the_way = connection.execute(
         select(func.count()).select_from(outbox).where(outbox.c.due > now)
     ).scalar_one()
-    rows = connection.execute(
-        select(outbox.c.block, outbox.c.queue)
-        .where(outbox.c.due <= now)
-        .order_by((outbox.c.queue == RECOVERED_QUEUE).desc(), outbox.c.due, outbox.c.block)
-        .limit(max(outstanding - on_the_way, 0))
-    )
-    return tuple(WakeUp(row.block, row.queue) for row in rows)
+    due: list[WakeUp] = []
+    for queue in (RECOVERED_QUEUE, FRESH_QUEUE):  # by index: the cost is that of the answer
+        rows = connection.execute(
+            select(outbox.c.block)
+            .where(outbox.c.queue == queue, outbox.c.due <= now)
+            .order_by(outbox.c.due, outbox.c.block)
+            .limit(max(outstanding - on_the_way - len(due), 0))
+        )
+        due += [WakeUp(block, queue) for block in rows.scalars()]
+    return tuple(due)
 
 
 def mark_published(

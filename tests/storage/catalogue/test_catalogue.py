@@ -198,6 +198,61 @@ def test_progress_of_a_job_weighs_its_blocks(catalogue: Catalogue) -> None:
     assert catalogue.get(job).progress_fraction == 1.0
 
 
+def test_the_block_that_seals_waits_for_all_others_and_goes_ahead_of_new_jobs(
+    catalogue: Catalogue, clock: Clock
+) -> None:
+    job = catalogue.submit(replace(NEW, blocks=((0, 16), (16, 8)), seal=True)).job.id
+    last = catalogue.blocks(job)[-1]
+    assert (last.index, last.first, last.count, last.state) == (2, 24, 0, BlockState.waiting)
+    other = catalogue.submit(NEW).job.id
+    assert len(catalogue.due_wake_ups(10)) == 3
+    assert catalogue.claim_block(f"{job}-2", "worker", 30) is None
+    for index in (1, 0):
+        assert catalogue.claim_block(f"{job}-{index}", "worker", 30)
+        assert catalogue.finish(f"{job}-{index}", 1, BlockState.done) is JobState.running
+    assert catalogue.get(job).progress_fraction == 1.0
+    assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [f"{job}-2", f"{other}-0"]
+    assert catalogue.claim_block(f"{job}-2", "worker", 30)
+    clock.now += 31
+    assert catalogue.reap(3).requeued == (f"{job}-2",)  # sealing may be interrupted
+    assert catalogue.claim_block(f"{job}-2", "worker", 30)
+    assert catalogue.finish(f"{job}-2", 2, BlockState.done) is JobState.succeeded
+
+
+@pytest.mark.parametrize("how", ["cancel", "fail"])
+def test_nothing_is_sealed_of_a_job_that_ended_otherwise(catalogue: Catalogue, how: str) -> None:
+    job = catalogue.submit(replace(NEW, blocks=((0, 8), (8, 8)), seal=True)).job.id
+    assert catalogue.claim_block(f"{job}-0", "worker", 30)
+    if how == "cancel":
+        assert catalogue.request_cancel(job).state is JobState.cancelling
+        ended = catalogue.finish(f"{job}-0", 1, BlockState.cancelled)
+    else:
+        error = JobError("platform", "storage", "the disk is full")
+        ended = catalogue.finish(f"{job}-0", 1, BlockState.failed, error)
+    assert ended is (JobState.cancelled if how == "cancel" else JobState.failed)
+    states = [block.state for block in catalogue.blocks(job)]
+    assert states[1:] == [BlockState.cancelled, BlockState.cancelled]
+    assert catalogue.due_wake_ups(10) == ()
+
+
+def test_what_a_job_is_busy_with_shows_until_it_advances(catalogue: Catalogue) -> None:
+    job = catalogue.submit(NEW).job.id
+    block = f"{job}-0"
+    assert catalogue.get(job).activity is None
+    catalogue.claim_block(block, "worker", 30)
+    catalogue.note_activity(block, 1, "compiling")
+    assert catalogue.get(job).activity == "compiling"
+    event = catalogue.events(job)[-1]
+    assert (event.type, event.data) == ("compiling", {"block": block, "attempt": 1})
+    catalogue.record_progress(block, 1, 30, time=0.1, fraction=0.1)
+    assert catalogue.get(job).activity is None
+    catalogue.note_activity(block, 1, "compiling")
+    catalogue.release(block, 1)
+    assert catalogue.get(job).activity is None
+    with pytest.raises(Fenced):
+        catalogue.note_activity(block, 1, "compiling")
+
+
 def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> None:
     job = catalogue.submit(NEW).job.id
     catalogue.claim_block(f"{job}-0", "worker", 30)

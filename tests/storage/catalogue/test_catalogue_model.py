@@ -38,6 +38,7 @@ LEASE = 30.0
 MAX_ATTEMPTS = 3
 KEY_SECONDS = 100.0
 LIVE = (BlockState.queued, BlockState.running)
+NOBODYS = (BlockState.queued, BlockState.waiting)
 
 
 @dataclass
@@ -88,6 +89,8 @@ class CatalogueModel(RuleBasedStateMachine):
         return job, job.blocks[block[1]], f"{block[0]}-{block[1]}"
 
     def settle(self, job: ModelJob) -> None:
+        if {block.state for block in job.blocks} == {BlockState.done, BlockState.waiting}:
+            job.blocks[-1].state = BlockState.queued
         if not any(block.state in LIVE for block in job.blocks) and not job.state.terminal:
             done = all(block.state is BlockState.done for block in job.blocks)
             job.state = JobState.succeeded if done else JobState.cancelled
@@ -96,7 +99,7 @@ class CatalogueModel(RuleBasedStateMachine):
         if not job.state.terminal:
             job.state, job.error_class = JobState.failed, error_class
         for block in job.blocks:
-            if block.state is BlockState.queued:
+            if block.state in NOBODYS:
                 block.state = BlockState.cancelled
 
     def as_holder(self, block: ModelBlock, attempt: int, act: Callable[[], Any]) -> Any:
@@ -108,10 +111,11 @@ class CatalogueModel(RuleBasedStateMachine):
         return None
 
     @precondition(lambda self: len(self.model) < 3)
-    @rule(target=blocks, count=st.integers(1, 3), key=st.sampled_from([None, "k1", "k2"]),
+    @rule(target=blocks, count=st.integers(1, 3), seal=st.booleans(),
+          key=st.sampled_from([None, "k1", "k2"]),
           fingerprint=st.sampled_from(["one", "other"]))  # fmt: skip
-    def submit(self, count: int, key: str | None, fingerprint: str) -> Any:
-        new = NewJob("simulate", {"n": count}, "d" * 64, "1", blocks=((0, 1),) * count)
+    def submit(self, count: int, seal: bool, key: str | None, fingerprint: str) -> Any:
+        new = NewJob("simulate", {"n": count}, "d" * 64, "1", blocks=((0, 1),) * count, seal=seal)
         submission_key = SubmissionKey("", key, fingerprint, KEY_SECONDS) if key else None
         known = self.keys.get(key or "")
         if known and known[2] > self.now and known[1] != fingerprint:
@@ -124,10 +128,11 @@ class CatalogueModel(RuleBasedStateMachine):
             return multiple()
         assert submitted.created
         assert submitted.job.id not in self.model
-        self.model[submitted.job.id] = ModelJob(blocks=[ModelBlock() for _ in range(count)])
+        last = [ModelBlock(BlockState.waiting)] if seal else []
+        self.model[submitted.job.id] = ModelJob(blocks=[ModelBlock() for _ in range(count)] + last)
         if key:
             self.keys[key] = (submitted.job.id, fingerprint, self.now + KEY_SECONDS)
-        return multiple(*((submitted.job.id, index) for index in range(count)))
+        return multiple(*((submitted.job.id, index) for index in range(count + seal)))
 
     @rule(seconds=st.sampled_from([1.0, 20.0, 40.0, 200.0]))
     def wait(self, seconds: float) -> None:
@@ -229,12 +234,24 @@ class CatalogueModel(RuleBasedStateMachine):
         cancelled = self.model[job]
         if cancelled.state in (JobState.queued, JobState.running):
             for block in cancelled.blocks:
-                if block.state is BlockState.queued and block.attempt == 0:
+                if block.state in NOBODYS and block.attempt == 0:
                     block.state = BlockState.cancelled
             if cancelled.state is JobState.running:
                 cancelled.state = JobState.cancelling
             self.settle(cancelled)
         assert state is cancelled.state
+
+    @rule(block=blocks, lag=st.integers(0, 1))
+    def compile(self, block: tuple[str, int], lag: int) -> None:
+        _, held, name = self.find(block)
+        attempt = held.attempt - lag
+        noted = self.as_holder(
+            held,
+            attempt,
+            lambda: self.catalogue.note_activity(name, attempt, "compiling") or True,
+        )
+        if noted:
+            assert self.catalogue.get(block[0]).activity == "compiling"
 
     @rule(block=blocks)
     def lose_worker(self, block: tuple[str, int]) -> None:

@@ -1,0 +1,156 @@
+import sqlite3
+from dataclasses import replace
+
+import pytest
+from sqlalchemy.exc import IntegrityError
+from stepped_clock import Clock
+
+from storage.catalogue import (
+    BatchNotFound,
+    BlockState,
+    Catalogue,
+    JobError,
+    JobState,
+    KeyReused,
+    NewJob,
+    SubmissionKey,
+)
+
+NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
+STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)
+
+
+def test_a_batch_is_listed_in_the_order_of_its_jobs(catalogue: Catalogue, clock: Clock) -> None:
+    other = catalogue.submit(NEW).job.id
+    jobs = [replace(NEW, label=str(index)) for index in range(7)]
+    submitted = catalogue.submit_batch(jobs, owner="me", label="clearances")
+    batch = submitted.batch
+    assert submitted.created
+    assert (batch.owner, batch.label, batch.created) == ("me", "clearances", clock.now)
+    assert (batch.count, batch.states[JobState.queued], batch.fraction) == (7, 7, 0.0)
+    page = catalogue.jobs(batch=batch.id, oldest_first=True, limit=4)
+    seen = list(page.jobs)
+    page = catalogue.jobs(batch=batch.id, oldest_first=True, limit=4, after=page.next)
+    seen += page.jobs
+    assert page.next is None
+    assert [job.label for job in seen] == [str(index) for index in range(7)]
+    assert tuple(job.id for job in seen) == submitted.jobs
+    assert {(job.owner, job.batch) for job in seen} == {("me", batch.id)}
+    assert other not in submitted.jobs
+    assert len(catalogue.due_wake_ups(100)) == 8
+
+
+def test_progress_of_the_whole(catalogue: Catalogue) -> None:
+    submitted = catalogue.submit_batch([NEW, NEW, NEW, STUDY])
+    done, failed, running, study = submitted.jobs
+    for job in submitted.jobs:
+        assert catalogue.claim_block(f"{job}-0", "worker", 30)
+    catalogue.finish(f"{done}-0", 1, BlockState.done)
+    error = JobError("solver", "step-size-underflow", "why", 0.5)
+    catalogue.finish(f"{failed}-0", 1, BlockState.failed, error, fraction=0.1)
+    catalogue.record_progress(f"{running}-0", 1, 30, time=0.1, fraction=0.5)
+    catalogue.record_progress(f"{study}-0", 1, 30, time=0.1, fraction=0.5)
+    batch = catalogue.batch(submitted.batch.id)
+    assert {state.value: count for state, count in batch.states.items() if count} == {
+        "running": 2,
+        "succeeded": 1,
+        "failed": 1,
+    }
+    assert batch.fraction == pytest.approx((1 + 1 + 0.5 + 0.25) / 4)
+    assert not batch.finished
+    catalogue.finish(f"{running}-0", 1, BlockState.done)
+    catalogue.request_cancel(study)
+    catalogue.finish(f"{study}-0", 1, BlockState.cancelled)
+    batch = catalogue.batch(submitted.batch.id)
+    assert batch.finished
+    assert batch.fraction == 1.0
+
+
+def test_all_or_nothing(catalogue: Catalogue) -> None:
+    impossible = replace(NEW, digest=None)  # type: ignore[arg-type]
+    with pytest.raises(IntegrityError):
+        catalogue.submit_batch([NEW, NEW, impossible])
+    assert catalogue.jobs().jobs == ()
+    assert catalogue.due_wake_ups(10) == ()
+
+
+@pytest.mark.parametrize("count", [0, 10_001])
+def test_a_batch_is_bounded(catalogue: Catalogue, count: int) -> None:
+    with pytest.raises(ValueError, match=f"1 to 10000 jobs, not {count}"):
+        catalogue.submit_batch([NEW] * count)
+
+
+def test_cancelling_a_batch_cancels_what_has_not_ended(catalogue: Catalogue, clock: Clock) -> None:
+    outside = catalogue.submit(NEW).job.id
+    submitted = catalogue.submit_batch([NEW, NEW, NEW, STUDY, STUDY, STUDY])
+    done, held, queued, half_done, given_back, untouched = submitted.jobs
+    for job in (done, held, half_done, given_back):
+        assert catalogue.claim_block(f"{job}-0", "worker", 30)
+    for job in (done, half_done):
+        catalogue.finish(f"{job}-0", 1, BlockState.done)
+    catalogue.release(f"{given_back}-0", 1)
+    clock.now += 1
+    batch = catalogue.cancel_batch(submitted.batch.id)
+    states = {job: catalogue.get(job).state for job in submitted.jobs}
+    assert states == {
+        done: JobState.succeeded,
+        held: JobState.cancelling,  # a worker has it, and closes its store
+        queued: JobState.cancelled,
+        half_done: JobState.cancelled,
+        given_back: JobState.cancelling,  # has results: a worker closes them
+        untouched: JobState.cancelled,
+    }
+    assert batch.states[JobState.cancelled] == 3
+    assert catalogue.get(queued).finished == clock.now
+    assert [event.type for event in catalogue.events(untouched)] == ["queued", "cancelled"]
+    assert [event.seq for event in catalogue.events(untouched)] == [1, 2]
+    due = {wake_up.block for wake_up in catalogue.due_wake_ups(100)}
+    assert due == {f"{outside}-0", f"{given_back}-0"}
+    for job in (queued, half_done, untouched):
+        assert all(
+            block.state in (BlockState.done, BlockState.cancelled)
+            for block in catalogue.blocks(job)
+        )
+    again = catalogue.cancel_batch(submitted.batch.id)
+    assert again == batch
+    assert len(catalogue.events(queued)) == 2
+
+
+def test_a_key_finds_the_earlier_batch(catalogue: Catalogue, clock: Clock) -> None:
+    key = SubmissionKey("me", "key", "fingerprint", seconds=10)
+    first = catalogue.submit_batch([NEW, NEW], owner="me", key=key)
+    again = catalogue.submit_batch([NEW, NEW], owner="me", key=key)
+    assert (again.batch, again.jobs, again.created) == (first.batch, first.jobs, False)
+    with pytest.raises(KeyReused):
+        catalogue.submit_batch([NEW], owner="me", key=replace(key, fingerprint="other"))
+    with pytest.raises(KeyReused):
+        catalogue.submit(NEW, replace(key, fingerprint="other"))
+    clock.now += 11
+    assert catalogue.submit_batch([NEW], owner="me", key=key).created
+    assert len(catalogue.jobs().jobs) == 3
+
+
+def test_an_unknown_batch_is_named(catalogue: Catalogue) -> None:
+    with pytest.raises(BatchNotFound, match="nothing"):
+        catalogue.batch("nothing")
+    with pytest.raises(BatchNotFound, match="nothing"):
+        catalogue.cancel_batch("nothing")
+
+
+def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index(catalogue: Catalogue) -> None:
+    """However many wait: a scan or a sort of 100 000 rows twice a second would be felt."""
+    statements: list[str] = []
+    connection = catalogue._connections
+    batch = catalogue.submit_batch([NEW] * 3).batch.id
+    with connection.reading() as reading:
+        raw = reading.connection.driver_connection
+        assert isinstance(raw, sqlite3.Connection)
+    raw.set_trace_callback(statements.append)
+    catalogue.due_wake_ups(10)
+    catalogue.batch(batch)
+    raw.set_trace_callback(None)
+    selects = [s for s in statements if s.startswith("SELECT")]
+    assert len(selects) == 5
+    plans = [row[-1] for s in selects for row in raw.execute(f"EXPLAIN QUERY PLAN {s}")]
+    assert not any("SCAN" in plan or "TEMP B-TREE" in plan for plan in plans), plans
+    assert sum("USING COVERING INDEX" in plan for plan in plans) >= 4, plans
