@@ -70,9 +70,9 @@ def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
 def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
     from service.jobs.schemas import JobResource
     from service.results.schemas import History, Impacts, Peaks
-    from solver.jobs import SimulateJob
+    from solver.jobs import KINDS
 
-    for model in (SimulateJob, JobResource, History, Impacts, Peaks):
+    for model in (*KINDS.values(), JobResource, History, Impacts, Peaks):
         schema = model.model_json_schema()
         for name, definition in {model.__name__: schema, **schema.get("$defs", {})}.items():
             for field, described in definition.get("properties", {}).items():

@@ -137,22 +137,30 @@ def _outside(axis: Axis, parameter: Parameter) -> list[Problem]:
     low = -np.inf if parameter.minimum is None else parameter.minimum
     high = np.inf if parameter.maximum is None else parameter.maximum
     bad = np.flatnonzero(~((low <= values) & (values <= high) & np.isfinite(values)))
-    return [
-        Problem(
-            axis.place(int(index)),
-            f"Value {index} of '{axis.parameter}' is {values[index]:.6g}{_unit(parameter)}; "
-            + f"it {allowed_range(parameter)}."
-            + further(len(bad), nth),
-        )
-        for nth, index in enumerate(bad[:MOST_NAMED])
-    ]
+    first: dict[str, int] = {}
+    for index in (bad[0], bad[-1], *bad[1:MOST_NAMED]) if len(bad) else ():
+        first.setdefault(axis.place(int(index)), int(index))
+    named = sorted(list(first.items())[:MOST_NAMED], key=lambda item: item[1])
+    return with_rest(
+        [
+            Problem(
+                place,
+                f"Value {index} of '{axis.parameter}' is {values[index]:.12g}{_unit(parameter)};"
+                f" it {allowed_range(parameter)}.",
+            )
+            for place, index in named
+        ],
+        len(bad) - len(named),
+    )
 
 
-def further(count: int, nth: int) -> str:
-    """Return what to add to the nth of `count` similar complaints."""
-    if nth + 1 < MOST_NAMED or count <= MOST_NAMED:
-        return ""
-    return f" So it is with {count - MOST_NAMED} more."
+def with_rest(problems: list[Problem], rest: int) -> list[Problem]:
+    """Return problems, the last of which also says how many more there are like them."""
+    if problems and rest > 0:
+        last = problems[-1]
+        others = "another" if rest == 1 else f"{rest} others"
+        problems[-1] = Problem(last.pointer, f"{last.detail} So it is with {others}.")
+    return problems
 
 
 def _unit(parameter: Parameter) -> str:

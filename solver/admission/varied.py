@@ -7,7 +7,7 @@ by what checks a single job, so that it is refused in the same words.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from solver.admission.limits import MOST_GEOMETRIES
 from solver.admission.mechanism import Echo, check, declared, offered, with_parameters
-from solver.admission.points import MOST_NAMED, Points, check_parameters, further
+from solver.admission.points import MOST_NAMED, Points, check_parameters, with_rest
 from solver.assembly import Assembly
 from solver.channels import Channel
 from solver.compiler.length import check_length
@@ -123,24 +123,22 @@ class _One:
         if failed:
             raise InvalidInput(self.told(failed, count))
 
-    def told(self, failed: Mapping[int, list[Problem]], count: int) -> Iterator[Problem]:
-        """Yield the problems of points at their values, which begin each sentence."""
+    def told(self, failed: Mapping[int, list[Problem]], count: int) -> list[Problem]:
+        """Return the problems of points at their values, one a place, of `count` like them."""
         if not self.points.axes:
-            yield from failed[0]
-            return
-        told: set[Problem] = set()
-        for nth, (point, problems) in enumerate(failed.items()):
+            return failed[0]
+        found: dict[str, Problem] = {}
+        named: set[int] = set()
+        for point, problems in failed.items():
             for problem in problems:
                 parent, _, name = problem.pointer.rpartition("/")
                 varies = parent == PLACE and name in self.points.parameters
                 place = self.points.place(point, name if varies else None)
-                if parent == PLACE and not varies:
-                    place = problem.pointer
-                sentence = self.points.name(point, self.declared) + problem.detail
-                found = Problem(place, sentence + further(count, nth))
-                if found not in told:
-                    told.add(found)
-                    yield found
+                if place not in found:
+                    named.add(point)
+                    sentence = self.points.name(point, self.declared) + problem.detail
+                    found[place] = Problem(place, sentence)
+        return with_rest(list(found.values()), count - len(named))
 
 
 def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo) -> None:

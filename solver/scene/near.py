@@ -8,7 +8,10 @@ MOST_LISTED = 12
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question after the nearest known name, or nothing where none is near."""
-    near = get_close_matches(name, list(known), n=1)
+    names = list(known)
+    near = [other for other in names if other.casefold() == name.casefold()] or (
+        get_close_matches(name, names, n=1)
+    )
     return f"did you mean '{near[0]}'?" if near else ""
 
 

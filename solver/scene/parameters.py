@@ -106,7 +106,7 @@ def _outside(name: str, parameter: Parameter, value: float, unit: str) -> str | 
     high = math.inf if parameter.maximum is None else parameter.maximum
     if low <= value <= high and math.isfinite(value):
         return None
-    return f"'{name}' is {value:g}; it {allowed_range(parameter)}."
+    return f"'{name}' is {value:.12g}; it {allowed_range(parameter)}."
 
 
 def allowed_range(parameter: Parameter) -> str:

@@ -1,0 +1,403 @@
+"""Studies that are refused before anything is queued: at which field, and what would be right."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from solver.admission import admit
+from solver.errors import InvalidInput, LimitExceeded
+from tests.solver.study.jobs_of_studies import (
+    BIFURCATION,
+    ENSEMBLE,
+    POINCARE,
+    PRESS,
+    STUDIES,
+    SWEEP,
+    study,
+)
+
+
+def press(**parameters: Any) -> dict[str, Any]:
+    return {"preset": "seven-bar-press", "parameters": parameters}
+
+
+def values(**changes: Any) -> dict[str, Any]:
+    return {"from": 1e-4, "to": 1e-3, "count": 10, **changes}
+
+
+PENDULUM = {"preset": "pendulum"}
+B, S, P, E = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE
+LISTED = {**SWEEP, "grid": None}
+WITHOUT_UNIT = {key: value for key, value in SWEEP.items() if key != "periods"}
+
+BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
+    "unknown kind": (B, {"kind": "bifurcaton"}, "/kind", "did you mean 'bifurcation'"),
+    "kind of another type": (B, {"kind": ["sweep"]}, "/kind", "must be one of"),
+    "field of another kind": (B, {"members": 3}, "/members", "There is no field"),
+    "unknown parameter": (B, {"parameter": "clearence"}, "/parameter", "'clearance'"),
+    "parameter that is a word": (B, {"parameter": "slip_velocity"}, "/parameter", "as-published"),
+    "parameter that others override": (
+        B,
+        {"scene": press(clearance_A=1e-4, clearance_B=1e-4)},
+        "/parameter",
+        "'clearance_A', 'clearance_B' override it",
+    ),
+    "value below the range": (B, {"values": [1e-4, -1e-4]}, "/values/1", "Value 1 of 'clearance'"),
+    "value above the range": (B, {"values": [1e-4, 1.0, 1e-4]}, "/values/1", "between 0 and 0.05"),
+    "value not finite": (B, {"values": [1e-4, math.inf]}, "/values/1", "finite"),
+    "value not a number": (B, {"values": [1e-4, "big"]}, "/values/1", "number"),
+    "value true": (B, {"values": [1e-4, True]}, "/values/1", "number"),
+    "no values": (B, {"values": []}, "/values", "at least 1"),
+    "values of another form": (B, {"values": 1e-4}, "/values", "'from', 'to' and 'count'"),
+    "end of a range outside": (B, {"values": values(to=1.0)}, "/values/to", "Value 9 of"),
+    "start of a range outside": (
+        B,
+        {"values": values(**{"from": -1.0})},
+        "/values/from",
+        "Value 0",
+    ),
+    "count 0": (B, {"values": values(count=0)}, "/values/count", "at least 1"),
+    "count negative": (B, {"values": values(count=-5)}, "/values/count", "at least 1"),
+    "count not whole": (B, {"values": values(count=2.5)}, "/values/count", "whole number"),
+    "one value from here to there": (B, {"values": values(count=1)}, "/values/count", "2 at least"),
+    "a range that stands still": (B, {"values": values(to=1e-4)}, "/values/to", "the same"),
+    "ratios from zero": (
+        B,
+        {"values": values(spacing="log", **{"from": 0.0})},
+        "/values/spacing",
+        "above zero",
+    ),
+    "unknown spacing": (B, {"values": values(spacing="cubic")}, "/values/spacing", "'log'"),
+    "clearance of the bearing": (
+        B,
+        {"values": [1e-4, 6e-3]},
+        "/values/1",
+        "Value 1 (clearance = 0.006 m): A radial clearance of 0.006 m leaves no journal",
+    ),
+    "static above dynamic velocity": (
+        B,
+        {"parameter": "dynamic_velocity", "values": [1e-3, 1e-5]},
+        "/values/1",
+        "static limit velocity",
+    ),
+    "exponent without stiffness": (
+        B,
+        {"scene": press(), "parameter": "exponent", "values": [1.5, 1.3]},
+        "/values/1",
+        "stiffness",
+    ),
+    "clearance zero": (B, {"values": [1e-4, 0.0]}, "/values/1", "'simulate' runs the ideal"),
+    "clearance zero alone": (B, {"values": [0.0]}, "/values/0", "no motion to integrate"),
+    "clearance zero in a sweep": (
+        S,
+        {"grid": {"clearance": [0.0, 1e-4]}},
+        "/grid/clearance/0",
+        "no motion to integrate",
+    ),
+    "one clearance of two": (
+        B,
+        {"parameter": "clearance_A", "values": [1e-4, 0.0]},
+        "/values/1",
+        "close a loop",
+    ),
+    "no freedom at all": (P, {"scene": press(clearance=0.0)}, "/scene", "no motion to integrate"),
+    "a fixed parameter that is wrong": (
+        B,
+        {"scene": press(friction=-1.0)},
+        "/scene/parameters/friction",
+        "between 0 and 10",
+    ),
+    "a scene that is wrong everywhere": (
+        B,
+        {"scene": press(exponent=1.2)},
+        "/scene/parameters/exponent",
+        "stiffness",
+    ),
+    "unknown preset": (P, {"scene": {"preset": "press"}}, "/scene/preset", "seven-bar-press"),
+    "no period": (P, {"scene": PENDULUM}, "/section", "No driver turns"),
+    "no period at one value": (
+        B,
+        {"parameter": "speed", "values": [1.0, 0.0]},
+        "/values/1",
+        "No driver turns",
+    ),
+    "irrational ratio of speeds": (
+        P,
+        {"scene": press(speed=1.0, speed_crank4=math.sqrt(2.0))},
+        "/section",
+        "ratio of whole numbers",
+    ),
+    "irrational ratio at one value": (
+        B,
+        {"parameter": "speed_crank4", "values": [-math.pi, 3.0]},
+        "/values/1",
+        "ratio of whole numbers",
+    ),
+    "a section of no form": (P, {"section": 3.0}, "/section", "'crank_angle'"),
+    "crank angle beyond a turn": (
+        P,
+        {"section": {"crank_angle": 7.0}},
+        "/section/crank_angle",
+        "less than 6.28319 rad",
+    ),
+    "two sections at once": (
+        P,
+        {"section": {"onset": "A", "crank_angle": 0.0}},
+        "/section/crank_angle",
+        "There is no field",
+    ),
+    "onset at no joint": (P, {"section": {"onset": "Q"}}, "/section/onset", "no joint 'Q'"),
+    "onset at an ideal joint": (
+        P,
+        {"section": {"onset": "C2"}},
+        "/section/onset",
+        "joints with clearance are: A, B",
+    ),
+    "crossing of no channel": (
+        P,
+        {"section": {"channel": "slider7.z", "value": 0.0}},
+        "/section/channel",
+        "did you mean 'slider7.",
+    ),
+    "crossing without a value": (
+        P,
+        {"section": {"channel": "slider7.x"}},
+        "/section/value",
+        "required",
+    ),
+    "unknown direction": (
+        P,
+        {"section": {"channel": "slider7.x", "value": 1.7, "direction": "left"}},
+        "/section/direction",
+        "'up' or 'down'",
+    ),
+    "settle negative": (P, {"settle": -1}, "/settle", "at least 0"),
+    "settle a word": (P, {"settle": "long"}, "/settle", "'auto'"),
+    "settle not whole": (P, {"settle": 10.5}, "/settle", "whole number"),
+    "settle true": (P, {"settle": True}, "/settle", "whole number"),
+    "record nothing": (P, {"record": 0}, "/record", "at least 1"),
+    "unknown observable": (P, {"observables": ["slider7.X"]}, "/observables/0", "'slider7.x'"),
+    "no observable": (P, {"observables": []}, "/observables", "at least 1"),
+    "unknown indicator": (P, {"indicators": ["chaos"]}, "/indicators/0", "'lyapunov'"),
+    "indicators a word": (P, {"indicators": "some"}, "/indicators", "'all'"),
+    "unknown continuation": (B, {"continuation": "up"}, "/continuation", "'forward'"),
+    "no chains": (B, {"chains": 0}, "/chains", "at least 1"),
+    "tolerance and accuracy": (
+        P,
+        {"tolerance": 1e-6, "accuracy": "standard"},
+        "/accuracy",
+        "not both",
+    ),
+    "no member": (E, {"members": 0}, "/members", "at least 1"),
+    "negative spread": (E, {"spread": -1.0}, "/spread", "at least 0"),
+    "negative seed": (E, {"seed": -1}, "/seed", "at least 0"),
+    "an ensemble in absolute coordinates": (
+        E,
+        {"formulation": "lagrange"},
+        "/formulation",
+        "'reduced'",
+    ),
+    "grid and points": (S, {"points": [{"clearance": 1e-4}]}, "/grid", "not both"),
+    "neither grid nor points": (LISTED, {}, "/grid", "one of 'grid' and 'points'"),
+    "duration and periods": (S, {"duration": 1.0}, "/duration", "not both"),
+    "neither duration nor periods": (WITHOUT_UNIT, {}, "/duration", "'periods'"),
+    "settling for all of it": (S, {"settle": 2.0}, "/settle", "must be shorter"),
+    "periods without a period": (
+        S,
+        {"scene": PENDULUM, "grid": {"angle": [0.1, 0.2]}},
+        "/periods",
+        "Give a 'duration'",
+    ),
+    "unknown parameter of a grid": (S, {"grid": {"frict": [0.1]}}, "/grid/frict", "'friction'"),
+    "value of a grid outside": (
+        S,
+        {"grid": {"clearance": [1e-4], "friction": [0.1, 20.0]}},
+        "/grid/friction/1",
+        "between 0 and 10",
+    ),
+    "grid of nothing": (S, {"grid": {}}, "/grid", "at least 1"),
+    "empty axis of a grid": (S, {"grid": {"friction": []}}, "/grid/friction", "at least 1"),
+    "points without a parameter": (LISTED, {"points": [{}]}, "/points/0", "at least 1"),
+    "points of different parameters": (
+        LISTED,
+        {"points": [{"friction": 0.1}, {"clearance": 1e-4}]},
+        "/points/1",
+        "lacks 'friction' and has 'clearance' besides",
+    ),
+    "unknown parameter of points": (
+        LISTED,
+        {"points": [{"frict": 0.1}]},
+        "/points/0/frict",
+        "'friction'",
+    ),
+    "value of a point outside": (
+        LISTED,
+        {"points": [{"friction": 0.1, "clearance": 1e-4}, {"friction": 11.0, "clearance": 1e-4}]},
+        "/points/1/friction",
+        "Value 1 of 'friction' is 11",
+    ),
+    "values of a point that do not fit": (
+        LISTED,
+        {
+            "points": [
+                {"bearing_radius": 5e-3, "clearance": 1e-4},
+                {"bearing_radius": 1e-4, "clearance": 2e-4},
+            ]
+        },
+        "/points/1/clearance",
+        "Point 1 (bearing_radius = 0.0001 m, clearance = 0.0002 m): ",
+    ),
+    "unknown channel of a sweep": (S, {"channels": ["displacment"]}, "/channels/0", "displacement"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_a_bad_study_is_refused_at_its_field(case: str) -> None:
+    job, changes, pointer, words = BAD[case]
+    with pytest.raises(InvalidInput) as refused:
+        admit({**job, **changes})
+    assert not isinstance(refused.value, LimitExceeded)
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert pointer in found, found
+    assert words in found[pointer], found[pointer]
+    for problem in refused.value.problems:
+        assert problem.detail.endswith((".", "?")), problem
+        assert "\n" not in problem.detail
+
+
+TOO_LARGE: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
+    "points of a range": (B, {"values": values(count=10**9)}, "/values", "1e+09 points"),
+    "points in both directions": (
+        B,
+        {"values": values(count=60_000), "continuation": "both"},
+        "/values",
+        "120000 points",
+    ),
+    "points of a grid": (
+        S,
+        {"grid": {name: values(count=10**6) for name in ("clearance", "friction", "restitution")}},
+        "/grid",
+        "1e+18 points",
+    ),
+    "members": (E, {"members": 10**9}, "/members", "the limit of a study is 100000"),
+    "periods of a point": (P, {"settle": 10**7}, "/settle", "1.000005e+07 periods"),
+    "sections of a point": (P, {"record": 2 * 10**6}, "/record", "the limit is 1e+06"),
+    "periods of all points": (
+        B,
+        {"values": values(count=10_000), "settle": 20_000},
+        "/settle",
+        "2e+08 periods",
+    ),
+    "bytes of all sections": (E, {"members": 1000, "record": 90_000}, "/record", "12.2 GB"),
+    "duration of a point": (
+        {**WITHOUT_UNIT, "duration": 1e7},
+        {},
+        "/duration",
+        "5000000 periods",
+    ),
+    "periods of a sweep": (S, {"periods": 1e7}, "/periods", "the limit is 1e+06"),
+}
+
+
+@pytest.mark.parametrize("case", TOO_LARGE)
+def test_a_study_over_a_limit_is_refused_with_the_estimate(case: str) -> None:
+    job, changes, pointer, words = TOO_LARGE[case]
+    with pytest.raises(LimitExceeded) as refused:
+        admit({**job, **changes})
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert words in found[pointer], found
+
+
+def test_many_bad_values_are_counted_and_a_few_are_named() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        admit({**B, "values": [1e-4] + [-1.0 - k for k in range(100)]})
+    assert [p.pointer for p in refused.value.problems] == [
+        f"/values/{k}" for k in [*range(1, 8), 100]
+    ]
+    assert refused.value.problems[-1].detail.endswith("So it is with 92 others.")
+
+
+def test_all_that_a_document_gets_wrong_is_reported_at_once() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        admit({**B, "settle": -1, "record": 0, "values": [1e-4, "x"], "extra": 1})
+    found = {problem.pointer for problem in refused.value.problems}
+    assert found == {"/settle", "/record", "/values/1", "/extra"}
+
+
+def test_sections_by_event_need_no_common_period() -> None:
+    scene = press(speed=1.0, speed_crank4=math.sqrt(2.0))
+    found = study(P, scene=scene, section={"onset": "A"}, settle=3, record=2)
+    fastest = 2.0 * math.pi / math.sqrt(2.0)
+    assert found.period.tolist() == pytest.approx([fastest])
+    # settling and at most twenty periods a section
+    assert found.duration.tolist() == pytest.approx([43 * fastest])
+
+
+def test_what_the_job_leaves_out_is_filled_in() -> None:
+    filled = study(BIFURCATION).job
+    assert filled["settle"] == 100
+    assert filled["record"] == 50
+    assert filled["section"] == {"crank_angle": 0.0}
+    assert filled["indicators"] == []
+    assert (filled["continuation"], filled["chains"]) == ("none", 8)
+    assert filled["tolerance"] == 1e-6
+    assert filled["formulation"] == "reduced"
+    assert filled["scene"]["parameters"]["friction"] == 0.01
+    spread = study(ENSEMBLE).job
+    assert (spread["spread"], spread["seed"]) == (1e-3, 0)
+
+
+def test_indicators_are_listed_once_and_in_order() -> None:
+    assert study(P, indicators=["zero_one", "lyapunov", "zero_one"]).indicators == (
+        "lyapunov",
+        "zero_one",
+    )
+    everything = ("lyapunov", "zero_one", "recurrence", "rotation", "spectrum")
+    assert study(P, indicators="all").indicators == everything
+    assert study(P, indicators=["all"]).indicators == everything
+
+
+def test_times_of_a_study_follow_its_periods_and_section() -> None:
+    found = study(P, settle=10, record=5, section={"crank_angle": math.pi / 2})
+    assert found.period.tolist() == pytest.approx([2.0])
+    assert found.offset.tolist() == pytest.approx([0.5])
+    assert found.settle.tolist() == pytest.approx([20.0])
+    assert found.duration.tolist() == pytest.approx([30.5])
+    swept = study(SWEEP, settle=0.5)
+    assert swept.duration.tolist() == pytest.approx([4.0] * 6)
+    assert swept.settle.tolist() == pytest.approx([1.0] * 6)
+
+
+def test_a_grid_varies_its_last_parameter_fastest() -> None:
+    found = study(SWEEP)
+    assert found.parameters == ("clearance", "friction")
+    assert found.parameter_units == ("m", "1")
+    assert found.values.tolist() == [
+        [c, f] for c in (1e-4, 3e-4) for f in (0.0, 0.05, 0.1)
+    ]  # halves of a tenth are exact enough to compare
+
+
+def test_a_logarithmic_range_has_equal_ratios_and_exact_ends() -> None:
+    found = study(B, values=values(spacing="log", count=5)).values[:, 0]
+    assert found[0] == 1e-4
+    assert found[-1] == 1e-3
+    # a handful of roundings
+    assert found[1:] / found[:-1] == pytest.approx([10 ** (1 / 4)] * 4, rel=1e-14)
+
+
+@pytest.mark.parametrize("kind", STUDIES)
+def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else(kind: str) -> None:
+    job = STUDIES[kind]
+    first = study(job)
+    assert study(job, label="a name").digest == first.digest
+    assert study(job, accuracy="standard").digest == first.digest
+    assert study(job, tolerance=1e-7).digest != first.digest
+    assert study(job, scene={**PRESS, "parameters": {"stiffness": 4e9}}).digest != first.digest
+
+
+def test_the_digest_tells_values_apart() -> None:
+    digests = {study(BIFURCATION, values=[1e-4, last]).digest for last in (3e-4, 4e-4)}
+    assert len(digests) == 2
