@@ -12,7 +12,7 @@ evaluated once a run, outside the kernel.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from solver.compiler import lane_functions
 from solver.errors import LimitExceeded, Problem
@@ -87,10 +87,10 @@ def too_many(count: int) -> Problem:
 class Expression:
     """A node: an operation on other nodes. Arithmetic on it records more nodes."""
 
-    recorder: Recorder
+    recorder: Recorder = field(repr=False)
     index: int
     operation: str
-    arguments: tuple[Expression, ...]
+    arguments: tuple[Expression, ...] = field(repr=False)
     data: object
     fixed: bool
 
