@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from solver import presets
 from solver.admission import admit, readmit
-from solver.errors import InvalidInput
+from solver.admission.limits import MOST_GEOMETRIES
+from solver.errors import InvalidInput, LimitExceeded
 from solver.scene.document import Parameter, Scene
 from solver.scene.parameters import set_parameters
 from solver.study.plan import Study
@@ -174,6 +175,15 @@ def test_geometry_may_vary_and_each_one_is_put_together() -> None:
         study(job, scene=short, values=[0.34, 0.35, 3.0])
     assert [p.pointer for p in refused.value.problems] == ["/values/2"]
     assert "does not close" in refused.value.problems[0].detail
+
+
+def test_more_geometries_than_can_be_put_together_are_refused_with_their_number() -> None:
+    scene = presets.document("seven-bar-press")
+    scene["parameters"]["speed"]["targets"] = [{"path": "/bodies/link6/points/D/0"}]
+    values = {"from": 0.5, "to": 0.6, "count": MOST_GEOMETRIES + 1}
+    with pytest.raises(LimitExceeded) as refused:
+        study(BIFURCATION, scene=scene, parameter="speed", values=values)
+    assert f"{MOST_GEOMETRIES + 1} geometries" in refused.value.problems[0].detail
 
 
 @pytest.mark.parametrize("kind", STUDIES)
