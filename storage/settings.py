@@ -108,3 +108,7 @@ class Settings(BaseSettings):
         would put every job of a year into one folder.
         """
         return self.data / "results" / job[-2:] / job / f"a{attempt}"
+
+    def study_folder(self, job: str) -> Path:
+        """Folder of a study's store, which all blocks and attempts of the job fill together."""
+        return self.data / "results" / job[-2:] / job / "study"

@@ -1,14 +1,13 @@
-"""Computing one claimed block: from claim to sealed results, with checkpoints on the way."""
+"""Computing one claimed block: from claim to durable results, with checkpoints on the way."""
 
 import logging
-import shutil
 import threading
 import time
-from pathlib import Path
+from collections.abc import Callable
 
-from solver.admission import admit
+from sqlalchemy.exc import SQLAlchemyError
+
 from solver.errors import InvalidInput
-from solver.version import SOLVER_VERSION
 from storage.catalogue import (
     BlockState,
     Catalogue,
@@ -19,11 +18,10 @@ from storage.catalogue import (
     Verdict,
 )
 from storage.results import ResultsError
-from storage.results.layout import MANIFEST
 from storage.settings import Settings
-from worker import checkpoints
-from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from worker.execute import Answer, Outcome
 from worker.lease import Lease
+from worker.work import AnyProgress, Kept, Work, work_of
 
 _log = logging.getLogger(__name__)
 _BLOCK_STATES = {
@@ -31,6 +29,10 @@ _BLOCK_STATES = {
     "failed": BlockState.failed,
     "cancelled": BlockState.cancelled,
 }
+_MOST_OVERHEAD = 20
+"""Restart points are made so rarely that computing takes this many times as long as they do."""
+_LONG = 1.0
+"""Seconds after which a block that has not advanced is said to be compiling."""
 
 
 class BlockRun:
@@ -47,13 +49,17 @@ class BlockRun:
     ) -> None:
         self._catalogue = catalogue
         self._settings = settings
+        self._claim = claim
         self._block = claim.block
         self._job = claim.job
         self._lease = Lease(catalogue, claim, settings)
         self._draining = draining
-        self._folder = settings.result_folder(claim.job.id, claim.block.attempt)
-        self._recorded = time.monotonic()
+        self._next_record = time.monotonic() + settings.progress_period
+        self._reports = 0
         self._reached = (claim.block.progress_time, claim.block.progress_fraction)
+        self._work: Work | None = None
+        self._compiling = threading.Timer(_LONG, self._say_that_it_compiles)
+        self._compiling.daemon = True
 
     def run(self) -> None:
         """Compute the block and tell the catalogue how it ended.
@@ -77,18 +83,15 @@ class BlockRun:
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
             return
-        _log.info("job %s %s", self._job.id, state.value)
-        if state.terminal and (self._folder / MANIFEST).exists():
-            self._sweep()
+        _log.info("block %s %s, job %s", self._block.id, outcome.state, state.value)
+        if state.terminal and self._work is not None:
+            self._work.tidy()
 
     def _compute(self) -> Outcome:
         try:
-            return execute(
-                admit(self._job.spec),
-                self._folder,
-                report=self._report,
-                restart=self._restart_point(),
-            )
+            self._work = work_of(self._claim, self._settings)
+            self._compiling.start()
+            return self._work.execute(self._report, self._lease.advanced)
         except Fenced:
             raise
         except InvalidInput as error:
@@ -108,58 +111,42 @@ class BlockRun:
                 f"an error of the program itself, not of the job: {type(error).__name__}:"
                 f" {error}; the worker's log has the details",
             )
+        finally:
+            self._compiling.cancel()
 
     def _failed(self, error_class: ErrorClass, code: str, detail: str) -> Outcome:
         return Outcome("failed", *self._reached, JobError(error_class, code, detail))
 
-    def _report(self, progress: Progress) -> Answer:
+    def _report(self, progress: AnyProgress, keep: Callable[[], Kept]) -> Answer:
         """Between two slices: notice a request to stop; about once a second, record."""
         self._lease.advanced()
+        self._reports += 1
+        if self._reports == 2:  # one slice is done, so its kernel is there
+            self._compiling.cancel()
         self._reached = (progress.time, progress.fraction)
         if self._draining.is_set():
-            self._store(progress.restart_point())
+            self._keep(keep)
             return Answer.leave
-        now = time.monotonic()
-        if now - self._recorded < self._settings.progress_period:
+        if time.monotonic() < self._next_record:
             verdict = self._lease.verdict()
         else:
-            self._recorded = now
-            self._store(progress.restart_point())
+            took = self._keep(keep)
             verdict = self._lease.record_progress(progress.time, progress.fraction)
+            pause = max(self._settings.progress_period, _MOST_OVERHEAD * took)
+            self._next_record = time.monotonic() + pause
         return Answer.go_on if verdict is Verdict.go_on else Answer.cancel
 
-    def _store(self, point: RestartPoint) -> None:
-        """Put a restart point on the disk, then name it in the catalogue."""
-        path = self._checkpoint_folder / f"block{self._block.index}-a{self._block.attempt}"
-        checkpoints.store(path, point, SOLVER_VERSION)
+    def _keep(self, keep: Callable[[], Kept]) -> float:
+        """Put a restart point on the disk, then name it in the catalogue; return the seconds."""
+        began = time.monotonic()
+        name, watermark = keep()
         self._catalogue.record_checkpoint(
-            self._block.id,
-            self._block.attempt,
-            watermark=point.watermark,
-            checkpoint=path.name,
+            self._block.id, self._block.attempt, watermark=watermark, checkpoint=name
         )
+        return time.monotonic() - began
 
-    def _restart_point(self) -> RestartPoint | None:
-        if self._block.checkpoint is None:
-            return None
+    def _say_that_it_compiles(self) -> None:
         try:
-            return checkpoints.load(
-                self._checkpoint_folder / self._block.checkpoint, SOLVER_VERSION
-            )
-        except checkpoints.UnusableRestartPoint as error:
-            _log.warning("block %s begins anew: %s", self._block.id, error)
-            return None
-
-    @property
-    def _checkpoint_folder(self) -> Path:
-        return self._folder.parent
-
-    def _sweep(self) -> None:
-        """Remove earlier attempts and checkpoints: the job's results are in this folder."""
-        for path in self._checkpoint_folder.iterdir():
-            if path == self._folder:
-                continue
-            if path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                path.unlink(missing_ok=True)
+            self._catalogue.note_activity(self._block.id, self._block.attempt, "compiling")
+        except (Fenced, SQLAlchemyError) as error:
+            _log.debug("block %s compiles, which could not be noted: %s", self._block.id, error)

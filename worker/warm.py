@@ -9,16 +9,19 @@ import sys
 import time
 
 from solver import presets
-from solver.admission import admit
+from solver.admission import admit_simulate
 from solver.compiler.cache import cache_folder
+from solver.jobs import SimulateJob
 from solver.simulate import Simulation
 
 
 def warm(name: str) -> float:
     """Compile or load the kernels of a preset by a very short run; return the seconds."""
     began = time.perf_counter()
-    job = {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
-    for _ in Simulation(admit(job)).slices():
+    job = SimulateJob.model_validate(
+        {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
+    )
+    for _ in Simulation(admit_simulate(job)).slices():
         pass
     return time.perf_counter() - began
 

@@ -1,0 +1,210 @@
+"""From one block of a study to the study's store, for workers and local runs."""
+
+import json
+import logging
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from solver.study.plan import Study
+from solver.study.results import StudySlice
+from solver.study.run import StudyRun
+from solver.version import SOLVER_VERSION
+from storage.results import ArraySpec, ResultsError
+from storage.studies import StudyBlock, StudyLayout, create, seal
+from worker.execute import JOB_FILE, Answer, Outcome
+
+_log = logging.getLogger(__name__)
+VERDICTS: Final = ("undecided", "periodic", "quasi-periodic", "chaotic")
+MEANINGS: Final[Mapping[str, tuple[str, str]]] = {
+    "steps": ("1", "accepted steps"),
+    "rejections": ("1", "rejected steps"),
+    "onsets": ("1", "beginnings of contact"),
+    "smallest_step": ("s", "smallest accepted step"),
+    "driver_work": ("J", "work of the drivers"),
+    "contact_loss": ("J", "energy lost in normal contact"),
+    "friction_loss": ("J", "energy lost in friction"),
+    "energy_residual": ("J", "what the energy ledger lacks"),
+    "settled_periods": ("1", "periods left out before the first recorded section"),
+    "from_neighbour": ("1", "1 if it started from its neighbour's last state, else 0"),
+    "lyapunov": ("1/s", "largest Lyapunov exponent"),
+    "lyapunov_error": ("1/s", "standard error of the largest Lyapunov exponent"),
+    "zero_one": ("1", "growth rate of the 0-1 test"),
+    "zero_one_error": ("1", "standard error of the growth rate of the 0-1 test"),
+    "period": ("1", "sections after which the motion recurs; 0: none"),
+    "rotation": ("1", "rotation number"),
+    "rotation_error": ("1", "standard error of the rotation number"),
+    "verdict": ("1", "a position in the attribute verdicts"),
+}
+"""Units and long names of the numbers that a point may have."""
+
+
+@dataclass(frozen=True)
+class StudyProgress:
+    """How far a block is. `restart_point()` may be called until the report returns."""
+
+    fraction: float  # 0..1, of the block
+    watermark: int  # points that have ended
+    restart_point: Callable[[], str]
+    """Brings what was computed to the disk and returns the name to resume from."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time means nothing where many points are computed."""
+        return 0.0
+
+
+def layout_of(study: Study) -> StudyLayout:
+    """Return what a study's store holds."""
+    declared = study.scene["parameters"]
+    return StudyLayout(
+        parameters=tuple(
+            ArraySpec(name, unit, str(declared[name]["help"]))
+            for name, unit in zip(study.parameters, study.parameter_units, strict=True)
+        ),
+        values=study.values,
+        observables=tuple(ArraySpec(c.name, c.unit, c.long_name) for c in study.observables),
+        record=study.record,
+        channels=tuple(ArraySpec(c.name, c.unit, c.long_name) for c in study.channels),
+        blocks=study.blocks,
+        attributes={
+            "job": study.job,
+            "scene": study.scene,
+            "digest": study.digest,
+            "solver_version": SOLVER_VERSION,
+            "verdicts": list(VERDICTS),
+        },
+        meanings={name: ArraySpec(name, *meaning) for name, meaning in MEANINGS.items()},
+    )
+
+
+def create_store(study: Study, folder: Path) -> None:
+    """Make the store that a study's blocks fill, with its `job.json`, or find it there.
+
+    Several processes may do it at once.
+
+    Raises
+    ------
+    StoreExists
+        The folder holds other results, or this study's by another version of the solver.
+    OSError
+        The store cannot be written.
+    """
+    _create(study, layout_of(study), folder)
+
+
+def run_block(
+    study: Study,
+    index: int,
+    folder: Path,
+    *,
+    report: Callable[[StudyProgress], Answer | str] = lambda _: Answer.go_on,
+    attempt: int = 1,
+    resume_from: str | None = None,
+) -> Outcome:
+    """Compute a block and write it to the study's store, which is made if need be.
+
+    Parameters
+    ----------
+    study
+        As `solver.admission.admit` returned it.
+    index
+        Of the block in `study.blocks`.
+    folder
+        Of the store.
+    report
+        Called before each slice of at most about 0.25 s of computing; answers "continue",
+        "cancel" or "leave".
+    attempt
+        Which try at the block this is: every try needs a number of its own.
+    resume_from
+        What a restart point of an earlier try returned. Where it is no good the block begins anew.
+
+    Returns
+    -------
+    Outcome
+        "succeeded" also if points failed, which the store says; "cancelled" and "left" keep what
+        was computed in the store.
+
+    Raises
+    ------
+    InvalidInput
+        The study cannot be computed after all.
+    StoreExists
+        As of `create_store`.
+    OSError
+        The store cannot be written.
+    """
+    return run_laid_out(study, layout_of(study), index, folder, report, attempt, resume_from)
+
+
+def run_laid_out(
+    study: Study,
+    layout: StudyLayout,
+    index: int,
+    folder: Path,
+    report: Callable[[StudyProgress], Answer | str],
+    attempt: int,
+    resume_from: str | None,
+) -> Outcome:
+    """As `run_block`, with the study's layout at hand."""
+    _create(study, layout, folder)
+    if StudyBlock.done(folder, layout, index):
+        return Outcome("succeeded", 0.0, 1.0)
+    block, carried = _begin(layout, index, folder, attempt, resume_from)
+    computation = StudyRun(study, index, carried)
+    slices = computation.slices()
+    fraction = 0.0
+
+    def restart_point() -> str:
+        return block.flush(computation.checkpoint())
+
+    while True:
+        answer = Answer(report(StudyProgress(fraction, block.watermark, restart_point)))
+        if answer is Answer.leave:
+            return Outcome("left", 0.0, fraction)
+        if answer is Answer.cancel:
+            block.flush(b"")
+            return Outcome("cancelled", 0.0, fraction)
+        piece: StudySlice | None = next(slices, None)
+        if piece is None:
+            block.finish()
+            return Outcome("succeeded", 0.0, 1.0)
+        block.take(piece)
+        fraction = piece.fraction
+
+
+def seal_store(study: Study, folder: Path, advanced: Callable[[], None] = lambda: None) -> Outcome:
+    """Finish the store of a study whose blocks are all done; it is durable on return.
+
+    `advanced` is called now and then: a large store takes a while.
+
+    Raises
+    ------
+    IncompleteStudy
+        A block is not done.
+    """
+    seal(folder, layout_of(study), advanced)
+    return Outcome("succeeded", 0.0, 1.0)
+
+
+def _begin(
+    layout: StudyLayout, index: int, folder: Path, attempt: int, resume_from: str | None
+) -> tuple[StudyBlock, bytes | None]:
+    if resume_from is not None:
+        try:
+            return StudyBlock.resume(folder, layout, index, attempt, resume_from)
+        except (FileNotFoundError, ResultsError) as error:
+            _log.warning("block %s begins anew: %s", index, error)
+    return StudyBlock(folder, layout, index, attempt), None
+
+
+def _create(study: Study, layout: StudyLayout, folder: Path) -> None:
+    create(folder, layout)
+    path = folder / JOB_FILE
+    if not path.exists():
+        partial = path.with_name(f"{JOB_FILE}.{secrets.token_hex(4)}.partial")
+        partial.write_text(json.dumps(study.job, indent=2) + "\n")
+        partial.replace(path)

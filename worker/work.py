@@ -1,0 +1,168 @@
+"""What a claimed block asks for: a simulation, a block of a study, or the sealing of one."""
+
+import logging
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Protocol
+
+from solver.admission import Admission, Study, readmit
+from solver.version import SOLVER_VERSION
+from storage.catalogue import Claim
+from storage.results.layout import MANIFEST
+from storage.settings import Settings
+from storage.studies import StudyLayout, seal
+from worker import checkpoints
+from worker.checkpoints import UnusableRestartPoint
+from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from worker.study_block import StudyProgress, layout_of, run_laid_out
+
+_log = logging.getLogger(__name__)
+
+Kept = tuple[str, int]
+"""Name of a restart point on the disk, and the samples or points that readers may see."""
+
+
+class AnyProgress(Protocol):
+    """How far a block is."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s; 0 where it means nothing."""
+        ...
+
+    @property
+    def fraction(self) -> float:
+        """0..1, of the block."""
+        ...
+
+
+Report = Callable[[AnyProgress, Callable[[], Kept]], Answer]
+"""Called between two slices; the second argument brings a restart point to the disk."""
+
+
+class Work(Protocol):
+    """One claimed block's work."""
+
+    def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
+        """Do it; `advanced` is for what has no slices."""
+        ...
+
+    def tidy(self) -> None:
+        """Remove what nobody needs when the job has ended."""
+        ...
+
+
+class SimulationWork:
+    """A whole simulation, into a store of this attempt."""
+
+    def __init__(self, admission: Admission, claim: Claim, settings: Settings) -> None:
+        self._admission = admission
+        self._block = claim.block
+        self._folder = settings.result_folder(claim.job.id, claim.block.attempt)
+
+    def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
+        """Simulate, from the restart point of the attempt before if there is one."""
+
+        def between_slices(progress: Progress) -> Answer:
+            return report(progress, lambda: self._keep(progress.restart_point()))
+
+        return execute(
+            self._admission, self._folder, report=between_slices, restart=self._restart_point()
+        )
+
+    def tidy(self) -> None:
+        """Remove earlier attempts and checkpoints: the job's results are in this folder."""
+        if not (self._folder / MANIFEST).exists():
+            return
+        for path in self._folder.parent.iterdir():
+            if path == self._folder:
+                continue
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+
+    def _keep(self, point: RestartPoint) -> Kept:
+        path = self._folder.parent / f"block{self._block.index}-a{self._block.attempt}"
+        checkpoints.store(path, point, SOLVER_VERSION)
+        return path.name, point.watermark
+
+    def _restart_point(self) -> RestartPoint | None:
+        if self._block.checkpoint is None:
+            return None
+        try:
+            return checkpoints.load(self._folder.parent / self._block.checkpoint, SOLVER_VERSION)
+        except UnusableRestartPoint as error:
+            _log.warning("block %s begins anew: %s", self._block.id, error)
+            return None
+
+
+class StudyWork:
+    """One block of a study, into the store that all its blocks fill."""
+
+    def __init__(self, study: Study, layout: StudyLayout, claim: Claim, folder: Path) -> None:
+        self._study, self._layout = study, layout
+        self._block = claim.block
+        self._folder = folder
+
+    def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
+        """Compute the block's points, from the restart point of the attempt before if any."""
+
+        def between_slices(progress: StudyProgress) -> Answer:
+            return report(progress, lambda: (progress.restart_point(), progress.watermark))
+
+        return run_laid_out(
+            self._study,
+            self._layout,
+            self._block.index,
+            self._folder,
+            between_slices,
+            self._block.attempt,
+            self._block.checkpoint,
+        )
+
+    def tidy(self) -> None:
+        """Leave everything: other blocks' work may still arrive."""
+
+
+class SealWork:
+    """The end of a study: its store gets what all blocks left for it, and the manifest."""
+
+    def __init__(self, layout: StudyLayout, folder: Path) -> None:
+        self._layout, self._folder = layout, folder
+
+    def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
+        """Seal. It takes a moment and is not interrupted: all that was asked for is computed."""
+        seal(self._folder, self._layout, advanced)
+        return Outcome("succeeded", 0.0, 1.0)
+
+    def tidy(self) -> None:
+        """Leave nothing to remove: sealing did it."""
+
+
+_last_study: tuple[str, Study, StudyLayout] | None = None
+
+
+def work_of(claim: Claim, settings: Settings) -> Work:
+    """Return what a claimed block asks for.
+
+    The last study of this process is remembered: its blocks come one after the other.
+
+    Raises
+    ------
+    InvalidInput
+        The job's document is not one that this solver takes.
+    """
+    global _last_study
+    job = claim.job
+    if _last_study is None or _last_study[0] != job.id:
+        admitted = readmit(job.spec)
+        if isinstance(admitted, Admission):
+            return SimulationWork(admitted, claim, settings)
+        _last_study = job.id, admitted, layout_of(admitted)
+    _, study, layout = _last_study
+    folder = settings.study_folder(job.id)
+    if claim.block.count == 0:
+        return SealWork(layout, folder)
+    return StudyWork(study, layout, claim, folder)
