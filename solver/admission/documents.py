@@ -25,7 +25,7 @@ def parse(document: object) -> Job:
         With every field that is missing, unknown or out of its bounds.
     """
     if not isinstance(document, Mapping):
-        raise InvalidInput([Problem("", "A job is a JSON object with kind, scene and duration.")])
+        raise InvalidInput([Problem("", "A job is a JSON object with a kind and a scene.")])
     kinds = ", ".join(f"'{kind}'" for kind in KINDS)
     if "kind" not in document:
         raise InvalidInput([Problem("/kind", f"The field 'kind' is required: one of {kinds}.")])
