@@ -6,11 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from solver.admission import Admission, admit
+from solver.admission import Admission, Study, admit
 from solver.version import SOLVER_VERSION
 from storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
 from storage.results import ResultReader
 from storage.settings import Settings
+from storage.studies import StudyReader
+from worker import block_run, work
 from worker.block_run import BlockRun
 
 JOB = {
@@ -21,9 +23,19 @@ JOB = {
 }
 
 
+SWEEP = {
+    "kind": "sweep",
+    "scene": {"preset": "seven-bar-press"},
+    "grid": {"clearance": {"from": 2e-4, "to": 1e-3, "count": 12}},
+    "periods": 10,
+}
+
+
 @pytest.fixture(scope="module")
 def admission() -> Admission:
-    return admit(JOB)
+    admission = admit(JOB)
+    assert isinstance(admission, Admission)
+    return admission
 
 
 @pytest.fixture
@@ -45,6 +57,16 @@ def block(catalogue: Catalogue, admission: Admission) -> str:
     return f"{catalogue.submit(new).job.id}-0"
 
 
+@pytest.fixture
+def study(catalogue: Catalogue) -> str:
+    admitted = admit(SWEEP)
+    assert isinstance(admitted, Study)
+    new = NewJob(
+        "sweep", admitted.job, admitted.digest, SOLVER_VERSION, blocks=admitted.blocks, seal=True
+    )
+    return catalogue.submit(new).job.id
+
+
 def run(
     catalogue: Catalogue, settings: Settings, block: str, *, draining: bool = False
 ) -> tuple[JobState, Block]:
@@ -54,7 +76,7 @@ def run(
     if draining:
         asked.set()
     BlockRun(catalogue, settings, claim, asked).run()
-    return catalogue.get(claim.job.id).state, catalogue.blocks(claim.job.id)[0]
+    return catalogue.get(claim.job.id).state, catalogue.blocks(claim.job.id)[claim.block.index]
 
 
 def test_success_is_told_after_the_store_is_sealed(
@@ -148,3 +170,85 @@ def test_a_spec_this_solver_refuses_fails_as_the_users(
     assert error is not None
     assert (error.error_class, error.code) == ("user", "invalid-input")
     assert "/scene" in error.detail
+
+
+def test_a_study_succeeds_when_its_store_is_sealed(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    for index in (1, 0):
+        state, ended = run(catalogue, settings, f"{study}-{index}")
+        assert (state, ended.state) == (JobState.running, BlockState.done)
+    reader = StudyReader(settings.study_folder(study))
+    assert (reader.status == 2).all()
+    assert not reader.sealed
+    state, ended = run(catalogue, settings, f"{study}-2")
+    assert (state, ended.state) == (JobState.succeeded, BlockState.done)
+    assert catalogue.get(study).progress_fraction == 1.0
+    reader = StudyReader(settings.study_folder(study))
+    reader.verify()
+    assert reader.complete
+    assert reader.peaks("displacement").maximum == pytest.approx(0.527, abs=0.003)
+
+
+def test_a_block_given_back_goes_on_from_its_restart_point(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    state, released = run(catalogue, settings, f"{study}-0", draining=True)
+    assert (state, released.state) == (JobState.running, BlockState.queued)
+    assert released.checkpoint == "00000-a1"
+    state, ended = run(catalogue, settings, f"{study}-0")
+    assert (ended.state, ended.attempt) == (BlockState.done, 2)
+    left = [path.name for path in (settings.study_folder(study) / ".parts").iterdir()]
+    assert left == ["00000"]
+
+
+def test_a_cancelled_study_keeps_what_it_computed(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    run(catalogue, settings, f"{study}-0")
+    claim = catalogue.claim_block(f"{study}-1", "this process", settings.lease)
+    assert claim is not None
+    assert catalogue.request_cancel(study).state is JobState.cancelling
+    BlockRun(catalogue, settings, claim, threading.Event()).run()
+    assert catalogue.get(study).state is JobState.cancelled
+    assert catalogue.claim_block(f"{study}-2", "this process", 30) is None
+    reader = StudyReader(settings.study_folder(study))
+    assert reader.status.tolist() == [2] * 8 + [0] * 4
+    assert not reader.complete
+
+
+def test_part_of_a_study_by_another_solver_is_not_mixed_with_ours(
+    catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(catalogue, settings, f"{study}-0")
+    root = settings.study_folder(study) / "zarr.json"
+    layout = StudyReader(root.parent).attributes["layout"]
+    root.write_text(root.read_text().replace(layout, "of another version"))
+    state, _ = run(catalogue, settings, f"{study}-1")
+    error = catalogue.get(study).error
+    assert state is JobState.failed
+    assert error is not None
+    assert (error.error_class, error.code) == ("platform", "storage")
+    assert "submit the study again" in error.detail
+
+
+def test_a_study_is_admitted_once_by_a_process(
+    catalogue: Catalogue, settings: Settings, study: str
+) -> None:
+    run(catalogue, settings, f"{study}-0")
+    first = work._last_study
+    assert first is not None
+    for index in (1, 2):
+        run(catalogue, settings, f"{study}-{index}")
+        assert work._last_study is first
+    assert catalogue.get(study).state is JobState.succeeded
+
+
+def test_what_takes_long_before_anything_advances_is_said_to_compile(
+    catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(block_run, "_LONG", 0.0)
+    run(catalogue, settings, f"{study}-1")
+    (event,) = [event for event in catalogue.events(study) if event.type == "compiling"]
+    assert event.data == {"block": f"{study}-1", "attempt": 1}
+    assert catalogue.get(study).activity is None  # it advanced

@@ -1,0 +1,188 @@
+"""A study whose workers die, stall or are cut off has the bytes of an undisturbed one."""
+
+import os
+import signal
+import sqlite3
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from jobs import IMPATIENT, ended, pid_of, until
+
+from jointplay.serving import running_service
+from solver.admission import Study, admit
+from solver.version import SOLVER_VERSION
+from storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
+from storage.settings import Settings
+from storage.studies import StudyReader
+from worker.study_block import run_block, seal_store
+
+# two blocks of some 3 s of computing each; contacts at both joints all along
+JOB = {
+    "kind": "bifurcation",
+    "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.1}},
+    "parameter": "clearance",
+    "values": {"from": 2e-4, "to": 1e-3, "count": 16},
+    "settle": 50,
+    "record": 350,
+}
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    study = admit(JOB)
+    assert isinstance(study, Study)
+    assert len(study.blocks) == 2
+    return study
+
+
+@pytest.fixture(scope="module")
+def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    folder = tmp_path_factory.mktemp("undisturbed") / "study"
+    for index in range(len(study.blocks)):
+        assert run_block(study, index, folder).state == "succeeded"
+    seal_store(study, folder)
+    return files(folder)
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    """Every file of a store with its bytes; what a late worker left beside it is none of them."""
+    return {
+        key: path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and not (key := path.relative_to(folder).as_posix()).startswith(".")
+    }
+
+
+def submit(catalogue: Catalogue, study: Study) -> str:
+    new = NewJob(
+        study.kind, study.job, study.digest, SOLVER_VERSION, blocks=study.blocks, seal=True
+    )
+    return catalogue.submit(new).job.id
+
+
+def in_mid_block(catalogue: Catalogue, job: str, index: int, after: float = 0.0) -> Block:
+    """Wait until a worker has a block, has passed a fraction of it and left a restart point."""
+
+    def is_there() -> bool:
+        block = catalogue.blocks(job)[index]
+        assert block.state is not BlockState.done, "it ended before anything could happen"
+        held = block.lease_until is not None and block.checkpoint is not None
+        return held and block.progress_fraction > after
+
+    until(is_there)
+    return catalogue.blocks(job)[index]
+
+
+def assert_same_bytes(settings: Settings, job: Job, undisturbed: dict[str, bytes]) -> None:
+    assert job.state is JobState.succeeded
+    folder = settings.study_folder(job.id)
+    stored = files(folder)
+    assert stored.keys() == undisturbed.keys()
+    assert [key for key, content in undisturbed.items() if stored[key] != content] == []
+    reader = StudyReader(folder)
+    assert reader.complete
+    reader.verify()
+
+
+def test_blocks_go_on_where_their_killed_workers_left_them(
+    settings: Settings, catalogue: Catalogue, study: Study, undisturbed: dict[str, bytes]
+) -> None:
+    with running_service(settings.data, workers=2, environment=IMPATIENT):
+        job = submit(catalogue, study)
+        for index in (0, 1, 0):
+            after = catalogue.blocks(job)[index].progress_fraction
+            held = in_mid_block(catalogue, job, index, after)
+            os.kill(pid_of(held), signal.SIGKILL)
+            reached = catalogue.blocks(job)[index].progress_fraction
+            until(lambda: catalogue.blocks(job)[index].attempt > held.attempt)  # noqa: B023
+            until(lambda: catalogue.blocks(job)[index].progress_fraction != reached)  # noqa: B023
+            # what was recorded came with a restart point: it goes on from there, not from zero
+            assert catalogue.blocks(job)[index].progress_fraction > reached
+        finished = ended(catalogue, job)
+    outcomes = [attempt.outcome for attempt in catalogue.attempts(job)]
+    assert outcomes.count("lost") == 3
+    assert outcomes.count("done") == 3  # two blocks, and the one that seals
+    assert_same_bytes(settings, finished, undisturbed)
+
+
+def test_a_stopped_service_goes_on_with_a_study(
+    settings: Settings, catalogue: Catalogue, study: Study, undisturbed: dict[str, bytes]
+) -> None:
+    with running_service(settings.data):
+        job = submit(catalogue, study)
+        in_mid_block(catalogue, job, 0)
+    with running_service(settings.data, workers=2):
+        finished = ended(catalogue, job)
+    assert "lost" not in [attempt.outcome for attempt in catalogue.attempts(job)]
+    assert_same_bytes(settings, finished, undisturbed)
+
+
+@contextmanager
+def stalled(settings: Settings, process: int) -> Iterator[None]:
+    """Stop a process, but not while it holds the catalogue, and let it go on at the end."""
+    deadline = time.monotonic() + 60
+    while True:
+        os.kill(process, signal.SIGSTOP)
+        database = sqlite3.connect(settings.data / "catalogue.sqlite", timeout=0.5)
+        try:
+            database.execute("BEGIN IMMEDIATE")
+            database.rollback()
+            break
+        except sqlite3.OperationalError:
+            os.kill(process, signal.SIGCONT)
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        finally:
+            database.close()
+    try:
+        yield
+    finally:
+        os.kill(process, signal.SIGCONT)
+
+
+@pytest.mark.parametrize("when", ["another has its block", "the study is sealed"])
+def test_a_worker_that_comes_back_late_changes_no_byte(
+    settings: Settings,
+    catalogue: Catalogue,
+    study: Study,
+    undisturbed: dict[str, bytes],
+    when: str,
+) -> None:
+    with running_service(settings.data, workers=2, environment=IMPATIENT):
+        job = submit(catalogue, study)
+        held = in_mid_block(catalogue, job, 0)
+        with stalled(settings, pid_of(held)):
+            if when == "another has its block":
+                until(lambda: catalogue.blocks(job)[0].attempt > held.attempt)
+            else:
+                finished = ended(catalogue, job)
+                assert_same_bytes(settings, finished, undisturbed)
+        finished = ended(catalogue, job)
+        # it finds out and goes back to work
+        other = submit(catalogue, study)
+        again = ended(catalogue, other)
+    log = (settings.data / "logs" / "worker.log").read_text()
+    assert f"attempt {held.attempt} does not hold block {held.id} (any more); leaving it" in log
+    assert_same_bytes(settings, finished, undisturbed)
+    assert_same_bytes(settings, again, undisturbed)
+
+
+def test_a_cancelled_study_ends_soon_and_keeps_what_it_computed(
+    settings: Settings, catalogue: Catalogue, study: Study
+) -> None:
+    with running_service(settings.data, workers=2, environment=IMPATIENT):
+        job = submit(catalogue, study)
+        in_mid_block(catalogue, job, 0, after=0.3)
+        assert catalogue.request_cancel(job).state is JobState.cancelling
+        asked = time.monotonic()
+        finished = ended(catalogue, job)
+        took = time.monotonic() - asked
+    assert finished.state is JobState.cancelled
+    assert took < 5  # a slice of computing and a restart point
+    reader = StudyReader(settings.study_folder(job))
+    assert not reader.complete
+    assert reader.counts[:8].min() > 0
+    assert (reader.status[:8] >= 1).all()
