@@ -6,12 +6,14 @@ from importlib.metadata import version
 
 from fastapi import FastAPI
 
+import service.batches.endpoints
 import service.health.endpoints
 import service.jobs.endpoints
 import service.problems.endpoints
 import service.results.endpoints
 import service.results.figures
 import service.scenes.endpoints
+import service.studies.endpoints
 from service import problems
 from service.openapi import described
 from storage.catalogue import Catalogue
@@ -25,6 +27,8 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 """
 _RESOURCES = (
     service.jobs.endpoints,
+    service.batches.endpoints,
+    service.studies.endpoints,
     service.results.endpoints,
     service.results.figures,
     service.scenes.endpoints,

@@ -1,17 +1,20 @@
 """The body of a request, bounded and parsed strictly."""
 
+from collections.abc import Awaitable, Callable
 from typing import Annotated
 
 from fastapi import Depends, Request
+from fastapi.concurrency import run_in_threadpool
 
 from jointplay.strict_json import parse
 from service.problems import RequestRefused, kinds
 
-LARGEST_BODY = 1024 * 1024  # bytes; a scene of 12 bodies takes about 10 000
-MOST_DROPPED = 64 * LARGEST_BODY
+LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
+LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
+MOST_DROPPED = 64 * 1024 * 1024
 
 
-async def _bounded(request: Request) -> bytes:
+async def _bounded(request: Request, largest: int) -> bytes:
     """Read the body without ever holding more than the limit.
 
     What is beyond the limit is read and dropped, up to `MOST_DROPPED`: a client that is still
@@ -21,34 +24,39 @@ async def _bounded(request: Request) -> bytes:
     received = 0
     async for chunk in request.stream():
         received += len(chunk)
-        if received <= LARGEST_BODY:
+        if received <= largest:
             body += chunk
         if received > MOST_DROPPED:
             break
-    if received > LARGEST_BODY:
+    if received > largest:
         raise RequestRefused(
             kinds.BODY_TOO_LARGE,
-            f"The body is larger than {LARGEST_BODY} bytes; a job is a few kilobytes.",
+            f"The body is larger than {largest} bytes; a job is a few kilobytes.",
             headers={"Connection": "close"},
         )
     return bytes(body)
 
 
-async def _json_document(request: Request) -> object:
-    """Parse the body.
+def _json_document(largest: int) -> Callable[[Request], Awaitable[object]]:
+    """Return what parses a body of at most so many bytes.
 
     The media type is insisted on: a browser sends a foreign page's ``text/plain`` here without
     asking, but not its ``application/json``.
     """
-    media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    body = await _bounded(request)
-    if media_type != "application/json":
-        raise RequestRefused(
-            kinds.NOT_JSON,
-            f"The body was sent as {media_type or 'nothing'!r}; send it as application/json "
-            "(curl: --json @job.json).",
-        )
-    return parse(body)
+
+    async def document(request: Request) -> object:
+        media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+        body = await _bounded(request, largest)
+        if media_type != "application/json":
+            raise RequestRefused(
+                kinds.NOT_JSON,
+                f"The body was sent as {media_type or 'nothing'!r}; send it as application/json "
+                "(curl: --json @job.json).",
+            )
+        return await run_in_threadpool(parse, body)
+
+    return document
 
 
-JsonDocument = Annotated[object, Depends(_json_document)]
+JsonDocument = Annotated[object, Depends(_json_document(LARGEST_BODY))]
+JsonBatch = Annotated[object, Depends(_json_document(LARGEST_BATCH))]

@@ -1,17 +1,15 @@
 """What endpoints need from the application: the catalogue, the settings, a job of the path."""
 
-import re
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
+from jointplay.job_id import is_job_id
 from service.problems import ErrorDetail, RequestRefused, kinds
 from service.problems.document import clipped
 from storage.catalogue import Catalogue, Job, JobNotFound
 from storage.settings import Settings
-
-JOB_ID = re.compile("[0-9A-HJKMNP-TV-Z]{26}")
 
 
 def _catalogue(request: Request) -> Catalogue:
@@ -41,7 +39,7 @@ SettingsDependency = Annotated[Settings, Depends(_settings)]
 
 def found(catalogue: Catalogue, job_id: str) -> Job:
     """Return the job, or refuse with 404; the id is matched before anything looks it up."""
-    if JOB_ID.fullmatch(job_id):
+    if is_job_id(job_id):
         try:
             return catalogue.get(job_id)
         except JobNotFound:

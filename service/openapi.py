@@ -1,16 +1,24 @@
-"""The OpenAPI document: what FastAPI derives, plus the job's schema and our kind of errors."""
+"""The OpenAPI document: what FastAPI derives, plus the bodies' schemas and our kind of errors."""
 
 from collections.abc import Callable
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from pydantic import TypeAdapter
 
+from service.batches.schemas import BatchDocument
 from service.problems.document import ProblemDocument, problems
 from service.problems.kinds import INVALID_REQUEST
-from solver.jobs import SimulateJob
+from solver.jobs import AnyJob
 
 _REFERENCE = "#/components/schemas/{model}"
+_UNMENTIONED: dict[str, Any] = {
+    "JobDocument": AnyJob,
+    "BatchDocument": BatchDocument,
+    "ProblemDocument": ProblemDocument,
+}
+"""What no endpoint's signature mentions: bodies that we parse, and problems."""
 
 
 def described(app: FastAPI) -> Callable[[], dict[str, Any]]:
@@ -33,12 +41,15 @@ def described(app: FastAPI) -> Callable[[], dict[str, Any]]:
 
 
 def _add_schemas(schemas: dict[str, Any]) -> None:
-    """Add what no endpoint's signature mentions: bodies that we parse, and problems."""
-    for model in (SimulateJob, ProblemDocument):
-        schema = model.model_json_schema(ref_template=_REFERENCE)
-        for name, definition in schema.pop("$defs", {}).items():
-            schemas.setdefault(name, definition)
-        schemas[model.__name__] = schema
+    for name, described_type in _UNMENTIONED.items():
+        schema = TypeAdapter(described_type).json_schema(ref_template=_REFERENCE)
+        for part, definition in schema.pop("$defs", {}).items():
+            schemas.setdefault(part, definition)
+        schemas[name] = schema
+    # its model takes them as they are: admission checks one after the other
+    schemas["BatchDocument"]["properties"]["jobs"]["items"] = {
+        "$ref": _REFERENCE.format(model="JobDocument")
+    }
 
 
 def _replace_fastapi_errors(document: dict[str, Any]) -> None:

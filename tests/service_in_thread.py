@@ -2,7 +2,7 @@
 
 import socket
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,12 +12,16 @@ import numpy as np
 import pytest
 import uvicorn
 from fastapi import FastAPI
+from numpy.typing import NDArray
 
 from service.app import create_app
-from solver.admission import Admission, admit
+from solver.admission import Admission, Study, admit
+from solver.study.results import PointEnd, SectionRows, StudySlice
 from storage.catalogue import BlockState, Catalogue, Claim, JobError
 from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
 from storage.settings import Settings
+from storage.studies import StudyBlock, create, seal
+from worker.study_block import layout_of
 
 LEDGER = (
     "driver_work",
@@ -28,6 +32,26 @@ LEDGER = (
     "stored_change",
     "residual",
 )
+
+
+BIFURCATION: dict[str, Any] = {
+    "kind": "bifurcation",
+    "parameter": "clearance",
+    "values": {"from": 1e-4, "to": 1e-3, "count": 20},
+    "record": 6,
+    "indicators": ["lyapunov"],
+}
+"""Three blocks: points 0 to 7, 8 to 15, 16 to 19."""
+SWEEP: dict[str, Any] = {
+    "kind": "sweep",
+    "grid": {"clearance": [1e-4, 2e-4, 3e-4], "friction": [0.0, 0.05]},
+    "periods": 1,
+}
+
+
+def known_section(point: Any, column: Any, section: Any) -> NDArray[np.float64]:
+    """What the worker played by hand records for an observable's column at a section."""
+    return np.asarray(1e-5 * (100.0 * point + 10.0 * column + section), dtype=np.float64)
 
 
 @contextmanager
@@ -90,13 +114,15 @@ class Worker:
         self._settings = settings
 
     def submit(self, **fields: Any) -> str:
-        job = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}
+        job: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}}
+        if fields.get("kind", "simulate") == "simulate":
+            job["duration"] = 2.0
         answer = self._http.post("/v1/jobs", json=job | fields)
         assert answer.status_code == 202, answer.text
         return str(answer.json()["id"])
 
-    def start(self, job_id: str) -> Claim:
-        (block,) = self._catalogue.blocks(job_id)
+    def start(self, job_id: str, index: int = 0) -> Claim:
+        block = self._catalogue.blocks(job_id)[index]
         claim = self._catalogue.claim_block(block.id, "test", 60.0)
         assert claim is not None
         return claim
@@ -131,6 +157,7 @@ class Worker:
 
     def _writer(self, claim: Claim) -> tuple[Admission, ResultWriter]:
         admission = admit(claim.job.spec)
+        assert isinstance(admission, Admission)
         folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
         channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
         attributes = {"job": admission.job, "scene": admission.scene, "section_note": ""}
@@ -138,6 +165,72 @@ class Worker:
             channels, admission.samples, admission.sections, admission.joints, attributes
         )
         return admission, ResultWriter.create(folder, layout)
+
+    def compute(
+        self,
+        claim: Claim,
+        *,
+        failing: Sequence[int] = (),
+        points: int | None = None,
+        sections: int | None = None,
+    ) -> None:
+        """Fill the first `points` of a study's block (all by default) as `known_section` says.
+
+        The last of them gets as many sections as given and does not end.
+        """
+        study = admit(claim.job.spec)
+        assert isinstance(study, Study)
+        folder = self._settings.study_folder(claim.job.id)
+        layout = layout_of(study)
+        create(folder, layout)
+        first, count = study.blocks[claim.block.index]
+        last = first + (count if points is None else points)
+        rows, ended = [], []
+        for point in range(first, last):
+            going = sections is not None and point == last - 1
+            recorded = sections if going else 3 if point in failing else study.record
+            if study.record:
+                time = 100.0 + np.arange(float(recorded))
+                columns = np.arange(len(study.observables))
+                values = known_section(point, columns[None, :], np.arange(recorded)[:, None])
+                rows.append(SectionRows(point, 0, time, values))
+            if not going:
+                ended.append(self._ended(study, point, failed=point in failing))
+        block = StudyBlock(folder, layout, claim.block.index, claim.block.attempt)
+        block.take(StudySlice(1.0, tuple(range(first, last)), tuple(rows), tuple(ended)))
+        block.flush(b"")
+        if points is None and sections is None:
+            block.finish()
+
+    @staticmethod
+    def _ended(study: Study, point: int, *, failed: bool) -> PointEnd:
+        peaks = np.empty((0, 4))
+        if study.channels:
+            peaks = np.array([(-1.0 - point, 0.25, 1.0 + point, 0.75)] * len(study.channels))
+        indicators = {"verdict": float(point % 4), "lyapunov": 0.1 * point, "lyapunov_error": 0.01}
+        return PointEnd(
+            point,
+            "step-size-underflow" if failed else "",
+            "The step fell below 1e-15 s." if failed else "",
+            0.7,
+            np.full_like(peaks, np.nan) if failed else peaks,
+            {"steps": 1000.0 + point},
+            indicators if study.indicators and not failed else {},
+        )
+
+    def finished_study(self, *, failing: Sequence[int] = (), **fields: Any) -> str:
+        """A study that succeeded, with its results."""
+        job_id = self.submit(**fields)
+        study = admit(self._catalogue.get(job_id).spec)
+        assert isinstance(study, Study)
+        for index in range(len(study.blocks)):
+            claim = self.start(job_id, index)
+            self.compute(claim, failing=failing)
+            self.finish(claim, BlockState.done)
+        claim = self.start(job_id, len(study.blocks))
+        seal(self._settings.study_folder(job_id), layout_of(study))
+        self.finish(claim, BlockState.done)
+        return job_id
 
     def finish(self, claim: Claim, outcome: BlockState, error: JobError | None = None) -> None:
         self._catalogue.finish(claim.block.id, claim.block.attempt, outcome, error)
@@ -153,6 +246,18 @@ class Worker:
 @pytest.fixture(scope="session")
 def worker(http: httpx.Client, catalogue: Catalogue, settings: Settings) -> Worker:
     return Worker(http, catalogue, settings)
+
+
+@pytest.fixture(scope="session")
+def finished_study(worker: Worker) -> str:
+    """A bifurcation diagram, of which points 3 and 17 failed."""
+    return worker.finished_study(**BIFURCATION, failing=(3, 17), label="finished study")
+
+
+@pytest.fixture(scope="session")
+def finished_sweep(worker: Worker) -> str:
+    """A sweep, of which point 4 failed."""
+    return worker.finished_study(**SWEEP, failing=(4,))
 
 
 @pytest.fixture(scope="session")

@@ -70,9 +70,19 @@ def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
 def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
     from service.jobs.schemas import JobResource
     from service.results.schemas import History, Impacts, Peaks
+    from service.studies.schemas import Bifurcation, Sections, Sweep
     from solver.jobs import KINDS
 
-    for model in (*KINDS.values(), JobResource, History, Impacts, Peaks):
+    for model in (
+        *KINDS.values(),
+        JobResource,
+        History,
+        Impacts,
+        Peaks,
+        Bifurcation,
+        Sections,
+        Sweep,
+    ):
         schema = model.model_json_schema()
         for name, definition in {model.__name__: schema, **schema.get("$defs", {})}.items():
             for field, described in definition.get("properties", {}).items():
@@ -81,6 +91,8 @@ def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
 
 # Numbers whose unit stands beside them as a field, or which are pure numbers by their nature.
 WITHOUT_UNIT = {
+    "Bifurcation.indicators",
+    "Bifurcation.statistics",
     "Output.factor",
     "Output.offset",
     "Parameter.default",
@@ -88,11 +100,18 @@ WITHOUT_UNIT = {
     "Parameter.maximum",
     "Peak.minimum",
     "Peak.maximum",
+    "PeakColumns.maximum",
+    "PeakColumns.minimum",
+    "PeakColumns.range",
     "PresetScene.parameters",
     "Progress.fraction",
     "Reported.parameters",
     "Reported.value",
+    "Rows.values",
+    "Sections.indicators",
+    "Sections.statistics",
     "Series.values",
+    "Sweep.statistics",
     "Target.factor",
 }
 

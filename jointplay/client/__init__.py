@@ -7,6 +7,7 @@
 ...     print(client.peaks(finished.id)["energy.kinetic"].maximum)
 """
 
+from jointplay.client.batches import Batch
 from jointplay.client.connection import DEFAULT_URL
 from jointplay.client.errors import (
     ClientError,
@@ -22,6 +23,7 @@ from jointplay.client.session import Client
 
 __all__ = [
     "DEFAULT_URL",
+    "Batch",
     "ChannelSeries",
     "Client",
     "ClientError",

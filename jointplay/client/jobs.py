@@ -28,12 +28,17 @@ class JobError:
 
 @dataclass(frozen=True)
 class Job:
-    """One job; ``job`` is its document with every default filled in."""
+    """One job; ``job`` is its document with every default filled in.
+
+    ``activity`` says what it is busy with before it advances, such as compiling.
+    """
 
     id: str
     kind: str
     label: str | None
+    batch: str | None
     state: str
+    activity: str | None
     progress: Progress
     attempt: int
     created: datetime
@@ -57,7 +62,9 @@ class Job:
             id=document["id"],
             kind=document["kind"],
             label=document["label"],
+            batch=document["batch"],
             state=document["state"],
+            activity=document["activity"],
             progress=Progress(**document["progress"]),
             attempt=document["attempt"],
             created=datetime.fromisoformat(document["created"]),

@@ -1,21 +1,22 @@
 """`Client`: the resources of the service as methods."""
 
 import math
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from types import TracebackType
 from typing import Any, Self
 
 import httpx
 
+from jointplay.client import studies
+from jointplay.client.batches import Batch
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError
 from jointplay.client.jobs import Job
 from jointplay.client.results import History, Impacts, Peak, Section
+from jointplay.client.waiting import wait_for
 from jointplay.client.windows import pieces
-
-_SHORTEST_PAUSE = 0.05  # s between two questions in `wait`, growing to ...
-_LONGEST_PAUSE = 1.0  # ... this, so that a long job costs one request a second
+from jointplay.study_dataset import StudyDataset
 
 
 class Client:
@@ -72,15 +73,50 @@ class Client:
 
     def jobs(self) -> Iterator[Job]:
         """Yield all jobs, newest first, fetching pages as they are needed."""
+        yield from self._job_pages("/v1/jobs")
+
+    def _job_pages(self, path: str) -> Iterator[Job]:
         token: str | None = None
         while True:
-            query = {"page_token": token}
-            page = self._connection.get("/v1/jobs", query).json()
+            page = self._connection.get(path, {"page_token": token}).json()
             for document in page["jobs"]:
                 yield Job.from_document(document)
             token = page["next_page_token"]
             if token is None:
                 return
+
+    def submit_batch(self, documents: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
+        """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""
+        body = {"jobs": [dict(document) for document in documents], "label": label}
+        return Batch.from_document(self._connection.post("/v1/batches", body).json())
+
+    def batch(self, batch_id: str) -> Batch:
+        """Return a batch as it is now."""
+        found = self._connection.get(f"/v1/batches/{segment(batch_id)}")
+        return Batch.from_document(found.json())
+
+    def batch_jobs(self, batch_id: str) -> Iterator[Job]:
+        """Yield the jobs of a batch, last submitted first, fetching pages as they are needed."""
+        yield from self._job_pages(f"/v1/batches/{segment(batch_id)}/jobs")
+
+    def cancel_batch(self, batch_id: str) -> Batch:
+        """Ask for every job of a batch that is not finished to be cancelled."""
+        answer = self._connection.post(f"/v1/batches/{segment(batch_id)}/cancel")
+        return Batch.from_document(answer.json())
+
+    def wait_batch(
+        self,
+        batch_id: str,
+        report: Callable[[Batch], None] | None = None,
+        timeout: float | None = None,
+    ) -> Batch:
+        """Ask until every job of the batch is finished; as `wait`."""
+        return wait_for(
+            partial(self.batch, batch_id),
+            report,
+            timeout,
+            lambda batch: f"Batch {batch_id} is at {batch.fraction:.0%}",
+        )
 
     def wait(
         self,
@@ -99,18 +135,12 @@ class Client:
         timeout
             Longest wait, s; then `ClientError`.  The job goes on.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
-        pause = _SHORTEST_PAUSE
-        while True:
-            job = self.get(job_id)
-            if report is not None:
-                report(job)
-            if job.is_finished:
-                return job
-            if deadline is not None and time.monotonic() + pause > deadline:
-                raise ClientError(f"Job {job_id} is still {job.state} after {timeout:g} s.")
-            time.sleep(pause)
-            pause = min(pause * 1.3, _LONGEST_PAUSE)
+        return wait_for(
+            lambda: self.get(job_id),
+            report,
+            timeout,
+            lambda job: f"Job {job_id} is still {job.state}",
+        )
 
     def history(
         self,
@@ -137,6 +167,37 @@ class Client:
         found = self._windows(job_id, "poincare", start, stop, channels=_joined(channels))
         return Section.joined([Section.from_document(document) for document in found])
 
+    def study(
+        self,
+        job_id: str,
+        observables: Sequence[str] | None = None,
+        channels: Sequence[str] | None = None,
+        sections: tuple[int, int] | None = None,
+    ) -> StudyDataset:
+        """Return the points of a study as they are now; it need not be finished.
+
+        Parameters
+        ----------
+        job_id
+            A job of any kind but simulate.
+        observables
+            Names or globs of channels whose values at the sections to fetch; all if None.
+        channels
+            Of a sweep, names or globs of channels whose extremes to fetch; all if None.
+        sections
+            First section of each point, and the one before which to end; all if None.
+        """
+        job = self.get(job_id)
+        if "sweep" in job.links:
+            chosen = {"channel": _joined(channels)}
+            return studies.with_extremes(job, partial(self._query, job_id, "sweep", **chosen))
+        if job.kind == "simulate":
+            raise ClientError(f"Job {job_id} is a simulation; it has a history and no points.")
+        chosen = {"channels": _joined(observables)}
+        window = sections or (0, int(job.job["record"]))
+        fetch = partial(self._query, job_id, "poincare", **chosen)
+        return studies.with_sections(job, fetch, window)
+
     def peaks(self, job_id: str) -> dict[str, Peak]:
         """Return the signed extremes of every channel."""
         document = self._result(job_id, "peaks")
@@ -160,10 +221,25 @@ class Client:
         """Return the names of the figures that can be drawn of the job's results."""
         return [figure["name"] for figure in self._result(job_id, "figures")["figures"]]
 
-    def figure(self, job_id: str, name: str, form: str = "png") -> bytes:
-        """Return a figure as a file's bytes; ``form`` is "png" or "svg"."""
+    def figure(self, job_id: str, name: str, form: str = "png", **selection: Any) -> bytes:
+        """Return a figure as a file's bytes.
+
+        Parameters
+        ----------
+        job_id, name
+            The job, and a figure of it or one of its channels.
+        form
+            "png" or "svg".
+        selection
+            ``channels`` and ``joints`` (lists of names), ``start`` and ``stop``: a window of time
+            in s; of a study the first point, and the one before which to end.
+        """
         path = f"/v1/jobs/{segment(job_id)}/figures/{segment(name)}.{segment(form)}"
-        return self._connection.get(path).content
+        query = {
+            key: ",".join(value) if isinstance(value, list | tuple) else value
+            for key, value in selection.items()
+        }
+        return self._connection.get(path, query).content
 
     def scenes(self) -> list[dict[str, Any]]:
         """Return the presets: name, description, source and parameters of each."""
@@ -185,6 +261,9 @@ class Client:
             return float(self.get(job_id).job["duration"])
 
         return list(pieces(fetch, start, stop, end))
+
+    def _query(self, job_id: str, name: str, **query: Any) -> dict[str, Any]:
+        return self._result(job_id, name, query)
 
     def _result(
         self, job_id: str, name: str, query: Mapping[str, Any] | None = None

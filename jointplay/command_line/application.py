@@ -5,6 +5,7 @@ import sys
 import typer
 
 from jointplay.command_line import (
+    batch,
     cancel,
     demo,
     export,
@@ -31,6 +32,7 @@ application.command("run")(run_locally.run)
 application.command()(demo.demo)
 application.command()(serve.serve)
 application.command()(submit.submit)
+application.command()(batch.batch)
 application.command()(ls.ls)
 application.command()(show.show)
 application.command()(cancel.cancel)

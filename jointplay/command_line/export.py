@@ -1,18 +1,20 @@
-"""``jointplay export``: channels as CSV or JSON."""
+"""``jointplay export``: channels, sections or points as CSV or JSON."""
 
 import math
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import typer
 
 from jointplay.command_line import connection, output_folder
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.study_options import listed
 
 if TYPE_CHECKING:
     from jointplay.source import Source
+    from jointplay.study_source import StudySource
 
 
 Form = Literal["csv", "json"]
@@ -26,29 +28,63 @@ def export(
         str | None,
         typer.Option(metavar="A,B", help="Names or globs such as 'slider7.*'; default all."),
     ] = None,
-    start: Annotated[float | None, typer.Option(metavar="SECONDS", help="From this time.")] = None,
-    stop: Annotated[float | None, typer.Option(metavar="SECONDS", help="To this time.")] = None,
+    start: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="From this time; first point of a study."),
+    ] = None,
+    stop: Annotated[
+        float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
+    ] = None,
+    points: Annotated[
+        bool,
+        typer.Option(
+            "--points", help="Of a study: one row a point, with verdicts, not its sections."
+        ),
+    ] = False,
     form: Annotated[Form, typer.Option("--format", help="Text format.")] = "csv",
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Default: stdout.")
     ] = None,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
-    """Write channels on the output grid, with 17 significant digits.
+    """Write channels on the output grid, or a study's sections, with 17 significant digits.
 
-    Example: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`
+    Of a sweep, one row a point: its values and the extremes of the channels.
+
+    Examples: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`,
+    `jointplay export OUT --points -o verdicts.csv`
     """
     _check_window(start, stop)
-    if not output_folder.is_job_id(results):
-        source, names = _local(Path(results), channels)
+    if output_folder.is_of_service(results):
+        text = _of_service(results, channels, start, stop, points, form, url)
     else:
-        source, names = _fetched(results, channels, start, stop, url)
-    pieces = _text(source, names, start, stop, form)
+        text = _local(Path(results), channels, start, stop, points, form)
     if output is None:
-        sys.stdout.writelines(pieces)
+        sys.stdout.writelines(text.pieces)
         return
-    first, last = source.between(start, stop)
-    _write(pieces, output, values=(last - first) * (len(names) + 1))
+    _write(text, output)
+
+
+class _Text(NamedTuple):
+    """What is written, and how many values that are."""
+
+    pieces: Iterator[str]
+    values: int
+
+
+def point_range(points: int, start: float | None, stop: float | None) -> range:
+    """Return the points that --start and --stop mean for a study."""
+    for option, value in (("--start", start), ("--stop", stop)):
+        if value is not None and (value < 0 or value != int(value)):
+            line = f"{option} {value:g}: points of a study are counted from 0."
+            raise Stopped(Exit.BAD_INPUT, line)
+    chosen = range(points)[
+        None if start is None else int(start) : None if stop is None else int(stop)
+    ]
+    if not chosen:
+        line = f"There is no such point; the study has points 0 to {points - 1}."
+        raise Stopped(Exit.BAD_INPUT, line)
+    return chosen
 
 
 def _check_window(start: float | None, stop: float | None) -> None:
@@ -60,38 +96,54 @@ def _check_window(start: float | None, stop: float | None) -> None:
         raise Stopped(Exit.BAD_INPUT, line)
 
 
-def _write(pieces: Iterator[str], output: Path, values: int) -> None:
+def _write(text: _Text, output: Path) -> None:
     """Write the text to a file; a comma a value tells how far it is."""
     from jointplay.command_line.progress import progress
 
     written = 0
     with output.open("w", encoding="utf-8") as file, progress(output.name) as report:
-        for piece in pieces:
+        for piece in text.pieces:
             file.write(piece)
             written += piece.count(",")
-            report(min(written / max(values, 1), 0.99), "")
+            report(min(written / max(text.values, 1), 0.99), "")
         report(1.0, "")
 
 
-def _local(folder: Path, channels: str | None) -> "tuple[Source, list[str]]":
-    from jointplay.channel_choice import NoSuchChannel, choose
-    from storage.results import ResultReader
+def _local(
+    folder: Path,
+    channels: str | None,
+    start: float | None,
+    stop: float | None,
+    points: bool,
+    form: Form,
+) -> _Text:
+    from jointplay.figures import is_study
 
-    reader = ResultReader(output_folder.store_in(folder))
-    try:
-        names = choose(channels, [channel.name for channel in reader.channels])
-    except NoSuchChannel as error:
-        raise Stopped(Exit.BAD_INPUT, f"--channels: {error}") from None
-    return reader, names
+    source = output_folder.results_in(folder)
+    if is_study(source):
+        return _study(source, channels, start, stop, points, form)
+    _no_points(points)
+    names = _chosen(channels, [channel.name for channel in source.channels])
+    return _history(source, names, start, stop, form)
 
 
-def _fetched(
-    job_id: str, channels: str | None, start: float | None, stop: float | None, url: str
-) -> "tuple[Source, list[str]]":
+def _of_service(
+    job_id: str,
+    channels: str | None,
+    start: float | None,
+    stop: float | None,
+    points: bool,
+    form: Form,
+    url: str,
+) -> _Text:
     from jointplay.dataset import Channel, Dataset
 
+    wanted = listed(channels)
     with connection.connect(url) as client:
-        wanted = None if channels is None else channels.split(",")
+        if client.get(job_id).kind != "simulate":
+            study = client.study(job_id, observables=wanted, channels=wanted)
+            return _study(study, None, start, stop, points, form)
+        _no_points(points)
         history = client.history(job_id, wanted, start, stop)
     dataset = Dataset(
         attributes={},
@@ -100,15 +152,60 @@ def _fetched(
         values={name: one.values for name, one in history.channels.items()},
         complete=history.complete,
     )
-    return dataset, list(history.channels)
+    return _history(dataset, list(history.channels), start, stop, form)
 
 
-def _text(
+def _history(
     source: "Source", names: list[str], start: float | None, stop: float | None, form: Form
-) -> Iterator[str]:
+) -> _Text:
     from jointplay import export as formats
 
+    first, last = source.between(start, stop)
+    if first == last:
+        raise Stopped(Exit.BAD_INPUT, "There are no samples in this window of time.")
+    values = (last - first) * (len(names) + 1)
     if form == "json":
-        return formats.json_pieces(source, names, start, stop)
-    comments = [] if source.complete else ["incomplete: the run failed or was cancelled"]
-    return formats.csv_lines(source, names, start, stop, comments)
+        return _Text(formats.json_pieces(source, names, start, stop), values)
+    return _Text(formats.csv_lines(source, names, start, stop, _comments(source)), values)
+
+
+def _study(
+    source: "StudySource",
+    channels: str | None,
+    start: float | None,
+    stop: float | None,
+    points: bool,
+    form: Form,
+) -> _Text:
+    from jointplay import study_export as formats
+
+    chosen = point_range(source.points, start, stop)
+    if points or not source.observables:
+        names = _chosen(channels, [one.name for one in source.channels])
+        values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
+        if form == "json":
+            return _Text(formats.point_json(source, names, chosen), values)
+        return _Text(formats.point_lines(source, names, chosen, _comments(source)), values)
+    names = _chosen(channels, [one.name for one in source.observables])
+    values = int(source.counts[chosen.start : chosen.stop].sum()) * (len(names) + 3)
+    if form == "json":
+        return _Text(formats.section_json(source, names, chosen), values)
+    return _Text(formats.section_lines(source, names, chosen, _comments(source)), values)
+
+
+def _comments(source: "Source | StudySource") -> list[str]:
+    return [] if source.complete else ["incomplete: the job runs, or failed or was cancelled"]
+
+
+def _chosen(channels: str | None, names: list[str]) -> list[str]:
+    from jointplay.channel_choice import NoSuchChannel, choose
+
+    try:
+        return choose(channels, names)
+    except NoSuchChannel as error:
+        raise Stopped(Exit.BAD_INPUT, f"--channels: {error}") from None
+
+
+def _no_points(points: bool) -> None:
+    if points:
+        raise Stopped(Exit.BAD_INPUT, "--points is of studies; this is a simulation.")

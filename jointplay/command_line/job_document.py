@@ -7,6 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.study_options import listed, study_fields
 
 JOB = Annotated[
     str,
@@ -56,8 +57,11 @@ def job_document(
     options
         Fields of the job; those that are None are left as they are.
     """
-    job = _job_of(source)
+    job, is_whole = _job_of(source)
     changed = {name: value for name, value in options.items() if value is not None}
+    if is_whole and "kind" in changed:
+        line = f"{source} is a job already; --{changed['kind']} makes one of a scene or a preset."
+        raise Stopped(Exit.BAD_INPUT, line)
     if "tolerance" in changed:
         job.pop("accuracy", None)
     if "accuracy" in changed:
@@ -69,9 +73,8 @@ def job_document(
 
 
 def options(*, channels: str | None, **fields: Any) -> dict[str, Any]:
-    """Return the options as fields of a job, the channels as a list."""
-    names = None if channels is None else [name.strip() for name in channels.split(",")]
-    return {**fields, "channels": names}
+    """Return the options as fields of a job; those that were not given are None."""
+    return study_fields(**fields) | {"channels": listed(channels)}
 
 
 def read_document(path: Path) -> dict[str, Any]:
@@ -94,16 +97,17 @@ def _is_scene(document: dict[str, Any]) -> bool:
     return "bodies" in document
 
 
-def _job_of(source: str) -> dict[str, Any]:
+def _job_of(source: str) -> tuple[dict[str, Any], bool]:
+    """Return the job, and whether it was given whole and not made of a scene."""
     path = Path(source)
     if path.is_file():
         document = read_document(path)
         if _is_scene(document):
-            return {"kind": "simulate", "scene": document}
-        return document
+            return {"kind": "simulate", "scene": document}, False
+        return document, True
     if source.endswith(".json") or "/" in source:
         raise Stopped(Exit.BAD_INPUT, f"There is no file {source}.")
-    return {"kind": "simulate", "scene": {"preset": source}}
+    return {"kind": "simulate", "scene": {"preset": source}}, False
 
 
 def _setting(text: str) -> tuple[str, object]:

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jointplay.command_line import job_document, output_folder
+from jointplay.command_line import job_document, output_folder, study_options
 from jointplay.command_line.exits import Exit, Stopped
 
 if TYPE_CHECKING:
-    from solver.admission import Admission
+    from solver.admission import Admission, Study
     from worker.execute import Outcome
 
 
@@ -27,15 +27,31 @@ def run(
     channels: job_document.CHANNELS = None,
     formulation: job_document.FORMULATION = None,
     label: job_document.LABEL = None,
+    bifurcation: study_options.BIFURCATION = None,
+    sweep: study_options.SWEEP = None,
+    poincare: study_options.POINCARE = False,
+    ensemble: study_options.ENSEMBLE = None,
+    periods: study_options.PERIODS = None,
+    settle: study_options.SETTLE = None,
+    record: study_options.RECORD = None,
+    section: study_options.SECTION = None,
+    observables: study_options.OBSERVABLES = None,
+    indicators: study_options.INDICATORS = None,
+    continuation: study_options.CONTINUATION = None,
+    chains: study_options.CHAINS = None,
+    processes: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
+    ] = None,
 ) -> None:
-    """Simulate here and now, without any service.
+    """Simulate here and now, without any service; a study on all cores.
 
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr,
-    peaks.csv and figures.  Ctrl-C ends the run and keeps what was computed.
+    peaks.csv, of a study points.csv, and figures.  Ctrl-C ends the run and keeps what was computed.
 
-    Example: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`
+    Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
+    `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
-    from solver.admission import admit
+    from solver.admission import Study, admit
 
     document = job_document.job_document(
         source,
@@ -48,11 +64,26 @@ def run(
             channels=channels,
             formulation=formulation,
             label=label,
+            bifurcation=bifurcation,
+            sweep=sweep,
+            poincare=poincare,
+            ensemble=ensemble,
+            periods=periods,
+            settle=settle,
+            record=record,
+            section=section,
+            observables=observables,
+            indicators=indicators,
+            continuation=continuation,
+            chains=chains,
         ),
     )
     admission = admit(document)
     _make(output)
     store = output / output_folder.STORE
+    if isinstance(admission, Study):
+        _study(admission, output, processes)
+        return
     outcome = _simulate(admission, store, output.name)
     shutil.copyfile(store / "job.json", output / output_folder.JOB_FILE)
     _summarise(store, output)
@@ -65,6 +96,21 @@ def _make(output: Path) -> None:
     except FileExistsError:
         line = f"{output} exists already; results are never overwritten, name another folder."
         raise Stopped(Exit.BAD_INPUT, line) from None
+
+
+def _study(study: "Study", output: Path, processes: int | None) -> None:
+    """Compute a study and show what became of it, also if it was interrupted."""
+    from jointplay.command_line.progress import progress
+    from jointplay.command_line.run_study import compute
+    from jointplay.command_line.study_summary import summarise
+
+    store = output / output_folder.STORE
+    with progress(output.name) as report:
+        complete = compute(study, store, processes, report)
+    shutil.copyfile(store / "job.json", output / output_folder.JOB_FILE)
+    summarise(output)
+    if not complete:
+        raise Stopped(Exit.CANCELLED, "the study was cancelled; what was computed is kept")
 
 
 def _simulate(admission: "Admission", store: Path, title: str) -> "Outcome":

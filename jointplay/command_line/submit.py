@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line import connection, job_document
+from jointplay.command_line import connection, job_document, study_options
 
 
 def submit(
@@ -17,6 +17,18 @@ def submit(
     channels: job_document.CHANNELS = None,
     formulation: job_document.FORMULATION = None,
     label: job_document.LABEL = None,
+    bifurcation: study_options.BIFURCATION = None,
+    sweep: study_options.SWEEP = None,
+    poincare: study_options.POINCARE = False,
+    ensemble: study_options.ENSEMBLE = None,
+    periods: study_options.PERIODS = None,
+    settle: study_options.SETTLE = None,
+    record: study_options.RECORD = None,
+    section: study_options.SECTION = None,
+    observables: study_options.OBSERVABLES = None,
+    indicators: study_options.INDICATORS = None,
+    continuation: study_options.CONTINUATION = None,
+    chains: study_options.CHAINS = None,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
@@ -24,7 +36,8 @@ def submit(
 
     With --wait the exit code tells how the job ended: 0 succeeded, 3 failed, 4 cancelled.
 
-    Example: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`
+    Examples: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`,
+    `jointplay submit seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --wait`
     """
     from jointplay.command_line.waiting import exit_of, wait_for
 
@@ -39,6 +52,18 @@ def submit(
             channels=channels,
             formulation=formulation,
             label=label,
+            bifurcation=bifurcation,
+            sweep=sweep,
+            poincare=poincare,
+            ensemble=ensemble,
+            periods=periods,
+            settle=settle,
+            record=record,
+            section=section,
+            observables=observables,
+            indicators=indicators,
+            continuation=continuation,
+            chains=chains,
         ),
     )
     with connection.connect(url) as client:

@@ -16,12 +16,18 @@ def wait_for(client: "Client", job_id: str, title: str) -> "Job":
             return client.wait(
                 job_id,
                 lambda job: report(
-                    job.progress.fraction, f"t = {job.progress.time:.4g} s, {job.state}"
+                    job.progress.fraction, job.activity or f"{done_so_far(job)}, {job.state}"
                 ),
             )
         except KeyboardInterrupt:
             line = f"stopped waiting; the job goes on: jointplay show --wait {job_id}"
             raise Stopped(Exit.INTERRUPTED, line) from None
+
+
+def done_so_far(job: "Job") -> str:
+    """Say how far a job is: simulated time, or of a study the part of all its points."""
+    done = f"{job.progress.fraction:.0%}"
+    return done if job.kind != "simulate" else f"t = {job.progress.time:.4g} s ({done})"
 
 
 def exit_of(job: "Job") -> None:
@@ -30,4 +36,4 @@ def exit_of(job: "Job") -> None:
         line = f"job {job.id} failed ({job.error.kind}): {job.error.detail}"
         raise Stopped(Exit.FAILED, line)
     if job.state == "cancelled":
-        raise Stopped(Exit.CANCELLED, f"job {job.id} was cancelled at t = {job.progress.time:g} s")
+        raise Stopped(Exit.CANCELLED, f"job {job.id} was cancelled at {done_so_far(job)}")

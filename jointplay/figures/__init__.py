@@ -20,6 +20,7 @@ from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
 from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
+from jointplay.figures.page import Form
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
 from jointplay.figures.section import SECTION
 from jointplay.figures.sweep import SWEEP
@@ -36,6 +37,7 @@ __all__ = [
     "STUDY_ROSTER",
     "FigureError",
     "FigureKind",
+    "Form",
     "Listed",
     "NotDrawable",
     "Selection",
@@ -125,7 +127,7 @@ def draw(source: Source | StudySource, name: str, selection: Selection | None = 
 
 
 def render(
-    source: Source | StudySource, name: str, form: page.Form, selection: Selection | None = None
+    source: Source | StudySource, name: str, form: Form, selection: Selection | None = None
 ) -> bytes:
     """Draw a figure and give the bytes of a PNG or SVG file; errors as for `draw`."""
     with page.style():

@@ -55,7 +55,17 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
         raise NotDrawable(
             f"One figure shows at most {most} channels, not {len(names)}; choose fewer.", "channels"
         )
-    return names or tuple(one.name for one in source.channels)[:_FIRST_PANELS]
+    return names or _first(source)
+
+
+def _first(source: StudySource) -> tuple[str, ...]:
+    """Give the channels that are looked at first: declared outputs, contact forces, the rest."""
+    outputs = [output["name"] for output in source.attributes["scene"].get("outputs", ())]
+    names = sorted(
+        (one.name for one in source.channels),
+        key=lambda name: (name not in outputs, not name.endswith(".normal_force")),
+    )
+    return tuple(names[:_FIRST_PANELS])
 
 
 def _draw(source: StudySource, selection: Selection) -> Figure:

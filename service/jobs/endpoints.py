@@ -3,24 +3,15 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
-from pydantic import BaseModel, ConfigDict, Field
 
 from service.body import JsonDocument
-from service.dependencies import JOB_ID, NO_PARAMETERS, CatalogueDependency, JobOfThePath
+from service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
+from service.jobs.paging import PageQuery
 from service.jobs.schemas import JobPage, JobResource, address
 from service.jobs.submission import REQUEST_BODY, submit
-from service.problems import ErrorDetail, RequestRefused, kinds, problems
+from service.problems import kinds, problems
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
-
-
-class PageQuery(BaseModel):
-    """Which page of the list of jobs."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    page_size: int = Field(default=50, ge=1, le=1000, description="Most jobs in one page.")
-    page_token: str | None = Field(default=None, description="next_page_token of the page before.")
 
 
 @router.post(
@@ -51,14 +42,7 @@ def submit_job(
 @router.get("", responses=problems(kinds.INVALID_REQUEST))
 def list_jobs(catalogue: CatalogueDependency, query: Annotated[PageQuery, Query()]) -> JobPage:
     """List the jobs, newest first; jobs that arrive in the meantime move no page."""
-    if query.page_token is not None and not JOB_ID.fullmatch(query.page_token):
-        sentence = "Give the next_page_token of a page, or leave it out."
-        raise RequestRefused(
-            kinds.INVALID_REQUEST,
-            "The page_token is not one that this service gave.",
-            [ErrorDetail(parameter="page_token", detail=sentence)],
-        )
-    page = catalogue.jobs(limit=query.page_size, after=query.page_token)
+    page = catalogue.jobs(limit=query.page_size, after=query.checked_token())
     return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
 
 

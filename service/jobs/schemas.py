@@ -5,6 +5,7 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from service.jobs.results_of_kinds import RESULTS
 from storage.catalogue import Job, JobState
 
 SECONDS: dict[str, Any] = {"unit": "s"}
@@ -35,12 +36,16 @@ class JobError(BaseModel):
 
 
 class JobResource(BaseModel):
-    """One job; while it is not finished, its results answer 409."""
+    """One job. While a simulation is not finished its results answer 409; studies can be read."""
 
     id: str
-    kind: str
+    kind: str = Field(description="simulate, bifurcation, sweep, poincare or ensemble.")
     label: str | None
+    batch: str | None = Field(description="Id of the batch that the job belongs to.")
     state: JobState
+    activity: str | None = Field(
+        description="What a job is busy with before it advances, such as compiling."
+    )
     progress: Progress
     attempt: int = Field(description="Counts from 1; 0: never started.")
     created: datetime
@@ -61,7 +66,9 @@ class JobResource(BaseModel):
             id=job.id,
             kind=job.kind,
             label=job.label,
+            batch=job.batch,
             state=job.state,
+            activity=job.activity,
             progress=Progress(time=job.progress_time, fraction=job.progress_fraction),
             attempt=job.attempt,
             created=_moment(job.created),
@@ -74,7 +81,7 @@ class JobResource(BaseModel):
                 detail=error.detail,
                 time=error.time,
             ),
-            links=_links(job.id),
+            links=_links(job),
             job=job.spec,
             solver_version=job.solver_version,
         )
@@ -94,10 +101,12 @@ def address(job_id: str) -> str:
     return f"/v1/jobs/{job_id}"
 
 
-def _links(job_id: str) -> dict[str, str]:
-    base = address(job_id)
-    results = ("history", "peaks", "poincare", "impacts", "statistics", "figures")
-    return {"self": base, "cancel": f"{base}/cancel"} | {name: f"{base}/{name}" for name in results}
+def _links(job: Job) -> dict[str, str]:
+    base = address(job.id)
+    links = {"self": base, "cancel": f"{base}/cancel"}
+    if job.batch is not None:
+        links["batch"] = f"/v1/batches/{job.batch}"
+    return links | {name: f"{base}/{name}" for name in RESULTS[job.kind]}
 
 
 def _moment(epoch_seconds: float) -> datetime:

@@ -2,16 +2,37 @@
 
 from typing import Any
 
-from solver.admission import admit
+from solver.admission import Study, admit
 from solver.version import SOLVER_VERSION
 from storage.catalogue import Catalogue, Job, NewJob
 from worker.app import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
     "required": True,
-    "description": "What to simulate: all values in SI units.",
-    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/SimulateJob"}}},
+    "description": "What to compute, told apart by its kind: all values in SI units.",
+    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/JobDocument"}}},
 }
+
+
+def checked(document: object) -> NewJob:
+    """Check a job's document and return what the catalogue takes.
+
+    Raises
+    ------
+    InvalidInput
+        With every field that is wrong.
+    """
+    admission = admit(document)
+    study = admission if isinstance(admission, Study) else None
+    return NewJob(
+        kind=admission.job["kind"],
+        label=admission.job["label"] or None,
+        spec=admission.job,
+        digest=admission.digest,
+        solver_version=SOLVER_VERSION,
+        blocks=((0, 1),) if study is None else study.blocks,
+        seal=study is not None,
+    )
 
 
 def submit(catalogue: Catalogue, document: object) -> Job:
@@ -22,15 +43,6 @@ def submit(catalogue: Catalogue, document: object) -> Job:
     InvalidInput
         With every field that is wrong; nothing was recorded.
     """
-    admission = admit(document)
-    submitted = catalogue.submit(
-        NewJob(
-            kind=admission.job["kind"],
-            label=admission.job["label"] or None,
-            spec=admission.job,
-            digest=admission.digest,
-            solver_version=SOLVER_VERSION,
-        )
-    )
+    submitted = catalogue.submit(checked(document))
     wake_relay()
     return submitted.job

@@ -36,7 +36,7 @@ LIMIT_EXCEEDED = Kind(
     422,
     "The job is larger than this service takes",
     "Each sentence of `errors` gives the estimate and the limit: shorten the duration, widen the "
-    "output step or select fewer channels.",
+    "output step, select fewer channels, or take fewer points.",
 )
 INVALID_REQUEST = Kind(
     "invalid-request",
@@ -61,6 +61,18 @@ UNKNOWN_JOB = Kind(
     404,
     "There is no such job",
     "List the jobs with GET /v1/jobs.",
+)
+UNKNOWN_BATCH = Kind(
+    "unknown-batch",
+    404,
+    "There is no such batch",
+    "POST /v1/batches answers with the batch's id and address.",
+)
+WRONG_KIND = Kind(
+    "wrong-kind",
+    404,
+    "A job of this kind has no such result",
+    "The job's `links`, and the problem's `detail`, lead to the results that it has.",
 )
 UNKNOWN_SCENE = Kind(
     "unknown-scene",
@@ -89,8 +101,9 @@ NO_RESULTS = Kind(
 RESULTS_NOT_READY = Kind(
     "results-not-ready",
     409,
-    "The job is not finished",
-    "Ask GET /v1/jobs/{id} until its state is succeeded, failed or cancelled.",
+    "There are no results yet",
+    "Ask GET /v1/jobs/{id} until its state is succeeded, failed or cancelled; studies can be read "
+    "as soon as they run.",
 )
 BODY_TOO_LARGE = Kind(
     "body-too-large",
@@ -139,6 +152,8 @@ ALL = {
         UNKNOWN_CHANNEL,
         RESPONSE_TOO_LARGE,
         UNKNOWN_JOB,
+        UNKNOWN_BATCH,
+        WRONG_KIND,
         UNKNOWN_SCENE,
         UNKNOWN_FIGURE,
         NOT_DRAWABLE,

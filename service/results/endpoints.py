@@ -5,13 +5,17 @@ from typing import Annotated
 import numpy as np
 from fastapi import APIRouter, Query, Response
 from numpy.typing import NDArray
-from pydantic import BaseModel
 
-from service.dependencies import NO_PARAMETERS
+from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
+from service.jobs.results_of_kinds import insist, is_study
 from service.problems import kinds, problems
 from service.results import schemas
+from service.results.as_json import as_json
 from service.results.queries import Selection, Window, check_size, chosen_channels
-from service.results.stores import StoreOfThePath
+from service.results.stores import StoreOfThePath, open_store, open_study
+from service.studies.answers import sections
+from service.studies.queries import PoincareQuery
+from service.studies.schemas import Sections
 from storage.results import ResultReader
 
 router = APIRouter(
@@ -19,6 +23,7 @@ router = APIRouter(
     tags=["results"],
     responses=problems(
         kinds.UNKNOWN_JOB,
+        kinds.WRONG_KIND,
         kinds.NO_RESULTS,
         kinds.RESULTS_NOT_READY,
         kinds.INVALID_REQUEST,
@@ -40,31 +45,27 @@ def show_history(store: StoreOfThePath, selection: Annotated[Selection, Query()]
         seconds = float(ends[1][0] - ends[0][0])
         check_size(last - first, len(names) + 1, "samples", seconds)
     time, columns = store.history(names, first, last)
-    return _as_json(
+    return as_json(
         schemas.History.model_construct(
             complete=store.complete, time=_time(time), channels=_series(store, columns)
         )
     )
 
 
-@router.get("/poincare", response_model=schemas.Poincare)
-def show_poincare(store: StoreOfThePath, selection: Annotated[Selection, Query()]) -> Response:
-    """Return channels at the Poincare sections: once in every period of the drivers."""
-    start, stop = selection.checked()
-    names = chosen_channels(selection.channels, _names(store))
-    time = store.sections([])[0]
-    inside = _inside(time, start, stop)
-    if inside.any():
-        check_size(int(inside.sum()), len(names) + 1, "sections", float(np.ptp(time[inside])))
-    columns = {name: column[inside] for name, column in store.sections(names)[1].items()}
-    return _as_json(
-        schemas.Poincare.model_construct(
-            complete=store.complete,
-            time=_time(time[inside]),
-            channels=_series(store, columns),
-            note=str(store.attributes.get("section_note", "")),
-        )
-    )
+@router.get("/poincare", response_model=schemas.Poincare | Sections)
+def show_poincare(
+    job: JobOfThePath, settings: SettingsDependency, query: Annotated[PoincareQuery, Query()]
+) -> Response:
+    """Return channels at the Poincare sections.
+
+    Of a simulation: once in every period, in a window of time.  Of a study: at the sections that
+    each of its points has recorded so far; start and stop are a range of points.
+    """
+    insist(job, "poincare")
+    if is_study(job):
+        study = open_study(job, settings)
+        return as_json(sections(study, query.range_of_points(), query.channels))
+    return as_json(_poincare(open_store(job, settings), query.window_of_time()))
 
 
 @router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])
@@ -75,7 +76,7 @@ def show_peaks(store: StoreOfThePath) -> Response:
         name: schemas.Peak.model_construct(unit=units[name], **peak._asdict())
         for name, peak in store.peaks().items()
     }
-    return _as_json(schemas.Peaks.model_construct(complete=store.complete, peaks=peaks))
+    return as_json(schemas.Peaks.model_construct(complete=store.complete, peaks=peaks))
 
 
 @router.get("/statistics", dependencies=[NO_PARAMETERS])
@@ -99,7 +100,23 @@ def show_impacts(store: StoreOfThePath, window: Annotated[Window, Query()]) -> R
         values = dict(zip(names, row, strict=True))
         values["joint"] = store.joints[values["joint"]]
         impacts.append(schemas.Impact.model_construct(**values))
-    return _as_json(schemas.Impacts.model_construct(complete=store.complete, impacts=impacts))
+    return as_json(schemas.Impacts.model_construct(complete=store.complete, impacts=impacts))
+
+
+def _poincare(store: ResultReader, selection: Selection) -> schemas.Poincare:
+    start, stop = selection.checked()
+    names = chosen_channels(selection.channels, _names(store))
+    time = store.sections([])[0]
+    inside = _inside(time, start, stop)
+    if inside.any():
+        check_size(int(inside.sum()), len(names) + 1, "sections", float(np.ptp(time[inside])))
+    columns = {name: column[inside] for name, column in store.sections(names)[1].items()}
+    return schemas.Poincare.model_construct(
+        complete=store.complete,
+        time=_time(time[inside]),
+        channels=_series(store, columns),
+        note=str(store.attributes.get("section_note", "")),
+    )
 
 
 def _names(store: ResultReader) -> list[str]:
@@ -126,8 +143,3 @@ def _series(store: ResultReader, columns: dict[str, Floats]) -> dict[str, schema
         )
         for name, column in columns.items()
     }
-
-
-def _as_json(document: BaseModel) -> Response:
-    """Serialise once, without validating a million numbers of our own; NaN becomes null."""
-    return Response(document.model_dump_json(), media_type="application/json")

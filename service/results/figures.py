@@ -1,29 +1,41 @@
 """``/v1/jobs/{id}/figures``: figures as the paper draws them, from the same code everywhere."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Path, Query, Response
 from pydantic import Field
 
 from jointplay import figures
-from service.dependencies import NO_PARAMETERS, JobOfThePath
+from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
+from service.jobs.results_of_kinds import insist, is_study
 from service.jobs.schemas import address
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
 from service.problems.document import clipped
 from service.results.queries import Selection, chosen_channels
 from service.results.schemas import FigureLink, Figures
-from service.results.stores import StoreOfThePath
+from service.results.stores import open_store, open_study
+from service.studies.queries import whole_point
+from storage.catalogue import Job
+from storage.results import ResultReader
+from storage.settings import Settings
+from storage.studies import StudyReader
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}/figures",
     tags=["results"],
     responses=problems(
-        kinds.UNKNOWN_JOB, kinds.NO_RESULTS, kinds.RESULTS_NOT_READY, kinds.INVALID_REQUEST
+        kinds.UNKNOWN_JOB,
+        kinds.WRONG_KIND,
+        kinds.NO_RESULTS,
+        kinds.RESULTS_NOT_READY,
+        kinds.INVALID_REQUEST,
     ),
 )
 
 
 _MEDIA_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
+_PARAMETERS = {"first": "start", "last": "stop"}
+"""What figures call otherwise."""
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The figure.",
@@ -38,6 +50,15 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 class FigureSelection(Selection):
     """What a figure shows."""
 
+    start: float | None = Field(
+        default=None,
+        description="Of a simulation: from this time on, in s. Of a study: first point.",
+    )
+    stop: float | None = Field(
+        default=None,
+        description="Of a simulation: up to this time, in s. Of a study: point before which to "
+        "end.",
+    )
     joints: str | None = Field(
         default=None,
         max_length=2000,
@@ -46,8 +67,8 @@ class FigureSelection(Selection):
 
 
 @router.get("", dependencies=[NO_PARAMETERS])
-def list_figures(job: JobOfThePath, store: StoreOfThePath) -> Figures:
-    """List the figures that can be drawn of what the job stored."""
+def list_figures(job: JobOfThePath, settings: SettingsDependency) -> Figures:
+    """List the figures that can be drawn of what the job stored, of a study also as it runs."""
     base = f"{address(job.id)}/figures"
     return Figures(
         figures=[
@@ -57,7 +78,7 @@ def list_figures(job: JobOfThePath, store: StoreOfThePath) -> Figures:
                 png=f"{base}/{one.name}.png",
                 svg=f"{base}/{one.name}.svg",
             )
-            for one in figures.available(store)
+            for one in figures.available(_results(job, settings))
         ]
     )
 
@@ -68,29 +89,49 @@ def list_figures(job: JobOfThePath, store: StoreOfThePath) -> Figures:
     responses=_DRAWN | problems(kinds.UNKNOWN_FIGURE, kinds.NOT_DRAWABLE, kinds.UNKNOWN_CHANNEL),
 )
 def draw_figure(
-    store: StoreOfThePath,
+    job: JobOfThePath,
+    settings: SettingsDependency,
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
-    form: Annotated[Literal["png", "svg"], Path(description="File type.")],
+    form: Annotated[str, Path(description="File type: png or svg.")],
     selection: Annotated[FigureSelection, Query()],
 ) -> Response:
-    """Draw a figure of the job's results."""
-    start, stop = selection.checked()
-    channels = (
-        ()
-        if selection.channels is None
-        else chosen_channels(selection.channels, [channel.name for channel in store.channels])
-    )
-    joints = () if selection.joints is None else selection.joints.split(",")
-    chosen = figures.Selection(tuple(channels), tuple(joints), start, stop)
+    """Draw a figure of the job's results; of a study also as it runs."""
+    if form not in _MEDIA_TYPES:
+        sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
+        raise _refused(kinds.UNKNOWN_FIGURE, "form", sentence)
+    store = _results(job, settings)
+    chosen = _selection(store, selection)
     try:
-        picture = figures.render(store, name, form, chosen)
+        picture = figures.render(store, name, cast("figures.Form", form), chosen)
     except figures.UnknownFigure as error:
-        raise _refused(kinds.UNKNOWN_FIGURE, "name", error) from None
+        raise _refused(kinds.UNKNOWN_FIGURE, "name", str(error)) from None
     except figures.NotDrawable as error:
-        raise _refused(kinds.NOT_DRAWABLE, error.cause, error) from None
+        cause = _PARAMETERS.get(error.cause, error.cause)
+        raise _refused(kinds.NOT_DRAWABLE, cause, str(error)) from None
     return Response(picture, media_type=_MEDIA_TYPES[form])
 
 
-def _refused(kind: kinds.Kind, parameter: str, error: Exception) -> RequestRefused:
-    sentence = clipped(str(error))
+def _results(job: Job, settings: Settings) -> ResultReader | StudyReader:
+    insist(job, "figures")
+    return open_study(job, settings) if is_study(job) else open_store(job, settings)
+
+
+def _selection(store: ResultReader | StudyReader, asked: FigureSelection) -> figures.Selection:
+    """Return what to draw: times of a simulation, points of a study."""
+    joints = () if asked.joints is None else tuple(asked.joints.split(","))
+    if isinstance(store, ResultReader):
+        start, stop = asked.checked()
+        known = [channel.name for channel in store.channels]
+        channels = () if asked.channels is None else chosen_channels(asked.channels, known)
+        return figures.Selection(tuple(channels), joints, start, stop)
+    known = [channel.name for channel in (*store.observables, *store.channels)]
+    channels = () if asked.channels is None else chosen_channels(asked.channels, known)
+    first, end = whole_point("start", asked.start), whole_point("stop", asked.stop)
+    return figures.Selection(
+        tuple(channels), joints, first=first, last=None if end is None else end - 1
+    )
+
+
+def _refused(kind: kinds.Kind, parameter: str, sentence: str) -> RequestRefused:
+    sentence = clipped(sentence)
     return RequestRefused(kind, sentence, [ErrorDetail(parameter=parameter, detail=sentence)])

@@ -8,13 +8,24 @@ from jointplay.command_line.application import run
 from tests.service_in_thread import (
     catalogue,
     finished_job,
+    finished_study,
+    finished_sweep,
     http,
     service_url,
     settings,
     worker,
 )
 
-__all__ = ["catalogue", "finished_job", "http", "service_url", "settings", "worker"]
+__all__ = [
+    "catalogue",
+    "finished_job",
+    "finished_study",
+    "finished_sweep",
+    "http",
+    "service_url",
+    "settings",
+    "worker",
+]
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,6 +1,8 @@
 from tests.service_in_thread import (
     catalogue,
     finished_job,
+    finished_study,
+    finished_sweep,
     fresh_service,
     http,
     service_url,
@@ -11,6 +13,8 @@ from tests.service_in_thread import (
 __all__ = [
     "catalogue",
     "finished_job",
+    "finished_study",
+    "finished_sweep",
     "fresh_service",
     "http",
     "service_url",

@@ -29,6 +29,13 @@ def own_scene(change: Callable[[dict[str, Any]], None]) -> dict[str, Any]:
     return {"kind": "simulate", "scene": scene, "duration": 1.0}
 
 
+def diagram(**fields: Any) -> dict[str, Any]:
+    """A bifurcation diagram of the press over its clearance, changed."""
+    values = {"from": 1e-4, "to": 1e-3, "count": 20}
+    job = {"kind": "bifurcation", "scene": PRESS["scene"], "parameter": "clearance"}
+    return {**job, "values": values, **fields}
+
+
 def without(field: str) -> dict[str, Any]:
     return {name: value for name, value in PRESS.items() if name != field}
 
@@ -75,7 +82,7 @@ def _cannot_close(scene: dict[str, Any]) -> None:
 
 
 REFUSED = {
-    "unknown kind": (press(kind="sweep"), "/kind"),
+    "unknown kind": (press(kind="simulation"), "/kind"),
     "no kind": (without("kind"), "/kind"),
     "no scene": (without("scene"), "/scene"),
     "no duration": (without("duration"), "/duration"),
@@ -114,6 +121,23 @@ REFUSED = {
     "over-constrained": (own_scene(_over_constrained), "/scene/joints"),
     "under-constrained": (own_scene(_adrift), "/scene/bodies/adrift"),
     "an assembly that cannot close": (own_scene(_cannot_close), "/scene/"),
+    "a study over an unknown parameter": (diagram(parameter="clearence"), "/parameter"),
+    "a value outside its range": (diagram(values=[1e-4, 2e-4, -1.0]), "/values/2"),
+    "no values": (diagram(values={"from": 1e-4, "to": 1e-3, "count": 0}), "/values/count"),
+    "a thousand million values": (
+        diagram(values={"from": 1e-4, "to": 1e-3, "count": 10**9}),
+        "/values",
+    ),
+    "a section at a joint without play": (diagram(section={"onset": "D"}), "/section/onset"),
+    "a section that nothing crosses": (
+        diagram(section={"channel": "displacement", "value": 9.0}),
+        "/section/value",
+    ),
+    "speeds without a common period": (
+        diagram(scene={"preset": "seven-bar-press", "parameters": {"speed_crank4": -1.0}}),
+        "/values",
+    ),
+    "a study with a duration": (diagram(duration=2.0), "/duration"),
 }
 
 

@@ -47,7 +47,18 @@ def sound_jobs() -> list[dict[str, Any]]:
             {"kind": "simulate", "scene": by_name, "duration": 1.0, "tolerance": 1e-6} | more,
             {"kind": "simulate", "scene": scene, "duration": 1.0},
         ]
-    return jobs
+    values = {"from": 1e-4, "to": 5e-4, "count": 9, "spacing": "log"}
+    study = {"scene": {"preset": "slider-crank"}, "tolerance": 1e-6}
+    sections = {"settle": 3, "record": 4, "section": {"onset": "B"}, "indicators": ["lyapunov"]}
+    over = {"parameter": "clearance", "values": values, "continuation": "both", "chains": 2}
+    grid = {"grid": {"clearance": values, "restitution": [0.5, 0.9]}, "periods": 2, "settle": 1}
+    return [
+        *jobs,
+        {"kind": "bifurcation", **study, **sections, **over},
+        {"kind": "poincare", **study, **sections},
+        {"kind": "ensemble", **study, **sections, "members": 5, "spread": 1e-2, "seed": 7},
+        {"kind": "sweep", **study, **grid},
+    ]
 
 
 def spoilt(job: dict[str, Any], chance: random.Random) -> dict[str, Any]:

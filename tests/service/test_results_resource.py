@@ -177,7 +177,9 @@ def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
     problem = get(http, f"/v1/jobs/{finished_job}/figures/obrit.png", 404)
     assert problem["type"] == "/problems/unknown-figure"
     assert "orbit" in problem["detail"]
-    get(http, f"/v1/jobs/{finished_job}/figures/orbit.pdf", 422)
+    problem = get(http, f"/v1/jobs/{finished_job}/figures/orbit.jpg", 404)
+    assert "png or svg" in problem["detail"]
+    assert problem["errors"][0]["parameter"] == "form"
 
 
 @pytest.mark.parametrize(
@@ -189,6 +191,8 @@ def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
         ("time-history", {}, "channels"),
         ("time-history", {"channels": "A.*"}, "channels"),
         ("phase-portrait", {"channels": "slider7.x"}, "channels"),
+        ("velocity", {"joints": "A"}, "joints"),
+        ("orbit", {"channels": "slider7.x"}, "channels"),
     ],
 )
 def test_what_a_figure_cannot_show_is_named(http, finished_job, figure, query, parameter):

@@ -11,10 +11,12 @@ import pytest
 
 from jointplay.strict_json import DEEPEST
 from service.app import create_app
-from service.body import LARGEST_BODY
+from service.body import LARGEST_BATCH, LARGEST_BODY
 from service.results.queries import MOST_VALUES
 from solver import presets
 from solver.admission import LONGEST_RUN, MOST_BYTES, MOST_SAMPLES
+from solver.admission.limits import MOST_PERIODS, MOST_POINTS
+from solver.jobs import KINDS
 from storage.settings import Settings
 from tests.service_in_thread import serving
 
@@ -81,9 +83,16 @@ def openapi(http) -> dict[str, Any]:
 
 def test_the_job_in_the_openapi_document_carries_units(openapi):
     body = openapi["paths"]["/v1/jobs"]["post"]["requestBody"]["content"]["application/json"]
-    assert "SimulateJob" in str(body)
-    job = openapi["components"]["schemas"]["SimulateJob"]
-    assert job["properties"]["duration"]["unit"] == "s"
+    schemas = openapi["components"]["schemas"]
+    assert body["schema"] == {"$ref": "#/components/schemas/JobDocument"}
+    kinds = schemas["JobDocument"]["discriminator"]["mapping"]
+    assert kinds.keys() == KINDS.keys()
+    assert schemas["SimulateJob"]["properties"]["duration"]["unit"] == "s"
+    assert schemas["BifurcationJob"]["properties"]["settle"]["unit"] == "periods"
+    batch = openapi["paths"]["/v1/batches"]["post"]["requestBody"]["content"]["application/json"]
+    assert batch["schema"] == {"$ref": "#/components/schemas/BatchDocument"}
+    jobs = schemas["BatchDocument"]["properties"]["jobs"]
+    assert (jobs["items"], jobs["maxItems"]) == (body["schema"], 10_000)
     impact = openapi["components"]["schemas"]["Impact"]["properties"]
     assert {name: one.get("unit") for name, one in impact.items()} == {
         "joint": None,
@@ -123,11 +132,14 @@ def test_the_problem_that_the_documentation_shows_is_the_one_that_is_sent(http):
 def test_the_documentation_gives_the_limits_that_hold():
     documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
     assert f"A body of {LARGEST_BODY // 2**20} MiB" in documentation
+    assert f"of a batch {LARGEST_BATCH // 2**20} MiB" in documentation
     assert f"JSON of {DEEPEST} levels" in documentation
     assert MOST_VALUES == 1_000_000
     assert "one million values" in documentation
     assert (LONGEST_RUN, MOST_SAMPLES, MOST_BYTES) == (1e6, 10**8, 10**10)
     assert "a million periods, 10⁸ samples, 10 GB" in documentation
+    assert (MOST_POINTS, MOST_PERIODS) == (100_000, 1e8)
+    assert "100 000\npoints and 10⁸ periods" in documentation
 
 
 def test_the_documentation_lists_every_address(openapi):

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import typer
 
@@ -53,9 +53,11 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
     from solver.errors import InvalidInput
     from solver.scene.document import Scene
 
-    job = job_document.job_document(source, settings=settings, options={"duration": 1e-3})
+    given = job_document.job_document(source, settings=settings, options={})
+    job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
+    job |= {"scene": given["scene"]} if "scene" in given else {}
     try:
-        admission = admit(job)
+        admission = cast("Admission", admit(job))
     except InvalidInput as error:
         return _refused(job, error, is_scene=job_document.is_scene_file(source))
     scene = Scene.model_validate(admission.scene)

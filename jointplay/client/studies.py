@@ -1,0 +1,159 @@
+"""Studies from the service's pages: one dataset of all points."""
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from jointplay.client.errors import Refused
+from jointplay.client.jobs import Job
+from jointplay.dataset import Channel
+from jointplay.source import Floats
+from jointplay.study_dataset import Extremes, Failure, StudyDataset
+from jointplay.study_source import STATUS
+
+_TOO_LARGE = "response-too-large"
+Document = dict[str, Any]
+
+
+def with_sections(
+    job: Job, fetch: Callable[..., Document], sections: tuple[int, int]
+) -> StudyDataset:
+    """Return a study with times and observables at its sections.
+
+    Parameters
+    ----------
+    job
+        The study.
+    fetch
+        Asks for sections, with `start`, `section_start` and `section_stop`.
+    sections
+        First section, and the one before which to end.
+    """
+    windows = list(_windows(fetch, *sections))
+    tables: dict[str, list[Floats]] = {}
+    for width, pages in windows:
+        for name in ("", *pages[0]["channels"]):
+            rows = [page["channels"][name] if name else page["time"] for page in pages]
+            joined = list(chain.from_iterable(one["values"] for one in rows))
+            tables.setdefault(name, []).append(_table(joined, width))
+    found = {name: np.concatenate(one, axis=1) for name, one in tables.items()}
+    _, pages = windows[0]
+    channels = pages[0]["channels"]
+    return _study(
+        job,
+        pages,
+        observables=[_channel(name, one) for name, one in channels.items()],
+        times=found.pop(""),
+        section_values=found,
+    )
+
+
+def with_extremes(job: Job, fetch: Callable[..., Document]) -> StudyDataset:
+    """Return a sweep with the extremes of channels; `fetch` asks for them, with `start`."""
+    pages = list(_pages(fetch))
+    channels = pages[0]["peaks"]
+    extremes = {
+        name: Extremes(
+            *(
+                _joined([page["peaks"][name][column] for page in pages])
+                for column in Extremes._fields
+            )
+        )
+        for name in channels
+    }
+    return _study(
+        job,
+        pages,
+        channels=[_channel(name, one) for name, one in channels.items()],
+        extremes=extremes,
+    )
+
+
+def _windows(
+    fetch: Callable[..., Document], first: int, last: int
+) -> Iterator[tuple[int, list[Document]]]:
+    """Yield ranges of sections, each with its width and the pages of all points.
+
+    A range is halved where not even one point of it fits into an answer.
+    """
+
+    def page(start: int) -> Document:
+        return fetch(start=start, section_start=first, section_stop=last)
+
+    try:
+        pages = list(_pages(page))
+    except Refused as refusal:
+        if refusal.problem != _TOO_LARGE or last - first < 2:
+            raise
+        middle = (first + last) // 2
+        yield from _windows(fetch, first, middle)
+        yield from _windows(fetch, middle, last)
+    else:
+        yield last - first, pages
+
+
+def _pages(fetch: Callable[..., Document]) -> Iterator[Document]:
+    start: int | None = 0
+    while start is not None:
+        page = fetch(start=start)
+        yield page
+        start = page["next_start"]
+
+
+def _study(job: Job, pages: Sequence[Document], **results: Any) -> StudyDataset:
+    """Put together what every study has."""
+    first = pages[0]
+    parameters = [_channel(name, one) for name, one in first["values"].items()]
+    values = [
+        _joined([page["values"][parameter.name]["values"] for page in pages])
+        for parameter in parameters
+    ]
+    status = [STATUS.index(word) for page in pages for word in page["status"]]
+    codes, names = None, []
+    if first.get("verdicts") is not None:
+        words = [word for page in pages for word in page["verdicts"]]
+        names = sorted({word for word in words if word is not None})
+        codes = np.array([-1 if word is None else names.index(word) for word in words], np.int64)
+    scene = job.job["scene"]
+    return StudyDataset(
+        attributes={"job": job.job, "scene": scene if "bodies" in scene else {}},
+        parameters=parameters,
+        values=np.array(values).reshape(len(parameters), len(status)).T,
+        status=np.array(status, np.uint8),
+        failures={
+            one["point"]: Failure(one["code"], one["detail"], one["time"])
+            for page in pages
+            for one in page["failures"]
+        },
+        statistics=_columns(pages, "statistics"),
+        indicators=_columns(pages, "indicators"),
+        verdicts=codes,
+        verdict_names=names,
+        **results,
+    )
+
+
+def _columns(pages: Sequence[Document], group: str) -> dict[str, Floats]:
+    """Join columns by name; a page that was made before a name occurred has none of it."""
+    names = dict.fromkeys(name for page in pages for name in page.get(group, ()))
+    return {
+        name: _joined([page[group].get(name, [None] * len(page["status"])) for page in pages])
+        for name in names
+    }
+
+
+def _table(rows: Sequence[Sequence[float | None]], width: int) -> Floats:
+    table = np.full((len(rows), width), np.nan)
+    for row, values in zip(table, rows, strict=True):
+        row[: len(values)] = np.array(values, np.float64)
+    return table
+
+
+def _joined(columns: Sequence[Sequence[float | None]]) -> Floats:
+    return np.array(list(chain.from_iterable(columns)), np.float64)
+
+
+def _channel(name: str, described: Document) -> Channel:
+    return Channel(name, described["unit"], described["long_name"])

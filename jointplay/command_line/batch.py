@@ -1,0 +1,90 @@
+"""``jointplay batch``: many jobs of a service at once."""
+
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jointplay.command_line import connection
+from jointplay.command_line.exits import Exit, Stopped
+
+if TYPE_CHECKING:
+    from jointplay.client import Batch, Client
+
+
+def batch(
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE|ID",
+            help='A list of job documents as JSON, or {"jobs": [...]}; or the id of a batch.',
+        ),
+    ],
+    label: Annotated[str | None, typer.Option(help="A name of your own for the batch.")] = None,
+    cancel: Annotated[bool, typer.Option("--cancel", help="Cancel the batch of this id.")] = False,
+    wait: Annotated[bool, typer.Option("--wait", help="Wait until all jobs are finished.")] = False,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Queue all jobs of a file at a service, or none; or look at a batch by its id.
+
+    With --wait the exit code tells how the jobs ended: 0 all succeeded, 3 some failed, 4 some were
+    cancelled.
+
+    Example: `jointplay batch jobs.json --label "friction" --wait`
+    """
+    from jointplay.job_id import is_job_id
+
+    with connection.connect(url) as client:
+        if is_job_id(source) and not Path(source).exists():
+            found = client.cancel_batch(source) if cancel else client.batch(source)
+        elif cancel:
+            raise Stopped(Exit.BAD_INPUT, "--cancel takes the id of a batch.")
+        else:
+            jobs, own_label = _jobs_in(Path(source))
+            found = client.submit_batch(jobs, label if label is not None else own_label)
+            typer.echo(found.id)
+            if not wait:
+                return
+        if wait:
+            found = _wait_for(client, found)
+        typer.echo(_states(found))
+    if wait:
+        _exit_of(found)
+
+
+def _jobs_in(path: Path) -> tuple[list[Any], str]:
+    """Return the jobs of a file, and the label that it gives them; the service checks both."""
+    from jointplay.strict_json import parse
+
+    document = parse(path.read_bytes())
+    if isinstance(document, dict) and isinstance(document.get("jobs"), list):
+        return document["jobs"], document.get("label", "")
+    if not isinstance(document, list):
+        line = f"{path}: a batch is a list of jobs, or an object with a list of 'jobs'."
+        raise Stopped(Exit.BAD_INPUT, line)
+    return document, ""
+
+
+def _wait_for(client: "Client", found: "Batch") -> "Batch":
+    from jointplay.command_line.progress import progress
+
+    with progress(found.label or found.id) as report:
+        try:
+            return client.wait_batch(found.id, lambda batch: report(batch.fraction, _states(batch)))
+        except KeyboardInterrupt:
+            line = f"stopped waiting; the jobs go on: jointplay batch --wait {found.id}"
+            raise Stopped(Exit.INTERRUPTED, line) from None
+
+
+def _states(found: "Batch") -> str:
+    counts = [f"{count} {state}" for state, count in found.counts.items() if count]
+    return f"{found.jobs} jobs: {', '.join(counts)}"
+
+
+def _exit_of(found: "Batch") -> None:
+    counts = Counter(found.counts)
+    if counts["failed"]:
+        raise Stopped(Exit.FAILED, f"{counts['failed']} of {found.jobs} jobs failed")
+    if counts["cancelled"]:
+        raise Stopped(Exit.CANCELLED, f"{counts['cancelled']} of {found.jobs} jobs were cancelled")

@@ -1,0 +1,1 @@
+"""``/v1/batches``: many jobs submitted together, all or none of them."""

@@ -1,0 +1,67 @@
+"""All jobs of a batch are checked before one of them is queued."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from jointplay.strict_json import escaped
+from service.batches.schemas import LONGEST_LABEL, MOST_JOBS
+from service.jobs.submission import checked
+from solver.errors import InvalidInput, LimitExceeded, Problem
+from storage.catalogue import NewJob
+
+_FIELDS = ("jobs", "label")
+_MOST_PROBLEMS = 100  # that are looked for: one problem document carries so many
+
+
+def admit_batch(document: object) -> tuple[list[NewJob], str]:
+    """Check a batch and return its jobs, filled in, and its label.
+
+    Raises
+    ------
+    InvalidInput
+        With every problem that was found, each pointing at its field: ``/jobs/17/duration``.
+    LimitExceeded
+        There are too many jobs, or some are sound but too large.
+    """
+    jobs, label = _parts(document)
+    admitted: list[NewJob] = []
+    problems: list[Problem] = []
+    only_limits = True
+    for index, one in enumerate(jobs):
+        try:
+            admitted.append(checked(one))
+        except InvalidInput as error:
+            only_limits &= isinstance(error, LimitExceeded)
+            problems += [
+                Problem(f"/jobs/{index}{problem.pointer}", problem.detail)
+                for problem in error.problems
+            ]
+            if len(problems) >= _MOST_PROBLEMS:
+                break
+    if problems:
+        raise (LimitExceeded if only_limits else InvalidInput)(problems)
+    return admitted, label
+
+
+def _parts(document: object) -> tuple[Sequence[object], str]:
+    """Take the document apart, or say what is wrong with it as a whole."""
+    if not isinstance(document, dict):
+        raise InvalidInput([Problem("", "A batch is a JSON object with a list of 'jobs'.")])
+    problems = [
+        Problem(f"/{escaped(name)}", "There is no such field; a batch has 'jobs' and 'label'.")
+        for name in document
+        if name not in _FIELDS
+    ]
+    jobs: Any = document.get("jobs")
+    label: Any = document.get("label", "")
+    if not isinstance(jobs, list) or not jobs:
+        problems.append(Problem("/jobs", "A batch needs a list of one job or more."))
+    elif len(jobs) > MOST_JOBS:
+        sentence = f"A batch takes at most {MOST_JOBS} jobs, not {len(jobs)}; send several batches."
+        raise LimitExceeded([Problem("/jobs", sentence)])
+    if not isinstance(label, str) or len(label) > LONGEST_LABEL:
+        sentence = f"The label is a text of at most {LONGEST_LABEL} characters."
+        problems.append(Problem("/label", sentence))
+    if problems:
+        raise InvalidInput(problems)
+    return jobs, label

@@ -1,0 +1,97 @@
+"""``/v1/batches``: submit, look at and cancel many jobs at once."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Path, Query, Response
+
+from jointplay.job_id import is_job_id
+from service.batches.admission import admit_batch
+from service.batches.schemas import AcceptedBatch, BatchResource, address
+from service.body import JsonBatch
+from service.dependencies import NO_PARAMETERS, CatalogueDependency
+from service.jobs.paging import PageQuery
+from service.jobs.schemas import JobPage, JobResource
+from service.problems import ErrorDetail, RequestRefused, kinds, problems
+from service.problems.document import clipped
+from storage.catalogue import Batch, BatchNotFound
+from worker.app import wake_relay
+
+router = APIRouter(prefix="/v1/batches", tags=["batches"])
+
+REQUEST_BODY = {
+    "required": True,
+    "description": "The jobs; each as it is sent to /v1/jobs.",
+    "content": {"application/json": {"schema": {"$ref": "#/components/schemas/BatchDocument"}}},
+}
+BatchId = Annotated[str, Path(description="Id of the batch, as POST /v1/batches returned it.")]
+
+
+def _batch_of_the_path(catalogue: CatalogueDependency, batch_id: BatchId) -> Batch:
+    if is_job_id(batch_id):
+        try:
+            return catalogue.batch(batch_id)
+        except BatchNotFound:
+            pass
+    sentence = f"There is no batch {clipped(batch_id)!r}."
+    errors = [ErrorDetail(parameter="batch_id", detail=sentence)]
+    raise RequestRefused(kinds.UNKNOWN_BATCH, sentence, errors)
+
+
+BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
+
+
+@router.post(
+    "",
+    status_code=202,
+    openapi_extra={"requestBody": REQUEST_BODY},
+    responses=problems(
+        kinds.MALFORMED_JSON,
+        kinds.BODY_TOO_LARGE,
+        kinds.NOT_JSON,
+        kinds.INVALID_JOB,
+        kinds.LIMIT_EXCEEDED,
+    ),
+)
+def submit_batch(
+    document: JsonBatch, catalogue: CatalogueDependency, response: Response
+) -> AcceptedBatch:
+    """Queue up to 10 000 jobs, or none.
+
+    All are checked first; if any cannot be run, nothing is queued and `errors` points at each
+    wrong field by the index of its job, such as `/jobs/17/duration`.
+    """
+    jobs, label = admit_batch(document)
+    submitted = catalogue.submit_batch(jobs, label=label or None)
+    wake_relay()
+    response.headers["Location"] = address(submitted.batch.id)
+    return AcceptedBatch.of(submitted.batch, job_ids=list(submitted.jobs))
+
+
+@router.get(
+    "/{batch_id}",
+    dependencies=[NO_PARAMETERS],
+    responses=problems(kinds.UNKNOWN_BATCH, kinds.INVALID_REQUEST),
+)
+def show_batch(batch: BatchOfThePath) -> BatchResource:
+    """Show a batch: how many of its jobs are in each state, and the progress of the whole."""
+    return BatchResource.of(batch)
+
+
+@router.get("/{batch_id}/jobs", responses=problems(kinds.UNKNOWN_BATCH, kinds.INVALID_REQUEST))
+def list_jobs_of_batch(
+    batch: BatchOfThePath, catalogue: CatalogueDependency, query: Annotated[PageQuery, Query()]
+) -> JobPage:
+    """List the jobs of a batch, in the order in which they were submitted."""
+    page = catalogue.jobs(
+        limit=query.page_size, after=query.checked_token(), batch=batch.id, oldest_first=True
+    )
+    return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
+
+
+@router.post("/{batch_id}/cancel", status_code=202, responses=problems(kinds.UNKNOWN_BATCH))
+def cancel_batch(batch: BatchOfThePath, catalogue: CatalogueDependency) -> BatchResource:
+    """Ask for every job of a batch that is not finished to be cancelled.
+
+    What they computed stays readable.  Asking again changes nothing.
+    """
+    return BatchResource.of(catalogue.cancel_batch(batch.id))

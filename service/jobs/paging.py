@@ -1,0 +1,26 @@
+"""Which page of a list of jobs."""
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from jointplay.job_id import is_job_id
+from service.problems import ErrorDetail, RequestRefused, kinds
+
+
+class PageQuery(BaseModel):
+    """Which page of the list of jobs."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    page_size: int = Field(default=50, ge=1, le=1000, description="Most jobs in one page.")
+    page_token: str | None = Field(default=None, description="next_page_token of the page before.")
+
+    def checked_token(self) -> str | None:
+        """Return the token, or refuse one that this service never gave."""
+        if self.page_token is not None and not is_job_id(self.page_token):
+            sentence = "Give the next_page_token of a page, or leave it out."
+            raise RequestRefused(
+                kinds.INVALID_REQUEST,
+                "The page_token is not one that this service gave.",
+                [ErrorDetail(parameter="page_token", detail=sentence)],
+            )
+        return self.page_token

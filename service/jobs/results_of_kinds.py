@@ -1,0 +1,28 @@
+"""Which results a job of each kind has, as parts of its address."""
+
+from service.problems import RequestRefused, kinds
+from storage.catalogue import Job
+
+RESULTS = {
+    "simulate": ("history", "peaks", "poincare", "impacts", "statistics", "figures"),
+    "bifurcation": ("bifurcation", "poincare", "figures"),
+    "sweep": ("sweep", "figures"),
+    "poincare": ("poincare", "figures"),
+    "ensemble": ("poincare", "figures"),
+}
+
+
+def is_study(job: Job) -> bool:
+    """Tell whether a job has points, and not one history."""
+    return job.kind != "simulate"
+
+
+def insist(job: Job, result: str) -> None:
+    """Refuse with 404 what a job of this kind does not have."""
+    if result in RESULTS[job.kind]:
+        return
+    addresses = ", ".join(f"/v1/jobs/{job.id}/{name}" for name in RESULTS[job.kind])
+    raise RequestRefused(
+        kinds.WRONG_KIND,
+        f"Job {job.id} is of kind {job.kind} and has no {result}; it has {addresses}.",
+    )

@@ -1,0 +1,157 @@
+"""From a study's store to the columns that the API shows."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from service.results.schemas import Series
+from service.studies import schemas
+from service.studies.queries import (
+    BifurcationQuery,
+    SectionRange,
+    SweepQuery,
+    channels,
+    one_observable,
+    page,
+    points_of,
+    sections_of,
+)
+from storage.studies import StudyReader
+
+Floats = NDArray[np.float64]
+STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")
+VERDICT = "verdict"
+_READ = 4_000_000
+
+
+def bifurcation(store: StudyReader, query: BifurcationQuery) -> schemas.Bifurcation:
+    """Return an observable over the parameter."""
+    name = one_observable(store, query.observable)
+    window = sections_of(store, query)
+    points, following = page(points_of(store, query), len(window) + _columns(store))
+    (parameter,) = store.parameters
+    directions: list[Any] | None = None
+    if store.attributes["job"]["continuation"] == "both":
+        half = store.points // 2
+        directions = ["forward" if point < half else "backward" for point in points]
+    return schemas.Bifurcation.model_construct(
+        **_judged(store, points, following),
+        parameter=parameter.name,
+        directions=directions,
+        observable=name,
+        sections=_rows(store, points, window, [name])[name],
+    )
+
+
+def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> schemas.Sections:
+    """Return times and channels at the sections of points."""
+    names = channels("channels", chosen, [one.name for one in store.observables])
+    window = sections_of(store, query)
+    width = (len(names) + 1) * len(window) + _columns(store)
+    points, following = page(points_of(store, query), width)
+    rows = _rows(store, points, window, names)
+    return schemas.Sections.model_construct(
+        **_judged(store, points, following),
+        time=rows.pop(""),
+        channels={name: rows[name] for name in names},
+    )
+
+
+def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:
+    """Return extremes over the parameters."""
+    names = channels("channel", query.channel, [one.name for one in store.channels])
+    points, following = page(points_of(store, query), 5 * len(names) + _columns(store))
+    part = slice(points.start, points.stop)
+    described = {channel.name: channel for channel in store.channels}
+    peaks = {}
+    for name in names:
+        found = store.peaks(name)
+        peaks[name] = schemas.PeakColumns.model_construct(
+            unit=described[name].unit,
+            long_name=described[name].long_name,
+            range=(found.maximum - found.minimum)[part].tolist(),
+            **{which: column[part].tolist() for which, column in found._asdict().items()},
+        )
+    return schemas.Sweep.model_construct(**_points(store, points, following), peaks=peaks)
+
+
+def _columns(store: StudyReader) -> int:
+    """Count the values that every point takes beside its sections or extremes."""
+    return len(store.parameters) + len(store.statistics) + len(store.indicators) + 3
+
+
+def _points(store: StudyReader, points: range, following: int | None) -> dict[str, Any]:
+    part = slice(points.start, points.stop)
+    return {
+        "complete": store.complete,
+        "points": store.points,
+        "start": points.start,
+        "next_start": following,
+        "values": {
+            one.name: Series.model_construct(
+                unit=one.unit, long_name=one.long_name, values=store.values[part, column].tolist()
+            )
+            for column, one in enumerate(store.parameters)
+        },
+        "status": [STATUS[code] for code in store.status[part]],
+        "failures": [
+            schemas.PointFailure.model_construct(
+                point=point, code=one.code, detail=one.detail, time=one.time
+            )
+            for point, one in sorted(store.failures.items())
+            if point in points
+        ],
+        "statistics": {name: one[part].tolist() for name, one in store.statistics.items()},
+    }
+
+
+def _judged(store: StudyReader, points: range, following: int | None) -> dict[str, Any]:
+    part = slice(points.start, points.stop)
+    codes, names = store.verdicts, store.verdict_names
+    return {
+        **_points(store, points, following),
+        "indicators": {
+            name: one[part].tolist() for name, one in store.indicators.items() if name != VERDICT
+        },
+        "verdicts": None
+        if codes is None
+        else [None if code < 0 else names[code] for code in codes[part]],
+    }
+
+
+def _rows(
+    store: StudyReader, points: range, window: range, names: list[str]
+) -> dict[str, schemas.Rows]:
+    """Return times, under the name "", and observables at sections that were recorded."""
+    described = {one.name: (one.unit, one.long_name) for one in store.observables}
+    described[""] = ("s", "time since the start of the point's run")
+    values: dict[str, list[Any]] = {name: [] for name in ("", *names)}
+    if len(points) == 1:  # of a long record, only the window is read
+        time, columns = store.point_sections(points[0], names, window.start, window.stop)
+        for name, column in {"": time, **columns}.items():
+            values[name].append(column.tolist())
+    else:
+        for name in values:
+            read = partial(store.sections, name) if name else store.section_times
+            values[name] = list(_recorded(store, points, window, read))
+    return {
+        name: schemas.Rows.model_construct(
+            unit=described[name][0], long_name=described[name][1], values=rows
+        )
+        for name, rows in values.items()
+    }
+
+
+def _recorded(
+    store: StudyReader, points: range, window: range, read: Callable[[int, int], Floats]
+) -> Iterator[list[float]]:
+    """Yield a window of what each point recorded; at most about `_READ` values are held."""
+    ends = np.clip(store.counts, window.start, window.stop).tolist()
+    rows = max(_READ // store.record, 1)
+    for first in range(points.start, points.stop, rows):
+        last = min(first + rows, points.stop)
+        for point, row in enumerate(read(first, last), first):
+            yield row[window.start : ends[point]].tolist()

@@ -1,0 +1,178 @@
+"""What a client can ask of a study: a range of points and of their sections, within bounds."""
+
+from collections.abc import Sequence
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from service.problems import ErrorDetail, RequestRefused, kinds
+from service.results.queries import MOST_VALUES, Selection, chosen_channels
+from storage.studies import StudyReader
+
+
+class PointRange(BaseModel):
+    """A range of points."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    start: int | None = Field(default=None, ge=0, description="First point; default 0.")
+    stop: int | None = Field(
+        default=None, ge=0, description="Point before which to end; default: after the last."
+    )
+
+
+class SectionRange(PointRange):
+    """A range of points and, of each, a range of sections."""
+
+    section_start: int | None = Field(
+        default=None, ge=0, description="First section of each point; default 0."
+    )
+    section_stop: int | None = Field(
+        default=None, ge=0, description="Section before which to end; default: after the last."
+    )
+
+
+class BifurcationQuery(SectionRange):
+    """One observable at the sections of a range of points."""
+
+    observable: str | None = Field(
+        default=None,
+        max_length=200,
+        description="Channel that was taken at the sections; default: the first one.",
+    )
+
+
+class SweepQuery(PointRange):
+    """Extremes of channels at a range of points."""
+
+    channel: str | None = Field(
+        default=None,
+        max_length=20_000,
+        description="Names or globs of channels, separated by commas; default: all.",
+    )
+
+
+class PoincareQuery(Selection):
+    """What to show at Poincare sections: of a simulation by time, of a study by points."""
+
+    start: float | None = Field(
+        default=None,
+        description="Of a simulation: from this time on, in s. Of a study: first point.",
+    )
+    stop: float | None = Field(
+        default=None,
+        description="Of a simulation: up to this time, in s. Of a study: point before which to "
+        "end.",
+    )
+    section_start: int | None = Field(
+        default=None, ge=0, description="Of a study: first section of each point; default 0."
+    )
+    section_stop: int | None = Field(
+        default=None, ge=0, description="Of a study: section before which to end."
+    )
+
+    def window_of_time(self) -> Selection:
+        """Return the question to a simulation, or refuse what only studies have."""
+        for name in ("section_start", "section_stop"):
+            if getattr(self, name) is not None:
+                raise _refused(name, f"A simulation has no {name}; choose by time, in s.")
+        return Selection(channels=self.channels, start=self.start, stop=self.stop)
+
+    def range_of_points(self) -> SectionRange:
+        """Return the question to a study, or refuse points that are no whole numbers."""
+        return SectionRange(
+            start=whole_point("start", self.start),
+            stop=whole_point("stop", self.stop),
+            section_start=self.section_start,
+            section_stop=self.section_stop,
+        )
+
+
+def whole_point(name: str, value: float | None) -> int | None:
+    """Return the index of a point, or refuse a number that is none."""
+    if value is None:
+        return None
+    if value < 0.0 or not value.is_integer():
+        raise _refused(name, f"{name} is {value:g}; points of a study are counted from 0.")
+    return int(value)
+
+
+def points_of(store: StudyReader, query: PointRange) -> range:
+    """Return the points that were asked for, or refuse a range outside the study."""
+    return _within(store.points, "point", query.start, query.stop, ("start", "stop"))
+
+
+def sections_of(store: StudyReader, query: SectionRange) -> range:
+    """Return the sections of each point that were asked for, or refuse others."""
+    names = ("section_start", "section_stop")
+    return _within(store.record, "section", query.section_start, query.section_stop, names)
+
+
+def page(points: range, width: int) -> tuple[range, int | None]:
+    """Cut a range of points to what one answer carries.
+
+    Parameters
+    ----------
+    points
+        What was asked for.
+    width
+        Values that each point takes.
+
+    Returns
+    -------
+    tuple
+        The points of this answer, and the `start` of the next one; none if there is none.
+    """
+    most = MOST_VALUES // width
+    if most == 0:
+        sentence = (
+            f"One point takes {width} values; an answer carries at most {MOST_VALUES}. Ask for a "
+            "range of its sections with `section_start` and `section_stop`, or for fewer channels."
+        )
+        errors = [ErrorDetail(parameter="section_stop", detail="Choose fewer sections.")]
+        raise RequestRefused(kinds.RESPONSE_TOO_LARGE, sentence, errors)
+    if len(points) <= most:
+        return points, None
+    return points[:most], points[most]
+
+
+def one_observable(store: StudyReader, name: str | None) -> str:
+    """Return the observable that is meant, or refuse one that was not recorded."""
+    names = [observable.name for observable in store.observables]
+    if name is None:
+        return names[0]
+    if name in names:
+        return name
+    return _chosen("observable", name, names)[0]
+
+
+def channels(parameter: str, text: str | None, names: Sequence[str]) -> list[str]:
+    """Return the channels that names and globs in a parameter mean, or refuse."""
+    return _chosen(parameter, text, list(names))
+
+
+def _chosen(parameter: str, text: str | None, names: list[str]) -> list[str]:
+    try:
+        return chosen_channels(text, names)
+    except RequestRefused as refused:
+        errors = [ErrorDetail(parameter=parameter, detail=one.detail) for one in refused.errors]
+        raise RequestRefused(refused.kind, refused.detail, errors) from None
+
+
+def _within(
+    total: int, what: str, start: int | None, stop: int | None, names: tuple[str, str]
+) -> range:
+    first = 0 if start is None else start
+    last = total if stop is None else stop
+    if first < last <= total or (first == 0 and last == total):
+        return range(first, last)
+    wrong = names[0] if first >= total else names[1]
+    sentence = (
+        f"The study has {what}s 0 to {total - 1}; {names[0]} is the first and {names[1]} the one "
+        f"before which to end, so that {names[0]} < {names[1]} <= {total}."
+    )
+    raise _refused(wrong, sentence)
+
+
+def _refused(parameter: str, sentence: str) -> RequestRefused:
+    errors = [ErrorDetail(parameter=parameter, detail=sentence)]
+    return RequestRefused(kinds.INVALID_REQUEST, sentence, errors)

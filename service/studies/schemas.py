@@ -1,0 +1,94 @@
+"""Studies as the API shows them: columns over their points. What is not known is null."""
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field
+
+from service.results.schemas import Series, Values
+
+Status = Literal["waiting", "running", "done", "failed"]
+SECONDS: dict[str, Any] = {"unit": "s"}
+
+
+class PointFailure(BaseModel):
+    """Why one point failed; what it recorded before is kept."""
+
+    point: int
+    code: str = Field(description="The reason for programs, for example step-size-underflow.")
+    detail: str = Field(description="The reason, and what to try.")
+    time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
+
+
+class StudyPoints(BaseModel):
+    """A range of a study's points, the first being `start`; every list has one entry a point."""
+
+    complete: bool = Field(
+        description="False: the study runs, or failed or was cancelled on the way."
+    )
+    points: int = Field(description="Points of the whole study.")
+    start: int = Field(description="Index of the first point in this answer.")
+    next_start: int | None = Field(
+        description="Give it as start for the points that did not fit; null: there are none."
+    )
+    values: dict[str, Series] = Field(description="By parameter, its value at each point.")
+    status: list[Status]
+    failures: list[PointFailure] = Field(description="Of the points that failed.")
+    statistics: dict[str, Values] = Field(
+        description="By name: steps, onsets, energy_residual (J) and others."
+    )
+
+
+class JudgedPoints(StudyPoints):
+    """Points with what tells regular from chaotic motion."""
+
+    indicators: dict[str, Values] = Field(
+        description="By name, the uncertainties as `…_error`: lyapunov (1/s), zero_one, period "
+        "(in sections), rotation (turns a section) and others, as far as they were asked for."
+    )
+    verdicts: list[str | None] | None = Field(
+        description="periodic, quasi-periodic, chaotic or undecided; null: not asked for."
+    )
+
+
+class Rows(BaseModel):
+    """A quantity at the sections of every point: as many values as it recorded."""
+
+    unit: str
+    long_name: str = Field(description="What the quantity is, in words.")
+    values: list[Values]
+
+
+class Bifurcation(JudgedPoints):
+    """An observable at the sections of every value of the parameter."""
+
+    parameter: str
+    directions: list[Literal["forward", "backward"]] | None = Field(
+        description="Of the continuation in both directions, which has two points a value."
+    )
+    observable: str
+    sections: Rows
+
+
+class Sections(JudgedPoints):
+    """Times and channels at the sections of every point."""
+
+    time: Rows
+    channels: dict[str, Rows]
+
+
+class PeakColumns(BaseModel):
+    """Signed extremes of one channel, found between the samples too."""
+
+    unit: str
+    long_name: str = Field(description="What the channel is, in words.")
+    minimum: Values
+    minimum_time: Values = Field(json_schema_extra=SECONDS)
+    maximum: Values
+    maximum_time: Values = Field(json_schema_extra=SECONDS)
+    range: Values = Field(description="Maximum less minimum.")
+
+
+class Sweep(StudyPoints):
+    """Extremes of channels over the parameters."""
+
+    peaks: dict[str, PeakColumns]
