@@ -11,8 +11,12 @@ import sys
 from pathlib import Path
 
 from solver.compiler.cache import cache_folder
+from solver.compiler.kernel import Kernel, compile_kernel
+from solver.integrators import METHODS
 from solver.lanes.advance import advance
 from solver.lanes.observation import observe_rows
+from solver.mechanics.tree import spanning_tree
+from solver.scene.document import Scene
 
 
 def compile_loop() -> None:
@@ -32,6 +36,21 @@ def compile_loop_aside() -> subprocess.Popen[bytes] | None:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
+
+
+def ready_kernel(scene: Scene, formulation: str) -> Kernel:
+    """Return the kernel of a scene's structure, the loop ready, too; seconds when not cached.
+
+    Raises
+    ------
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    aside = compile_loop_aside()
+    kernel = compile_kernel(scene, spanning_tree(scene), formulation, METHODS["tsitouras5"])
+    if aside is not None:
+        aside.wait()
+    return kernel
 
 
 def _marker() -> Path:

@@ -59,8 +59,6 @@ class Kernel:
     play: tuple[str, ...]
     rows: Rows
     """What the ``channel`` block holds."""
-    held: NDArray[np.int64]
-    """Slots that a lane keeps when its step is not taken."""
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
 
@@ -75,11 +73,13 @@ class Kernel:
         m = self.module
         functions = (
             m.attempt,
-            m.keep,
-            m.commit,
+            m.mark,
+            m.take,
+            m.take_some,
             m.right_hand_side,
             m.observe,
             m.scan,
+            m.scan_some,
             m.lend,
             m.probe,
             m.probe_around,
@@ -112,6 +112,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
+    layout.add_block("taken", max(rows.scanned, layout["before_y0"] - layout["y0"]))
+    layout.add("taken_end")
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", len(equations.drivers))
     layout.add_block("wound", len(equations.drivers))
@@ -146,13 +148,6 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
         equations.drivers,
         equations.play,
         rows,
-        np.array(
-            [
-                *stepping.held(layout, states, ledger, joints),
-                *range(layout["previous0"], layout["previous0"] + rows.scanned),
-                *range(layout["change0"], layout["change0"] + rows.scanned),
-            ]
-        ),
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
     )
 

@@ -36,8 +36,42 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
 
 
 def source(layout: Layout, rows: int) -> str:
-    """Return the source of scan(W)."""
+    """Return the source of scan(W), and of scan_some(W) for the lanes that accept their step."""
+    return "\n\n".join([_scan(layout, rows, some=False), _scan(layout, rows, some=True)])
+
+
+def _scan(layout: Layout, rows: int, *, some: bool) -> str:
     at = {name: layout[f"{name}0"] * LANES for name in BLOCKS}
+    change, found = "change", "within"
+    value = "value"
+    if some:
+        kept = f"if W[{layout['taken0'] * LANES} + i] > 0.0 else"
+        value, change, found = (
+            f"value {kept} before",
+            f"change {kept} rose",
+            f"within {kept} 0.0",
+        )
+    body = f"""    for i in range({rows * LANES}):
+        value = W[{at["channel"]} + i]
+        before = W[{at["previous"]} + i]
+        rose = W[{at["change"]} + i]
+        change = value - before
+        above = W[{at["highest"]} + i] - before
+        below = before - W[{at["lowest"]} + i]
+        nearest = above if above < below else below
+        both = abs(rose) + abs(change)
+        uneven = rose + change
+        within = {LOPSIDED} * uneven * uneven + ({SPARE} * both - nearest) * both
+        within = 0.0 if rose * change > 0.0 else within
+        W[{at["channel"]} + i] = {found}
+        W[{at["previous"]} + i] = {value}
+        W[{at["change"]} + i] = {change}"""
+    name = "scan_some" if some else "scan"
+    return "\n".join([RETURNING, f"def {name}(W):", body, _largest(layout, at, rows)])
+
+
+def _largest(layout: Layout, at: dict[str, int], rows: int) -> str:
+    """Largest candidate of each lane, then of all."""
     peak = layout["peak"] * LANES
     lines = []
     for row in range(rows):
@@ -53,23 +87,7 @@ def source(layout: Layout, rows: int) -> str:
         for other in range(1, min(CHAINS, rows))
     ]
     largest = "\n".join(lines)
-    return f"""{RETURNING}
-def scan(W):
-    for i in range({rows * LANES}):
-        value = W[{at["channel"]} + i]
-        before = W[{at["previous"]} + i]
-        rose = W[{at["change"]} + i]
-        change = value - before
-        above = W[{at["highest"]} + i] - before
-        below = before - W[{at["lowest"]} + i]
-        nearest = above if above < below else below
-        both = abs(rose) + abs(change)
-        uneven = rose + change
-        within = {LOPSIDED} * uneven * uneven + ({SPARE} * both - nearest) * both
-        W[{at["channel"]} + i] = 0.0 if rose * change > 0.0 else within
-        W[{at["previous"]} + i] = value
-        W[{at["change"]} + i] = change
-    for l in range({LANES}):
+    return f"""    for l in range({LANES}):
 {largest}
         W[{peak} + l] = found0
     largest = 0.0

@@ -23,7 +23,7 @@ LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 
-REJECTED, DUE, ONSET, RELEASE = 1.0, 2.0, 4.0, 8.0
+REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
 """What a lane's flag is the sum of."""
 
 
@@ -31,7 +31,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory")
-    layout.add("end", "next_due", "largest_step", "steps", "smallest_step")
+    layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
     for prefix in ("", "before_"):  # two equal pieces, so that one can be copied to the other
         layout.add_block(f"{prefix}y", states)
         for s in range(1, stages + 1):
@@ -52,20 +52,6 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add("before_time", "before_step")
     layout.add_block("before_mode", joints)
     layout.add_block("before_impact_rate", joints)
-
-
-def held(layout: Layout, states: int, ledger: int, joints: int) -> list[int]:
-    """Return the slots that a lane keeps when its step is not taken: all that `commit` writes.
-
-    Not among them is ``step``: a step that is not taken is tried again with another.
-    """
-    names = ["time", "before_time", "before_step", "memory", "steps", "smallest_step"]
-    names += [f"{block}{i}" for i in range(states) for block in ("y", "k1_")]
-    names += [f"{block}{i}" for i in range(ledger) for block in ("total", "kledger1_")]
-    blocks = ("gap_start", "gap_rate_start", "before_mode", "before_impact_rate")
-    names += [f"{block}{j}" for j in range(joints) for block in blocks]
-    first = layout["before_y0"]
-    return [*(layout[name] for name in names), *range(first, 2 * first - layout["y0"])]
 
 
 class StepRecorder:
@@ -91,7 +77,8 @@ class StepRecorder:
     def source(self) -> str:
         """Return the source of all functions of a step."""
         parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
-        parts += [self._judge(), self._attempt(), self._keep(), self._commit()]
+        parts += [self._judge(), self._attempt()]
+        parts += [self._mark(), self._take(some=False), self._take(some=True)]
         parts += [self._probe(), self._probe_around()]
         return "\n\n".join(parts)
 
@@ -156,7 +143,8 @@ class StepRecorder:
         growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
         growth = minimum(growth, number(LARGEST_GROWTH))
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
-        flag = REJECTED * (1.0 - good) + due
+        pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
+        flag = REJECTED * (1.0 - good) + due + pace
         onset: Expression = number(0.0)
         release: Expression = number(0.0)
         for j in range(self.joints):
@@ -217,17 +205,8 @@ class StepRecorder:
             ]
         )
 
-    def _keep(self) -> str:
-        """Keep the dense output of the step that is being taken as the one before."""
-        source, target = self.layout["y0"] * LANES, self.layout["before_y0"] * LANES
-        return f"""{DECORATOR}
-def keep(W):
-    for i in range({target - source}):
-        W[{target} + i] = W[{source} + i]
-"""
-
-    def _commit(self) -> str:
-        """Take the step, in every lane; the driving loop puts back those that do not.
+    def _take(self, *, some: bool) -> str:
+        """Take the step, in every lane or in those that accept it, and keep the one before.
 
         Lanes that are over take steps of no length, which change nothing that is handed out.
         """
@@ -238,25 +217,51 @@ def keep(W):
             ("before_time", v("time")),
             ("before_step", v("tried")),
             ("time", v("arrival")),
-            ("step", v("next_step")),
             ("memory", v("new_memory")),
             ("steps", v("steps") + running),
             ("smallest_step", select_positive(running, smallest, v("smallest_step"))),
         ]
-        for i in range(self.states):
-            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
             for s, b in enumerate(self.tableau.matrix[-1], start=1):
                 total = total + b * v(f"kledger{s}_{i}")
             outputs.append((f"total{i}", v(f"total{i}") + v("tried") * total))
-            outputs.append((f"kledger1_{i}", v(f"ledger{i}")))
         for j in range(self.joints):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
             outputs.append((f"before_mode{j}", v(f"mode{j}")))
             outputs.append((f"before_impact_rate{j}", v(f"impact_rate{j}")))
-        return self._function("commit", outputs)
+        if some:
+            taken = v("accept")
+            outputs = [(slot, select_positive(taken, new, v(slot))) for slot, new in outputs]
+        name = "take_some" if some else "take"
+        rest = self._function(name, [*outputs, ("step", v("next_step"))])
+        dense_output = self.layout["before_y0"] - self.layout["y0"]
+        copies = [
+            self._copy("before_y0", "y0", dense_output, some=some),
+            self._copy("y0", "stage0", self.states, some=some),
+            self._copy("k1_0", "slope0", self.states, some=some),
+        ]
+        ledger = self._copy("kledger1_0", "ledger0", self.ledger, some=some)
+        return "\n".join([rest.rstrip("\n"), *copies, ledger, ""])
+
+    def _mark(self) -> str:
+        """Repeat what says which lanes accept their step, as often as flat loops need it."""
+        accept, first = self.layout["accept"] * LANES, self.layout["taken0"] * LANES
+        rows = range(self.layout["taken_end"] - self.layout["taken0"])
+        stores = [f"        W[{first + row * LANES} + l] = accept" for row in rows]
+        loop = [f"    for l in range({LANES}):", f"        accept = W[{accept} + l]"]
+        return "\n".join([DECORATOR, "def mark(W):", *loop, *stores, ""])
+
+    def _copy(self, target: str, source: str, count: int, *, some: bool) -> str:
+        """Return a flat loop that copies consecutive slots."""
+        at, here = self.layout[source] * LANES, self.layout[target] * LANES
+        lines = [f"    for i in range({count * LANES}):", f"        new = W[{at} + i]"]
+        if some:
+            lines.append(f"        old = W[{here} + i]")
+            mark = self.layout["taken0"] * LANES
+            lines.append(f"        new = new if W[{mark} + i] > 0.0 else old")
+        return "\n".join([*lines, f"        W[{here} + i] = new"])
 
     def _probe(self) -> str:
         """Dense output of one lane at eight instants: `theta` of S says where in the step."""

@@ -18,15 +18,22 @@ from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.borrowed import borrowed
 from solver.lanes.contacts import begin_contact, end_contact, land, note_openings
+from solver.lanes.events import (
+    any_crossing,
+    crosses,
+    has_all_events,
+    locate_crossing,
+    record_event,
+)
 from solver.lanes.peaks import end_peaks, refine_peaks
-from solver.lanes.periods import plan, stop, turn_over
+from solver.lanes.periods import check_pace, plan, stop, turn_over
 from solver.lanes.rows import emit
-from solver.lanes.state import Counter, Setting, Status
+from solver.lanes.state import Counter, SectionKind, Setting, Status
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))
 PROBE_FUNCTION = types.FunctionType(void(float64[::1], float64[::1], int64))
-REJECTED, DUE, ONSET, RELEASE = 1, 2, 4, 8
+REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
 """What a lane's flag is the sum of; see `solver.compiler.stepping`."""
 
 
@@ -75,9 +82,10 @@ def settle(
     work: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
+    section_rows: np.ndarray,
     impact_rows: np.ndarray,
 ) -> bool:
-    """Look after one lane once its step is taken; whether the impact buffer is nearly full."""
+    """Look after one lane once its step is taken; whether a buffer is nearly full."""
     period = settings[Setting.PERIOD, lane]
     begun = float(counters[Counter.PERIOD, lane]) * period
     now = begun + work[slots[Slot.TIME] * LANES + lane]
@@ -88,6 +96,13 @@ def settle(
         counters[Counter.ONSETS, lane] += 1
         counters[Counter.LANDING, lane] = -1
         counters[Counter.LANDINGS, lane] = 0
+        if (
+            int(settings[Setting.SECTION_KIND, lane]) == SectionKind.ONSET
+            and int(settings[Setting.SECTION_PLACE, lane]) == landed
+        ):
+            full |= record_event(
+                lane, lane, slots, work, work, settings, counters, section_rows
+            )  # fmt: skip
     if flag & RELEASE:
         for j in range(slots[Slot.JOINTS]):
             gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
@@ -96,18 +111,21 @@ def settle(
                 work[(slots[Slot.MODE] + j) * LANES + lane] = 0.0
                 opened = begun + work[(slots[Slot.OPENED] + j) * LANES + lane]
                 end_contact(j, opened, lane, slots, work, counters, impact_rows)
-        full = counters[Counter.IMPACT_ROWS, lane] + slots[Slot.JOINTS] > impact_rows.shape[1]
+        full |= counters[Counter.IMPACT_ROWS, lane] + slots[Slot.JOINTS] > impact_rows.shape[1]
+    over = work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]
+    if over or has_all_events(lane, settings, counters):
+        end_peaks(lane, slots, work, now)
+        for j in range(slots[Slot.JOINTS]):
+            if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
+                end_contact(j, math.nan, lane, slots, work, counters, impact_rows)
+        stop(lane, Status.DONE, slots, work, counters)
+        return full
+    if flag & PACE:
+        check_pace(lane, slots, work, settings, counters)
     if flag & DUE:
-        if work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]:
-            end_peaks(lane, slots, work, now)
-            for j in range(slots[Slot.JOINTS]):
-                if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
-                    end_contact(j, math.nan, lane, slots, work, counters, impact_rows)
-            stop(lane, Status.DONE, slots, work, counters)
-            return full
         if work[slots[Slot.TIME] * LANES + lane] >= period:
             turn_over(lane, slots, work, settings, counters)
-        plan(lane, slots, work, settings, counters)
+        plan(lane, slots, work, settings)
     return full
 
 
@@ -131,66 +149,58 @@ def still_landing(counters: np.ndarray) -> bool:
     return landing > 0
 
 
-@kernel()
-def copy_lane(source: np.ndarray, target: np.ndarray, held: np.ndarray, lane: int) -> None:
-    """Copy the slots that a lane keeps when its step is not taken."""
-    for i in range(len(held)):
-        place = held[i] * LANES + lane
-        target[place] = source[place]
-
-
 TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 
 
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 4,
-        FLAG_FUNCTION,
+        *[LANE_FUNCTION] * 5,
+        *[FLAG_FUNCTION] * 2,
         *[PROBE_FUNCTION] * 3,
         int64[::1],
-        int64[::1],
-        *[float64[::1]] * 3,
+        *[float64[::1]] * 2,
         TABLE,
         int64[:, ::1],
         TABLE,
         *[ROWS] * 3,
         int64,
+        int64,
     )
 )
 def advance(
     attempt: LaneFunction,
-    keep: LaneFunction,
-    commit: LaneFunction,
+    mark: LaneFunction,
+    take: LaneFunction,
+    take_some: LaneFunction,
     right_hand_side: LaneFunction,
     observe: LaneFunction,
     scan: LaneFunction,
+    scan_some: LaneFunction,
     lend: LaneFunction,
     probe: LaneFunction,
     probe_around: LaneFunction,
     slots: np.ndarray,
-    held: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    store: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
     scratch: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
+    watch: int,
     budget: int,
 ) -> int:
-    """Make at most `budget` attempts at a step.
+    """Make at most `budget` attempts at a step; fewer if a lane ends or a buffer is full.
 
     Parameters
     ----------
-    attempt, keep, commit, right_hand_side, observe, scan, lend, probe, probe_around
+    attempt, mark, take, take_some, right_hand_side, observe, scan, scan_some, lend
+    probe, probe_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     slots
-        Where quantities live in `work`, `spare` and `store`, all (slots * LANES,).
-    held
-        Slots of `work` that wait in `store` while a lane's step is not taken.
+        Where quantities live in `work` and `spare`, both (slots * LANES,).
     settings, counters
         (kinds, LANES): see `solver.lanes.state`.
     scratch : (rows + 1, POINTS + 1)
@@ -199,21 +209,23 @@ def advance(
         Dense states at samples and sections; `solver.lanes.state.row_width` gives the width.
     impact_rows : (LANES, capacity, 6)
         Contacts that ended: joint, onset, release, approach rate, peak force, impulse.
+    watch
+        Whether the extremes of channels are sought; sections at crossings need it, too.
 
     Returns
     -------
     int
-        How many lanes still run.
+        How many attempts were made.
     """
     work, spare, slots = borrowed(work), borrowed(spare), borrowed(slots)
     settings, counters = borrowed(settings), borrowed(counters)
     scratch = borrowed(scratch)
-    held, store = borrowed(held), borrowed(store)
     running = count_active(slots, work)
     landing = still_landing(counters)
-    for _ in range(budget):
-        if running == 0:
-            break
+    crossing = any_crossing(settings)
+    made = 0
+    while made < budget and running > 0:
+        made += 1
         flags = attempt(work)
         quiet = flags == 0.0 and not landing
         full = False
@@ -227,10 +239,27 @@ def advance(
                         flag, lane, slots, work, spare, settings, counters,
                         sample_rows, section_rows, lend, probe, right_hand_side,
                     )  # fmt: skip
-                if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
-                    copy_lane(work, store, held, lane)
-        observe(work)
-        if scan(work) > 0.0:
+            mark(work)
+        if watch:
+            observe(work)
+        if crossing:
+            for lane in range(LANES):
+                if work[slots[Slot.ACCEPT] * LANES + lane] > 0.0 and crosses(
+                    lane, slots, work, settings
+                ):
+                    if quiet:
+                        mark(work)
+                        quiet = False
+                    found = locate_crossing(
+                        lane, slots, work, spare, settings, lend, probe, right_hand_side, observe
+                    )
+                    full |= record_event(
+                        found, lane, slots, work, spare, settings, counters, section_rows
+                    )
+        candidate = 0.0
+        if watch:
+            candidate = scan(work) if quiet else scan_some(work)
+        if candidate > 0.0:
             for lane in range(LANES):
                 if (
                     work[slots[Slot.PEAK] * LANES + lane] > 0.0
@@ -240,19 +269,25 @@ def advance(
                         lane, slots, work, spare, counters, settings, scratch,
                         lend, probe_around, right_hand_side, observe,
                     )  # fmt: skip
-        keep(work)
-        commit(work)
         if quiet:
+            take(work)
             continue
+        take_some(work)
         for lane in range(LANES):
             if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
-                copy_lane(store, work, held, lane)
                 continue
             flag = int(work[slots[Slot.FLAG] * LANES + lane])
-            if flag != 0 or counters[Counter.LANDING, lane] >= 0:
-                full |= settle(flag, lane, slots, work, settings, counters, impact_rows)
-        running = count_active(slots, work)
+            if (
+                flag != 0
+                or counters[Counter.LANDING, lane] >= 0
+                or has_all_events(lane, settings, counters)
+            ):
+                full |= settle(
+                    flag, lane, slots, work, settings, counters, section_rows, impact_rows
+                )
+        still = count_active(slots, work)
         landing = still_landing(counters)
-        if full:
+        if full or still < running:  # a free lane may have a new problem waiting
             break
-    return running
+        running = still
+    return made

@@ -36,8 +36,9 @@ def refine_peaks(
     for the instants and one for each candidate, (rows + 1, POINTS + 1).
     """
     count = 0
-    for r in range(slots[Slot.ROWS]):
-        if work[(slots[Slot.CHANNEL] + r) * LANES + lane] > 0.0:
+    channel, rows = slots[Slot.CHANNEL] * LANES, slots[Slot.ROWS]
+    for r in range(rows):
+        if work[channel + r * LANES + lane] > 0.0:
             scratch[count + 1, POINTS] = r
             count += 1
     times = scratch[0]
@@ -96,13 +97,16 @@ def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float,
 
 @kernel()
 def interpolate(times: np.ndarray, values: np.ndarray, first: int, at: float) -> float:
-    """Value at an instant of the polynomial through WINDOW samples from `first` (Neville)."""
-    table = values[first : first + WINDOW].copy()
-    for level in range(1, WINDOW):
-        for i in range(WINDOW - level):
-            low, high = times[first + i], times[first + i + level]
-            table[i] = ((at - high) * table[i] + (low - at) * table[i + 1]) / (low - high)
-    return table[0]
+    """Value at an instant of the polynomial through WINDOW samples from `first` (Lagrange)."""
+    total = 0.0
+    for i in range(first, first + WINDOW):
+        above, below = values[i], 1.0
+        for k in range(first, first + WINDOW):
+            if k != i:
+                above *= at - times[k]
+                below *= times[i] - times[k]
+        total += above / below
+    return total
 
 
 @kernel()

@@ -10,10 +10,16 @@ from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import kernel
 from solver.lanes.clock import product_difference
-from solver.lanes.state import Counter, Setting
+from solver.lanes.state import Counter, SectionKind, Setting, Status
 
 SAMPLES, SECTIONS = 0, 1
 """Kinds of rows that fall due at fixed times."""
+PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
+"""Fewer periods than SLOWEST_PACE in PACE_STEPS steps are no progress: the run ends."""
+SAME = 1e-12
+"""Of a period: a section so close to the end of the run is taken there."""
+MOST_STEPS = 4e9
+"""Accepted steps of one run: days of computing."""
 
 
 @kernel()
@@ -36,19 +42,35 @@ def due_time(
         if index == last:
             return work[slots[Slot.END] * LANES + lane]
         return product_difference(float(index), settings[Setting.OUTPUT_STEP, lane], whole, period)
-    if index >= counters[Counter.SECTIONS, lane]:
+    if (
+        index >= counters[Counter.SECTIONS, lane]
+        or int(settings[Setting.SECTION_KIND, lane]) != SectionKind.CRANK
+    ):
         return math.inf
-    return (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, lane]
+    moment = (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, lane]
+    end = work[slots[Slot.END] * LANES + lane]
+    return end if abs(moment - end) <= SAME * period else moment
 
 
 @kernel()
-def plan(
-    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+def look_ahead(
+    kind: int,
+    lane: int,
+    slots: np.ndarray,
+    work: np.ndarray,
+    settings: np.ndarray,
+    counters: np.ndarray,
 ) -> None:
+    """Note when the next sample or section is due."""
+    index = counters[Counter.SAMPLE if kind == SAMPLES else Counter.SECTION, lane]
+    due = due_time(kind, index, lane, slots, work, settings, counters)
+    settings[Setting.SAMPLE_DUE + kind, lane] = due
+
+
+@kernel()
+def plan(lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray) -> None:
     """Set the next local time at which a lane wants attention."""
-    sample = due_time(0, counters[Counter.SAMPLE, lane], lane, slots, work, settings, counters)
-    section = due_time(1, counters[Counter.SECTION, lane], lane, slots, work, settings, counters)
-    soonest = min(sample, section)
+    soonest = min(settings[Setting.SAMPLE_DUE, lane], settings[Setting.SECTION_DUE, lane])
     soonest = min(soonest, settings[Setting.PERIOD, lane])
     work[slots[Slot.NEXT_DUE] * LANES + lane] = min(soonest, work[slots[Slot.END] * LANES + lane])
 
@@ -66,6 +88,8 @@ def turn_over(
     work[slots[Slot.END] * LANES + lane] = product_difference(
         settings[Setting.DURATION, lane], 1.0, whole, period
     )
+    for kind in range(2):
+        look_ahead(kind, lane, slots, work, settings, counters)
     for k in range(slots[Slot.DRIVERS]):
         start = settings[Setting.FIRST_DRIVER + 2 * k, lane]
         travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, lane]
@@ -83,3 +107,19 @@ def stop(lane: int, status: int, slots: np.ndarray, work: np.ndarray, counters: 
     counters[Counter.STATUS, lane] = status
     work[slots[Slot.ACTIVE] * LANES + lane] = 0.0
     work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
+
+
+@kernel()
+def check_pace(
+    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+) -> None:
+    """Stop a lane that has used up its steps or hardly moves; counted in its own steps."""
+    period = settings[Setting.PERIOD, lane]
+    now = float(counters[Counter.PERIOD, lane]) * period + work[slots[Slot.TIME] * LANES + lane]
+    steps = work[slots[Slot.STEPS] * LANES + lane]
+    if now - settings[Setting.PACE_TIME, lane] < SLOWEST_PACE * period:
+        stop(lane, Status.UNDERFLOW, slots, work, counters)
+    elif steps >= MOST_STEPS:
+        stop(lane, Status.STEP_LIMIT, slots, work, counters)
+    settings[Setting.PACE_TIME, lane] = now
+    work[slots[Slot.PACE_AT] * LANES + lane] = steps + PACE_STEPS

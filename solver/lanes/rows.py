@@ -7,8 +7,8 @@ import numpy as np
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
-from solver.lanes.periods import due_time
-from solver.lanes.state import Counter
+from solver.lanes.periods import SAMPLES, due_time
+from solver.lanes.state import Counter, Setting
 
 
 @kernel()
@@ -53,26 +53,20 @@ def emit(
     A full buffer postpones the step: the same attempt is made again once there is room.
     """
     arrival = work[slots[Slot.ARRIVAL] * LANES + lane]
+    start, tried = work[slots[Slot.TIME] * LANES + lane], work[slots[Slot.TRIED] * LANES + lane]
     for kind in range(2):
-        rows = sample_rows if kind == 0 else section_rows
-        next_index = Counter.SAMPLE if kind == 0 else Counter.SECTION
-        filled = Counter.SAMPLE_ROWS if kind == 0 else Counter.SECTION_ROWS
-        while True:
+        rows = sample_rows if kind == SAMPLES else section_rows
+        next_index = Counter.SAMPLE if kind == SAMPLES else Counter.SECTION
+        filled = Counter.SAMPLE_ROWS if kind == SAMPLES else Counter.SECTION_ROWS
+        while settings[Setting.SAMPLE_DUE + kind, lane] <= arrival:
             count = 0
-            while count < LANES:
-                moment = due_time(kind, counters[next_index, lane] + count, lane, slots, work,
-                                  settings, counters)  # fmt: skip
-                if moment > arrival:
-                    break
-                start, tried = (
-                    work[slots[Slot.TIME] * LANES + lane],
-                    work[slots[Slot.TRIED] * LANES + lane],
-                )
+            moment = settings[Setting.SAMPLE_DUE + kind, lane]
+            while count < LANES and moment <= arrival:
                 theta = (moment - start) / tried if tried > 0.0 else 0.0
                 spare[slots[Slot.THETA] * LANES + count] = min(max(theta, 0.0), 1.0)
                 count += 1
-            if count == 0:
-                break
+                moment = due_time(kind, counters[next_index, lane] + count, lane, slots, work,
+                                  settings, counters)  # fmt: skip
             if counters[filled, lane] + count > rows.shape[1]:
                 work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
                 work[slots[Slot.NEXT_STEP] * LANES + lane] = work[slots[Slot.STEP] * LANES + lane]
@@ -82,6 +76,5 @@ def emit(
                 write_row(rows[lane, counters[filled, lane]], i, lane, slots, work, spare, counters)
                 counters[filled, lane] += 1
             counters[next_index, lane] += count
-            if count < LANES:
-                break
+            settings[Setting.SAMPLE_DUE + kind, lane] = moment
     return False

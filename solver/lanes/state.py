@@ -14,6 +14,14 @@ class Status(IntEnum):
     IDLE = 5
 
 
+class SectionKind(IntEnum):
+    """What makes a Poincare section."""
+
+    CRANK = 0
+    ONSET = 1
+    CROSSING = 2
+
+
 class Counter(IntEnum):
     """Rows of the whole-number array (kinds, LANES)."""
 
@@ -43,7 +51,15 @@ class Setting(IntEnum):
     OUTPUT_STEP = 4
     SECTION_OFFSET = 5
     SMALLEST_STEP = 6
-    FIRST_DRIVER = 7
+    SAMPLE_DUE = 7
+    SECTION_DUE = 8
+    SECTION_KIND = 9
+    SECTION_PLACE = 10
+    SECTION_VALUE = 11
+    SECTION_SENSE = 12
+    SECTION_FROM = 13
+    PACE_TIME = 14
+    FIRST_DRIVER = 15
 
 
 def row_width(drivers: int, states: int, joints: int) -> int:

@@ -1,0 +1,124 @@
+"""One point in a lane: the problem that the lane gets, and what it has handed out so far."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.assembly import assemble
+from solver.compiler.kernel import Kernel
+from solver.lanes.bundle import Event, LaneProblem, LaneStart
+from solver.lanes.start import start_state
+from solver.lanes.state import SectionKind
+from solver.study.plan import Study
+from solver.study.starts import perturbed_start, start_scales
+
+Floats = NDArray[np.float64]
+
+ENDLESS = 2**62
+"""More sections than any run takes."""
+WINDOW = 32
+"""Periods between two looks at whether a point has settled."""
+
+
+@dataclass
+class PointRun:
+    """A point that is being computed; `waits` says where it is before it gets a lane."""
+
+    point: int
+    chain: int
+    position: int
+    """In the chain."""
+    start: LaneStart | None = None
+    """Its neighbour's last state; none: the scene's start rule."""
+    settled: int = -1
+    """Periods left out, once that is known; -1 before."""
+    reached: int = 0
+    """Periods of the present leg's end."""
+    skipped: int = 0
+    """Sections seen while settling."""
+    taken: int = 0
+    """Sections handed out."""
+    seen: list[Floats] = field(default_factory=list)
+    """Section values that indicators, or the look at settling, still need."""
+
+
+def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
+    """Return what a lane computes first of a point: all of it, or the time until it settles."""
+    point, period = run.point, float(study.period[run.point])
+    scene = study.point_scene(point)
+    start = run.start
+    if study.kind == "ensemble":
+        start = _perturbed(study, kernel, point)
+    if study.record == 0:
+        run.reached = 0
+        settle = float(study.settle[point])
+        first_leg = settle if settle > 0.0 else float(study.duration[point])
+        run.settled = 0 if settle == 0.0 else -1
+        return LaneProblem(scene, first_leg, study.tolerance, first_leg, 0, 0, 0.0, start=start)
+    event = _event(study, kernel, point)
+    waits = study.job["settle"] == "auto"
+    if waits:
+        run.reached = min(WINDOW, most_settling(study, point))
+        duration, sections, first = run.reached * period, ENDLESS, 1
+    else:
+        run.settled = int(study.job["settle"])
+        duration, first = float(study.duration[point]), run.settled + 1
+        sections = first + study.record
+    if event is not None:
+        first, sections = 0, ENDLESS if waits else study.record
+    return LaneProblem(
+        scene,
+        duration,
+        study.tolerance,
+        duration,
+        0,
+        sections,
+        float(study.offset[point]),
+        first,
+        event,
+        start,
+    )
+
+
+def most_settling(study: Study, point: int) -> int:
+    """Return how many periods a point may take to settle."""
+    return max(1, round(float(study.settle[point] / study.period[point])))
+
+
+def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
+    section: Mapping[str, Any] = study.job["section"]
+    waits = study.job["settle"] == "auto"
+    not_before = 0.0 if waits else float(study.settle[point])
+    if "onset" in section:
+        joint = kernel.play.index(section["onset"])
+        return Event(SectionKind.ONSET, joint, not_before=not_before)
+    if "channel" not in section:
+        return None
+    name, value = section["channel"], float(section["value"])
+    sense = 1.0 if section["direction"] == "up" else -1.0
+    if name in kernel.rows.multiples:
+        name, factor, offset = kernel.rows.multiples[name]
+        value, sense = (value - offset) / factor, sense if factor > 0.0 else -sense
+    row = kernel.rows.index(name)
+    return Event(SectionKind.CROSSING, row, value, sense, not_before)
+
+
+def _perturbed(study: Study, kernel: Kernel, point: int) -> LaneStart:
+    """Return the start of a member of an ensemble."""
+    scene = study.point_scene(point)
+    assembly = assemble(scene)
+    position, speed = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+    state = perturbed_start(
+        np.array(position),
+        np.array(speed),
+        start_scales(scene, kernel.coordinates, float(study.period[point])),
+        float(study.job["spread"]),
+        int(study.job["seed"]),
+        point,
+    )
+    return LaneStart(np.concatenate(state))
