@@ -19,10 +19,14 @@ Blocks = tuple[tuple[int, int], ...]
 
 
 def independent_blocks(points: int) -> Blocks:
-    """Return (first, count) of equal blocks of whole octets; the last one may be shorter."""
+    """Return (first, count) of blocks of whole octets, alike within one; the last may be shorter.
+
+    The longer ones come first, so that workers finish at about the same time.
+    """
     octets = -(-points // LANES)
-    size = LANES * min(max(-(-octets // BLOCKS), 1), MOST_POINTS // LANES)
-    return tuple((first, min(size, points - first)) for first in range(0, points, size))
+    count = min(octets, max(BLOCKS, -(-octets * LANES // MOST_POINTS)))
+    ends = [LANES * part.stop for part in segments(octets, count)]
+    return tuple((first, min(end, points) - first) for first, end in pairwise([0, *ends]))
 
 
 def segments(values: int, count: int) -> list[range]:

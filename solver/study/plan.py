@@ -43,8 +43,8 @@ class Study:
     """Channels whose peaks are kept per point; may be none."""
     indicators: tuple[str, ...]
     blocks: tuple[tuple[int, int], ...]
-    """(first, count) of contiguous points. Without continuation equal multiples of eight, the last
-    one shorter, 64 at most; with it up to eight whole chains of one direction, of any length."""
+    """(first, count) of contiguous points. Without continuation whole octets, 64 points at most,
+    the last one shorter; with it up to eight whole chains of one direction, of any length."""
     chain_of: Integers
     """(points,) index of each point's chain; a point without continuation is its own chain."""
     chain_order: tuple[tuple[int, ...], ...]
