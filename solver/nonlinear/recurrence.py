@@ -1,0 +1,56 @@
+"""The period of a motion, seen on its section."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+LONGEST = 32
+
+
+def recurrence_period(
+    section: Floats, scale: Floats, tolerance: float, longest: int = LONGEST
+) -> int:
+    """Return the smallest p such that every p-th section is the same throughout; 0: there is none.
+
+    section : (n, d) points in time; at least two turns must be on record, so p ≤ n/2.
+    scale : (d,) what counts as one in each column, positive.
+    tolerance : largest extent, in units of `scale`, of the points i, i + p, i + 2p …; well above
+        the error of the integration, well below the motion. Points that creep along a curve by less
+        than the tolerance a turn therefore do not recur.
+    longest : longest period looked for.
+
+    A constant section has period 1. A chaotic band narrower than the tolerance has the period of
+    its bands: the tolerance is part of the statement.
+
+    Raises
+    ------
+    ValueError
+        If a scale is not positive, the tolerance negative, or a point not finite.
+    """
+    points = np.asarray(section, np.float64)
+    if points.ndim != 2 or np.shape(scale) != (points.shape[1],):
+        raise ValueError("a section is (n, d), its scale (d,)")
+    if not (np.asarray(scale) > 0.0).all() or not tolerance >= 0.0:
+        raise ValueError("scales must be positive and the tolerance not negative")
+    if not np.isfinite(points).all():
+        raise ValueError("recurrence needs finite points; leave out sections never reached")
+    scaled = points / scale
+    for period in range(1, min(longest, len(points) // 2) + 1):
+        if largest_extent(scaled, period) <= tolerance:
+            return period
+    return 0
+
+
+def largest_extent(points: Floats, period: int) -> float:
+    """Return the largest extent in any column of (n, d) points that are a period apart."""
+    n, columns = points.shape
+    turns = n // period
+    whole = points[: turns * period].reshape(turns, period, columns)
+    lowest, highest = whole.min(axis=0), whole.max(axis=0)
+    rest = points[turns * period :]
+    lowest[: len(rest)] = np.minimum(lowest[: len(rest)], rest)
+    highest[: len(rest)] = np.maximum(highest[: len(rest)], rest)
+    return float((highest - lowest).max(initial=0.0))

@@ -1,0 +1,169 @@
+"""When a motion has forgotten how it started: decided on its section, as it is computed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
+from solver.nonlinear.steadiness import change_between
+
+Floats = NDArray[np.float64]
+
+SETTLINGS = {"unsettled": 0, "recurrence": 1, "statistics": 2}
+"""How a motion settled, as it is stored; a code never changes its meaning."""
+
+EVERY = 16
+"""Sections between two looks for a period."""
+LOOK_BACK = 2 * LONGEST
+"""Sections in which a period must show."""
+FIRST_COMPARISON = 128
+"""Sections before statistics are compared for the first time …"""
+GROWTH = 4.0 / 3.0
+"""… and the factor to each next time: few comparisons, so that few agree by chance."""
+SLOWEST = 0.99
+"""Largest q, of changes over a third of the look back: more cannot be told from noise."""
+
+
+@dataclass(frozen=True)
+class Settled:
+    """How settling ended: `code` of `SETTLINGS`, after how many sections, and one sentence."""
+
+    code: int
+    count: int
+    reason: str
+
+
+class Settling:
+    """Takes the sections of a motion as they come and says when it has settled, and why.
+
+    scale : (d,) what counts as one in each column, positive.
+    tolerance : as in `recurrence_period`, in units of `scale`; columns whose mean or spread changes
+        by less count as settled.
+    most : sections after which it gives up.
+
+    Settled is what
+
+    - recurs: the last 64 sections have a period of at most 32 within the tolerance, and what is
+      still to come, if they go on closing in as they did, stays within it too (looked for every 16
+      sections); or
+    - has steady statistics: with the first quarter of all sections left out, the means and standard
+      deviations of the other three agree with each other, in every column, within three sampling
+      errors that count correlation (compared at 128 sections and at each 4/3 times as many). Where
+      an error is more than half the spread, as in what drifts or dies out, the quarter is too
+      short to have statistics, and must agree within the tolerance.
+
+    A chaotic transient looks settled while it lasts.
+
+    The answer depends on the sections alone, not on the portions in which they are fed. A motion
+    is taken up again by feeding its `sections` to a new instance.
+
+    Raises
+    ------
+    ValueError
+        If a scale is not positive, the tolerance negative or `most` smaller than one.
+    """
+
+    def __init__(self, scale: Floats, tolerance: float, most: int = 1000) -> None:
+        self.scale = np.asarray(scale, np.float64)
+        if not (self.scale > 0.0).all() or not tolerance >= 0.0 or most < 1:
+            raise ValueError("scales and `most` must be positive, the tolerance not negative")
+        self.tolerance = tolerance
+        self.most = most
+        self.result: Settled | None = None
+        self._sections = np.empty((most, len(self.scale)))
+        self._count = 0
+        self._next_comparison = FIRST_COMPARISON
+        self._last_look = ""
+
+    @property
+    def sections(self) -> Floats:
+        """All sections (n, d) that counted, in the unit in which they came."""
+        return self._sections[: self._count].copy()
+
+    def feed(self, sections: Floats) -> Settled | None:
+        """Take the next sections, (k, d); return how settling ended, None: not yet.
+
+        Sections after the decision change nothing.
+
+        Raises
+        ------
+        ValueError
+            If a value is not finite.
+        """
+        if not np.isfinite(sections).all():
+            raise ValueError("settling needs finite sections")
+        for section in np.asarray(sections, np.float64):
+            if self.result is not None:
+                break
+            self._sections[self._count] = section
+            self._count += 1
+            self.result = self._look()
+        return self.result
+
+    def _look(self) -> Settled | None:
+        n = self._count
+        code, reason = SETTLINGS["unsettled"], ""
+        if n >= LOOK_BACK and n % EVERY == 0:
+            reason = self._recurs()
+            code = SETTLINGS["recurrence"]
+        if not reason and n == self._next_comparison:
+            self._next_comparison = math.ceil(GROWTH * n)
+            reason = self._steady()
+            code = SETTLINGS["statistics"]
+        if reason:
+            return Settled(code, n, reason)
+        if n == self.most:
+            why = self._last_look or "too few to see a period or compare statistics"
+            return Settled(SETTLINGS["unsettled"], n, f"not settled after {n} sections: {why}")
+        return None
+
+    def _recurs(self) -> str:
+        """Say why the motion recurs; empty: it does not."""
+        recent = self._sections[self._count - LOOK_BACK : self._count] / self.scale
+        period = recurrence_period(recent, np.ones(len(self.scale)), self.tolerance)
+        if period == 0:
+            return ""
+        coming = _still_to_come(recent, period)
+        if coming > self.tolerance:
+            self._last_look = f"period {period}, but it still has {coming:.2g} of the scale to go"
+            return ""
+        extent = largest_extent(recent, period)
+        return (
+            f"the last {LOOK_BACK} sections have period {period} within {extent:.2g} of the scale"
+            f" and converge to {coming:.2g}"
+        )
+
+    def _steady(self) -> str:
+        """Say why the statistics are steady; empty: they are not."""
+        length = self._count // 4
+        recent = self._sections[self._count - 3 * length : self._count] / self.scale
+        windows = [recent[i * length : (i + 1) * length] for i in range(3)]
+        changing = change_between(windows, self.tolerance)
+        if changing:
+            self._last_look = changing
+            return ""
+        return f"means and spreads of the last three times {length} sections agree"
+
+
+def _still_to_come(recent: Floats, period: int) -> float:
+    """Return how far points a period apart will still move, if they converge geometrically.
+
+    The change over the last third of the record is q times that over the third before: q/(1 - q) of
+    it are left. Periods too long for three thirds count as converging slowest.
+    """
+    turn = period * max(len(recent) // (3 * period), 1)
+    last = recent[len(recent) - period :]
+    if len(recent) < 2 * turn + period:
+        before = last - recent[len(recent) - turn - period : len(recent) - turn]
+        return float(np.abs(before).max()) * SLOWEST / (1.0 - SLOWEST)
+    middle = recent[len(recent) - period - turn : len(recent) - turn]
+    first = recent[len(recent) - period - 2 * turn : len(recent) - 2 * turn]
+    change, earlier = float(np.abs(last - middle).max()), float(np.abs(middle - first).max())
+    if change == 0.0:
+        return 0.0
+    ratio = min(change / earlier, SLOWEST) if earlier > 0.0 else SLOWEST
+    return change * ratio / (1.0 - ratio)

@@ -1,0 +1,130 @@
+"""Periodic, quasi-periodic, chaotic, or undecided: what the indicators say together."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from solver.nonlinear.estimate import Estimate
+
+UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC = range(4)
+VERDICTS = {
+    "undecided": UNDECIDED,
+    "periodic": PERIODIC,
+    "quasi-periodic": QUASI_PERIODIC,
+    "chaotic": CHAOTIC,
+}
+"""Codes as they are stored (unsigned byte); a code never changes its meaning."""
+
+REGULAR, IRREGULAR = 0.1, 0.9
+"""K of the 0-1 test below and above which it has an opinion."""
+VAGUE = 0.5
+"""Error of K from which on it has none."""
+LOOSE = 0.01
+"""Error of a rotation number, in turns, from which on the curve is not traversed steadily."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a motion is. `period`: in sections, 0 unless periodic. `reason`: one sentence."""
+
+    code: int
+    period: int
+    reason: str
+
+    @property
+    def name(self) -> str:
+        """The code in words; a periodic motion with its period, as in "period-3"."""
+        if self.code == PERIODIC:
+            return f"period-{self.period}"
+        return next(name for name, code in VERDICTS.items() if code == self.code)
+
+
+def decide(
+    lyapunov: Estimate | None = None,
+    zero_one: Estimate | None = None,
+    period: int | None = None,
+    rotation: Estimate | None = None,
+) -> Verdict:
+    """Return the verdict on a motion from the indicators of the whole system.
+
+    lyapunov : largest exponent, other than the zero along an autonomous flow. zero_one : K.
+    period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
+    number; None where the section is no closed curve. None: not known. A K with an error of 0.5 or
+    more (too few sections) is as good as none.
+
+    chaotic : the exponent exceeds zero by more than three errors, nothing recurs, and K > 0.9. An
+        exponent that does not drift will do where there is no K.
+    periodic : every p-th section is the same and the exponent is not positive. An exponent near
+        zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
+    quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
+        number, and no recurrence.
+    undecided : anything else; the reason says what is missing or what contradicts what.
+    """
+    if lyapunov is not None and not math.isfinite(lyapunov.error):
+        lyapunov = None
+    if zero_one is not None and not zero_one.error < VAGUE:
+        zero_one = None
+    if period:
+        return _recurrent(lyapunov, zero_one, period)
+    if lyapunov is None:
+        seen = "" if zero_one is None else f" (K is {zero_one})"
+        return _undecided(f"nothing recurs, and without an exponent nothing is certain{seen}")
+    if lyapunov.exceeds(0.0):
+        return _diverging(lyapunov, zero_one)
+    if lyapunov.falls_below(0.0):
+        return _undecided(
+            f"neighbours converge, the exponent is {lyapunov}, but no short period is seen:"
+            " the motion may not have settled, or have a longer period"
+        )
+    return _neutral(lyapunov, zero_one, rotation)
+
+
+def _recurrent(lyapunov: Estimate | None, zero_one: Estimate | None, period: int) -> Verdict:
+    recurs = f"every section recurs after {period}"
+    if lyapunov is not None and lyapunov.exceeds(0.0):
+        return _undecided(
+            f"{recurs}, yet neighbours part, the exponent is {lyapunov}:"
+            " chaos in bands narrower than the tolerance, or an unstable orbit not yet left"
+        )
+    if lyapunov is not None and lyapunov.falls_below(0.0):
+        return Verdict(PERIODIC, period, f"{recurs} and the exponent is {lyapunov}")
+    if zero_one is not None and zero_one.value > IRREGULAR:
+        return _undecided(f"{recurs}, yet the 0-1 test sees chaos, K is {zero_one}")
+    if lyapunov is None:
+        return Verdict(PERIODIC, period, f"{recurs}; the exponent is not known")
+    near = "close to a bifurcation, or known too poorly to tell it from zero"
+    return Verdict(PERIODIC, period, f"{recurs}; the exponent is {lyapunov}, {near}")
+
+
+def _diverging(lyapunov: Estimate, zero_one: Estimate | None) -> Verdict:
+    parts = f"neighbours part, the exponent is {lyapunov}"
+    if zero_one is None and lyapunov.drifting:
+        return _undecided(f"{parts}, but it still drifts, and there is no 0-1 test to confirm it")
+    if zero_one is None:
+        return Verdict(CHAOTIC, 0, f"{parts}; there is no 0-1 test to confirm it")
+    if zero_one.value > IRREGULAR:
+        return Verdict(CHAOTIC, 0, f"{parts}, and the 0-1 test agrees, K is {zero_one}")
+    return _undecided(f"{parts}, but the 0-1 test does not agree, K is {zero_one}")
+
+
+def _neutral(lyapunov: Estimate, zero_one: Estimate | None, rotation: Estimate | None) -> Verdict:
+    neutral = f"the exponent is {lyapunov}, not different from zero"
+    if zero_one is None:
+        return _undecided(f"{neutral}, and there is no telling 0-1 test")
+    if zero_one.value >= REGULAR:
+        return _undecided(f"{neutral}, but the 0-1 test sees no regular motion, K is {zero_one}")
+    if rotation is None:
+        return _undecided(f"{neutral}, K is {zero_one}, but the section is no closed curve")
+    if not rotation.error < LOOSE:
+        return _undecided(f"{neutral}, K is {zero_one}, but the rotation number is {rotation}")
+    return Verdict(
+        QUASI_PERIODIC,
+        0,
+        f"{neutral}, K is {zero_one}, and the section is a closed curve"
+        f" with rotation number {rotation}",
+    )
+
+
+def _undecided(reason: str) -> Verdict:
+    return Verdict(UNDECIDED, 0, reason)

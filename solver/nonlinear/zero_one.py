@@ -1,0 +1,121 @@
+"""The 0-1 test for chaos: a sum driven by the series wanders like a random walk, or stays.
+
+Source: Gottwald and Melbourne 2009, SIAM J. Appl. Dyn. Syst. 8:129 (arXiv 0906.1418): the modified
+mean square displacement with the correlation method.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from solver.nonlinear.estimate import UNKNOWN, Estimate
+
+Floats = NDArray[np.float64]
+
+FREQUENCIES = 100
+"""Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""
+LOWEST, HIGHEST = math.pi / 5.0, 4.0 * math.pi / 5.0
+FEWEST_SAMPLES = 30
+FEWEST_TELLING = 300
+"""Below this regular and chaotic series of the textbook systems overlap."""
+NORMAL = 1.4826
+"""Standard deviation of normal numbers over their median absolute deviation."""
+
+
+def zero_one_test(series: Floats, seed: int = 0, resolution: float | Floats = 0.0) -> Estimate:
+    """Return K: near 1 for chaos, near 0 for periodic and quasi-periodic series.
+
+    series : (n,) or (n, d), one sample per forcing period (a Poincaré section). Samples closer in
+        time hide chaos: K tends to 0 when the series looks smooth. n = 1000 or more; below 300 the
+        error is 1, which says that nothing can be told.
+    seed : of the 100 frequencies c, uniform in (π/5, 4π/5).
+    resolution : (d,) or one number, unit of the series: a column whose whole range is no larger is
+        constant. Without it the last bits of a motion of period 1 are analysed: the test has no
+        scale.
+
+    The translation (p, q) is driven by the series less its mean: the oscillatory term V_osc, which
+    Gottwald and Melbourne subtract, then is zero, and shifting the series changes nothing. K_c is
+    the correlation of the mean square displacement M_c(n), n up to N/10, with n, and K the median
+    over c. Of several columns the constant ones are left out and the median of the others' K
+    taken: chaos shows in almost every projection of a motion.
+
+    The error is a robust standard deviation (1.4826 median absolute deviations) of K_c over c, or
+    of K over the columns if that is larger. Transients and strange motions that are not chaotic
+    give values in between with a large error.
+
+    Raises
+    ------
+    ValueError
+        If a sample is not finite.
+    """
+    columns = np.asarray(series, np.float64).reshape(len(series), -1).T
+    if not np.isfinite(columns).all():
+        raise ValueError("the 0-1 test needs finite samples; leave out sections never reached")
+    n = columns.shape[1]
+    if n < FEWEST_SAMPLES:
+        return UNKNOWN
+    extent = np.ptp(columns, axis=1)
+    rounding = 64.0 * np.finfo(np.float64).eps * np.abs(columns).max(axis=1)
+    moving = extent > np.maximum(rounding, resolution)
+    if not moving.any():
+        return Estimate(0.0, 0.0)
+    centred = columns[moving] - columns[moving].mean(axis=1, keepdims=True)
+    correlations = _correlations(centred / extent[moving, None], seed)
+    medians = np.median(correlations, axis=1)
+    spread = float(np.median(NORMAL * _median_deviation(correlations)))
+    between = float(NORMAL * _median_deviation(medians[None, :])[0])
+    error = max(spread, between, 1.0 if n < FEWEST_TELLING else 0.0)
+    return Estimate(float(np.median(medians)), error)
+
+
+def _correlations(driving: Floats, seed: int) -> Floats:
+    """Return K_c (columns, FREQUENCIES) for driving series (columns, n) of mean zero."""
+    columns, n = driving.shape
+    reach = n // 10
+    generator = np.random.default_rng(seed)
+    frequencies = LOWEST + (HIGHEST - LOWEST) * generator.random(FREQUENCIES)
+    times = np.arange(1.0, n + 1.0)
+    result = np.empty((columns, FREQUENCIES))
+    for i, c in enumerate(frequencies):  # one at a time: memory stays small
+        translation = np.cumsum(driving * np.exp(1j * c * times), axis=1)  # p + i q
+        result[:, i] = _correlation_with_time(_mean_square_displacement(translation, reach))
+    return result
+
+
+def _mean_square_displacement(translation: NDArray[np.complex128], reach: int) -> Floats:
+    """Return M_c(n) for n = 1..reach: over the n - reach first starts.
+
+    |z_{j+n} - z_j|² = |z_{j+n}|² + |z_j|² - 2 Re z̄_j z_{j+n}; the last sum over j is a correlation,
+    done by Fourier transforms.
+    """
+    n = translation.shape[1]
+    starts = n - reach
+    squares = np.zeros((len(translation), n + 1))
+    np.cumsum(translation.real**2 + translation.imag**2, axis=1, out=squares[:, 1:])
+    shifts = np.arange(1, reach + 1)
+    size = fft.next_fast_len(n)  # no wrap-around: j + n stays below the record's length
+    first = fft.fft(translation[:, :starts], size, axis=1)
+    product = fft.ifft(np.conj(first) * fft.fft(translation, size, axis=1), axis=1)
+    arriving = squares[:, starts + shifts] - squares[:, shifts]
+    total = arriving + squares[:, starts, None] - 2.0 * product[:, shifts].real
+    return np.asarray(total / starts, np.float64)
+
+
+def _correlation_with_time(displacement: Floats) -> Floats:
+    """Return the correlation coefficient of each row with the numbers 1, 2, 3 and so on."""
+    reach = displacement.shape[1]
+    time = np.arange(reach) - 0.5 * (reach - 1)
+    centred = displacement - displacement.mean(axis=1, keepdims=True)
+    variance = (time**2).sum() * (centred**2).sum(axis=1)
+    covariance = (time * centred).sum(axis=1)
+    return np.asarray(covariance / np.sqrt(np.where(variance > 0.0, variance, 1.0)), np.float64)
+
+
+def _median_deviation(values: Floats) -> Floats:
+    """Return the median absolute deviation of each row."""
+    middle = np.median(values, axis=1, keepdims=True)
+    return np.asarray(np.median(np.abs(values - middle), axis=1), np.float64)

@@ -1,0 +1,179 @@
+"""Exponents of systems whose exponents are known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from solver.nonlinear.lyapunov import (
+    companion_exponent,
+    exponent_from_growth,
+    map_exponent,
+    tangent_exponent,
+)
+from tests.solver.nonlinear.textbook import (
+    CAT,
+    HENON,
+    LOGISTIC_4,
+    LORENZ,
+    UEDA,
+    Driven,
+    Map,
+    circle,
+    delayed_logistic,
+    impact_oscillator,
+    linear,
+    logistic,
+    sawtooth_ball,
+)
+
+
+def exponent_of(system: Map, iterations: int):
+    return map_exponent(system.step, system.jacobian, system.start, iterations)
+
+
+def exponent_by_tangent(system: Driven, blocks: int):
+    return tangent_exponent(system.flow, system.start, system.block_time, blocks, system.steps)
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        linear([[2.0, 1.0], [0.0, 0.5]]),
+        linear([[0.5, 0.2], [0.1, 0.3]]),
+        linear([[3.0, 0.0, 0.0], [1.0, 2.0, 0.0], [0.0, 1.0, -1.0]]),
+        CAT,
+    ],
+)
+def test_linear_maps_are_exact(system: Map) -> None:
+    found = exponent_of(system, 400)
+    # the second eigenvalue has died out to rounding after the tenth that is left out
+    assert found.agrees_with(system.exponent)
+    assert found.error < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("system", "iterations", "precision"),
+    [(LOGISTIC_4, 5000, 0.005), (HENON, 10_000, 0.006)],
+)
+def test_chaotic_maps_agree_within_their_error(
+    system: Map, iterations: int, precision: float
+) -> None:
+    found = exponent_of(system, iterations)
+    assert found.agrees_with(system.exponent, errors=2.0)
+    assert found.error < precision
+    assert not found.drifting
+
+
+def test_tangent_vectors_find_the_exponent_of_the_lorenz_attractor() -> None:
+    found = exponent_by_tangent(LORENZ, 1000)
+    assert found.agrees_with(LORENZ.exponent, errors=2.0)
+    assert found.error < 0.05
+
+
+def test_tangent_and_companion_find_that_of_duffings_oscillator() -> None:
+    tangent = exponent_by_tangent(UEDA, 250)
+    companion = companion_exponent(UEDA.advance_pair, UEDA.start, UEDA.block_time, 250)
+    for found in (tangent, companion):
+        assert found.agrees_with(UEDA.exponent, errors=2.0)
+        assert found.error < 0.02
+    # the same motion, the same growth: they part only by the companion's finite distance
+    assert companion.value == pytest.approx(tangent.value, abs=1e-5)
+
+
+def test_an_impact_oscillator_that_is_a_cat_map_has_its_exponent() -> None:
+    """Every bit of it comes from the jumps: between impacts differences grow only linearly."""
+    ball = sawtooth_ball()
+    tangent = exponent_by_tangent(ball, 800)
+    companion = companion_exponent(ball.advance_pair, ball.start, ball.block_time, 800)
+    for found in (tangent, companion):
+        assert found.agrees_with(ball.exponent, errors=2.0)
+        assert found.error < 0.01
+        assert found.exceeds(0.0)
+
+
+def test_without_the_saltation_the_exponent_would_be_wrong() -> None:
+    ball = sawtooth_ball()
+    x, tangent = ball.start, np.array([[0.6], [0.8]])
+    growth = []
+    for i in range(400):
+        time = i * ball.block_time
+        _, smooth = type(ball.flow)(ball.flow.rate, ball.flow.jacobian).advance_tangents(
+            time, x, tangent, ball.block_time, ball.steps
+        )
+        x = ball.flow.advance(time, x, ball.block_time, ball.steps)
+        length = float(np.hypot(*smooth[:, 0]))
+        growth.append(math.log(length))
+        tangent = smooth / length
+    found = exponent_from_growth(np.array(growth), ball.block_time)
+    assert not found.agrees_with(ball.exponent, errors=10.0)
+
+
+@pytest.mark.parametrize(
+    ("damping", "restitution", "frequency"), [(0.05, 0.8, 2.4), (0.02, 0.9, 2.2), (0.05, 0.7, 1.8)]
+)
+def test_a_stable_impact_oscillator_contracts_as_its_determinant_says(
+    damping: float, restitution: float, frequency: float
+) -> None:
+    system = impact_oscillator(damping, restitution, frequency, stop=0.0)
+    found = exponent_by_tangent(system, 250)
+    assert found.agrees_with(system.exponent)
+    assert found.error < 0.01
+    assert found.falls_below(0.0)
+
+
+def test_a_chaotic_impact_oscillator_is_seen_by_both_ways() -> None:
+    system = impact_oscillator(0.02, 0.8, 2.8, stop=0.0)
+    tangent = exponent_by_tangent(system, 250)
+    companion = companion_exponent(system.advance_pair, system.start, system.block_time, 250)
+    assert tangent.exceeds(0.05)
+    # near grazing the square root takes a companion out of the linear range now and then
+    assert companion.agrees_with(tangent.value, errors=1.0)
+
+
+@pytest.mark.parametrize(
+    "system", [circle(0.5 * (math.sqrt(5.0) - 1.0), 0.7), delayed_logistic(2.1)]
+)
+def test_quasi_periodic_motion_has_exponent_zero(system: Map) -> None:
+    found = exponent_of(system, 2000)
+    assert found.agrees_with(0.0)
+    assert found.error < 0.005
+
+
+def test_on_a_torus_the_error_covers_where_the_record_begins_and_ends() -> None:
+    """The length of the vector comes and goes; batches in which that averages out do not see it."""
+    torus = delayed_logistic(2.1)
+    for start in torus.orbit(15, 3000):
+        found = map_exponent(torus.step, torus.jacobian, start, 3000)
+        assert found.agrees_with(0.0)
+        assert found.error < 0.001
+        assert not found.drifting
+
+
+@pytest.mark.parametrize(("rate", "multipliers"), [(2.8, [2.0 - 2.8]), (3.2, [4.0 + 6.4 - 3.2**2])])
+def test_periodic_motion_has_the_exponent_of_its_multiplier(
+    rate: float, multipliers: list[float]
+) -> None:
+    # fixed point: 2 - r; period two: 4 + 2r - r²
+    period = 1 if rate < 3.0 else 2
+    found = exponent_of(logistic(rate), 2000)
+    assert found.agrees_with(math.log(abs(multipliers[0])) / period)
+    assert found.falls_below(-0.2)
+
+
+def test_a_superstable_orbit_has_exponent_minus_infinity() -> None:
+    found = exponent_of(Map(lambda x: 0.5 + 0.0 * x, lambda x: np.zeros((1, 1)), np.ones(1), 0), 50)
+    assert (found.value, found.error) == (-math.inf, 0.0)
+
+
+def test_the_metric_of_a_companion_does_not_matter() -> None:
+    one = companion_exponent(UEDA.advance_pair, UEDA.start, UEDA.block_time, 40)
+    other = companion_exponent(
+        UEDA.advance_pair, UEDA.start, UEDA.block_time, 40, metric=np.array([1.0, 30.0])
+    )
+    # lengths in two metrics differ by a factor of up to 30 at either end
+    assert other.value == pytest.approx(
+        one.value, abs=2.0 * math.log(30.0) / (36 * UEDA.block_time)
+    )

@@ -1,0 +1,119 @@
+"""Periods, by recurrence of the section."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solver.nonlinear.recurrence import recurrence_period
+from tests.solver.nonlinear.textbook import (
+    HENON,
+    circle,
+    delayed_logistic,
+    impact_oscillator,
+    logistic,
+)
+
+ONE = np.ones(1)
+
+
+@pytest.mark.parametrize(
+    ("rate", "period"), [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.83, 3), (3.739, 5), (3.9, 0)]
+)
+def test_windows_of_the_logistic_map(rate: float, period: int) -> None:
+    assert recurrence_period(logistic(rate).orbit(200, 2000), ONE, 1e-4) == period
+
+
+def test_an_impact_a_period_is_period_one() -> None:
+    section = impact_oscillator(0.05, 0.8, 2.4, 0.0).section(40, 150)
+    assert recurrence_period(section, np.ones(2), 1e-5) == 1
+
+
+@pytest.mark.parametrize(
+    "section",
+    [HENON.orbit(500, 100), delayed_logistic(2.1).orbit(500, 500)],
+    ids=["chaos", "closed curve"],
+)
+def test_what_does_not_recur_has_no_period(section: np.ndarray) -> None:
+    assert recurrence_period(section, np.ptp(section, axis=0), 1e-3) == 0
+
+
+def test_creeping_along_a_curve_is_no_recurrence() -> None:
+    """Each section is within the tolerance of the one before, but not of the first."""
+    angle = 2.0 * math.pi * circle(1e-4, 0.3).orbit(500)[:, 0]
+    section = np.column_stack([np.cos(angle), np.sin(angle)])
+    assert np.abs(np.diff(section, axis=0)).max() < 1e-3
+    assert recurrence_period(section, np.ones(2), 1e-3) == 0
+
+
+def test_one_stray_section_breaks_the_period() -> None:
+    section = np.tile([[0.0], [1.0]], (50, 1))
+    assert recurrence_period(section, ONE, 1e-6) == 2
+    section[37] += 1e-3
+    assert recurrence_period(section, ONE, 1e-6) == 0
+
+
+@pytest.mark.parametrize("stray", [-1e-3, 1e-3])
+def test_a_turn_that_is_not_complete_counts(stray: float) -> None:
+    section = np.append(np.tile([0.0, 1.0, 2.0], 20), stray)[:, None]
+    assert recurrence_period(section, ONE, 1e-2) == 3
+    assert recurrence_period(section, ONE, 1e-6) == 0
+
+
+def test_the_tolerance_is_in_units_of_the_scale() -> None:
+    section = np.tile([[0.0, 0.0], [1e-5, 3.0]], (20, 1))
+    assert recurrence_period(section, np.array([1e-3, 1.0]), 0.1) == 2
+    assert recurrence_period(section, np.array([1e-3, 100.0]), 0.1) == 1
+    assert recurrence_period(section, np.array([1e-5, 100.0]), 0.1) == 2
+
+
+def test_a_period_must_be_seen_twice() -> None:
+    section = np.arange(6.0).repeat(1)[:, None]
+    twice = np.concatenate([section, section])
+    assert recurrence_period(twice, ONE, 1e-9) == 6
+    assert recurrence_period(twice[:-1], ONE, 1e-9) == 0
+    assert recurrence_period(section[:1], ONE, 1e-9) == 0
+
+
+def test_periods_beyond_the_longest_are_not_sought() -> None:
+    section = np.tile(np.arange(40.0), 3)[:, None]
+    assert recurrence_period(section, ONE, 1e-9) == 0
+    assert recurrence_period(section, ONE, 1e-9, longest=40) == 40
+
+
+@pytest.mark.parametrize(
+    ("section", "scale", "tolerance", "message"),
+    [
+        (np.zeros((4, 2)), np.array([1.0, 0.0]), 1e-3, "must be positive"),
+        (np.zeros((4, 2)), np.ones(2), -1.0, "tolerance not negative"),
+        (np.zeros((4, 2)), np.ones(3), 1e-3, "scale"),
+        (np.zeros(4), np.ones(1), 1e-3, "section is"),
+        (np.full((4, 1), math.nan), np.ones(1), 1e-3, "finite points"),
+    ],
+)
+def test_bad_input_is_refused(
+    section: np.ndarray, scale: np.ndarray, tolerance: float, message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        recurrence_period(section, scale, tolerance)
+
+
+@given(
+    st.lists(st.integers(-50, 50), min_size=1, max_size=16),
+    st.integers(3, 5),
+    st.integers(0, 2**32),
+    st.floats(-1e3, 1e3),
+    st.floats(1e-3, 1e3),
+)
+def test_it_is_the_smallest_period_wherever_it_lies_and_whatever_the_unit(
+    cycle: list[int], turns: int, seed: int, shift: float, unit: float
+) -> None:
+    exact = np.array(cycle * turns, np.float64)[:, None]
+    noise = np.random.default_rng(seed).uniform(-0.2, 0.2, exact.shape)
+    smallest = next(p for p in range(1, len(cycle) + 1) if (exact[p:] == exact[:-p]).all())
+    section = unit * (exact + noise + shift)
+    assert recurrence_period(section, np.array([unit]), 0.5) == smallest
