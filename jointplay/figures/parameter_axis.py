@@ -89,12 +89,23 @@ class ParameterAxis:
 
     def ticks(self, axis: Axis, intervals: int) -> None:
         """Give an axis of this one's scale numbers that stand apart."""
-        from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodFormatter
+        from matplotlib.ticker import (
+            FixedLocator,
+            LogLocator,
+            MaxNLocator,
+            NullFormatter,
+            StrMethodFormatter,
+        )
 
+        _, values = self.cells()
+        if len(values) <= intervals:
+            axis.set_major_locator(FixedLocator(values.tolist()))
+            axis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
+            axis.set_minor_locator(FixedLocator([]))
+            return
         if not self.logarithmic:
             axis.set_major_locator(MaxNLocator(intervals, steps=[1, 2, 2.5, 5, 10]))
             return
-        _, values = self.cells()
         decades = float(np.log10(values[-1] / values[0]))
         axis.set_major_locator(LogLocator(10.0, subs=(1.0,) if decades > 2.0 else (1.0, 2.0, 5.0)))
         axis.set_major_formatter(StrMethodFormatter("{x:g}"))  # no powers as mathematics

@@ -24,7 +24,7 @@ _FIRST_PANELS = 4
 """Of the channels, when none are chosen."""
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
-_MAP_HEIGHT = 52.0
+_MAP_HEIGHT = 46.0
 _AXIS_HEIGHT = 8.0
 _MOST_NUMBERS = 60
 """Marks are drawn at the values of a curve if there are no more."""
