@@ -102,7 +102,7 @@ def run_block(
     *,
     report: Callable[[StudyProgress], Answer | str] = lambda _: Answer.go_on,
     attempt: int = 1,
-    resume_from: str | None = None,
+    resume_from: tuple[str, float] | None = None,
 ) -> Outcome:
     """Compute a block and write it to the study's store, which is made if need be.
 
@@ -120,7 +120,8 @@ def run_block(
     attempt
         Which try at the block this is: every try needs a number of its own.
     resume_from
-        What a restart point of an earlier try returned. Where it is no good the block begins anew.
+        What a restart point of an earlier try returned, and the fraction of the block at which it
+        was made. Where it is no good the block begins anew.
 
     Returns
     -------
@@ -147,16 +148,15 @@ def run_laid_out(
     folder: Path,
     report: Callable[[StudyProgress], Answer | str],
     attempt: int,
-    resume_from: str | None,
+    resume_from: tuple[str, float] | None,
 ) -> Outcome:
     """As `run_block`, with the study's layout at hand."""
     _create(study, layout, folder)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
-    block, carried = _begin(layout, index, folder, attempt, resume_from)
+    block, carried, fraction = _begin(layout, index, folder, attempt, resume_from)
     computation = StudyRun(study, index, carried)
     slices = computation.slices()
-    fraction = 0.0
 
     def restart_point() -> str:
         return block.flush(computation.checkpoint())
@@ -191,14 +191,20 @@ def seal_store(study: Study, folder: Path, advanced: Callable[[], None] = lambda
 
 
 def _begin(
-    layout: StudyLayout, index: int, folder: Path, attempt: int, resume_from: str | None
-) -> tuple[StudyBlock, bytes | None]:
+    layout: StudyLayout,
+    index: int,
+    folder: Path,
+    attempt: int,
+    resume_from: tuple[str, float] | None,
+) -> tuple[StudyBlock, bytes | None, float]:
+    """Return the block's store, what continues its computation, and how far that had come."""
     if resume_from is not None:
+        name, fraction = resume_from
         try:
-            return StudyBlock.resume(folder, layout, index, attempt, resume_from)
+            return *StudyBlock.resume(folder, layout, index, attempt, name), fraction
         except (FileNotFoundError, ResultsError) as error:
             _log.warning("block %s begins anew: %s", index, error)
-    return StudyBlock(folder, layout, index, attempt), None
+    return StudyBlock(folder, layout, index, attempt), None, 0.0
 
 
 def _create(study: Study, layout: StudyLayout, folder: Path) -> None:

@@ -112,14 +112,16 @@ class StudyWork:
         def between_slices(progress: StudyProgress) -> Answer:
             return report(progress, lambda: (progress.restart_point(), progress.watermark))
 
+        block = self._block
+        name = block.checkpoint
         return run_laid_out(
             self._study,
             self._layout,
-            self._block.index,
+            block.index,
             self._folder,
             between_slices,
-            self._block.attempt,
-            self._block.checkpoint,
+            block.attempt,
+            None if name is None else (name, block.progress_fraction),
         )
 
     def tidy(self) -> None:

@@ -19,14 +19,14 @@ from storage.settings import Settings
 from storage.studies import StudyReader
 from worker.study_block import run_block, seal_store
 
-# two blocks of some 3 s of computing each; contacts at both joints all along
+# two blocks of more than a second of computing each; contacts at both joints all along
 JOB = {
     "kind": "bifurcation",
     "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.1}},
     "parameter": "clearance",
     "values": {"from": 2e-4, "to": 1e-3, "count": 16},
     "settle": 50,
-    "record": 350,
+    "record": 150,
 }
 
 

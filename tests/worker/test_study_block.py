@@ -132,7 +132,7 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
             )
             assert outcome.state == "left"
             fractions.append(outcome.fraction)
-            resume_from = names[-1]
+            resume_from = (names[-1], outcome.fraction)
         assert 0 < fractions[0] < fractions[1] < fractions[2] < 1
         assert run_block(study, index, folder, attempt=4, resume_from=resume_from) == Outcome(
             "succeeded", 0.0, 1.0
@@ -149,8 +149,10 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
     run_block(study, 0, folder, report=after(1, Answer.leave, names))
     path = folder / ".parts" / names[0]
     path.write_bytes(path.read_bytes()[:-100])
-    assert run_block(study, 0, folder, attempt=2, resume_from=names[0]).state == "succeeded"
-    assert run_block(study, 1, folder, attempt=2, resume_from="00001-a1").state == "succeeded"
+    assert run_block(study, 0, folder, attempt=2, resume_from=(names[0], 0.1)).state == "succeeded"
+    assert (
+        run_block(study, 1, folder, attempt=2, resume_from=("00001-a1", 0.1)).state == "succeeded"
+    )
     seal_store(study, folder)
     assert files(folder) == files(undisturbed)
 
