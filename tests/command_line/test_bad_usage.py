@@ -65,7 +65,7 @@ FILES = {
     "1e400": (b'{"kind": "simulate", "duration": 1e400}', "/duration"),
     "a key twice": (b'{"kind": "simulate", "kind": "simulate"}', "/kind"),
     "unknown field": (b'{"kind": "simulate", "durations": 1}', "/durations"),
-    "unknown kind": (b'{"kind": "sweep"}', "/kind"),
+    "unknown kind": (b'{"kind": "simulation"}', "/kind"),
     "100 000 levels": (b"[" * 100_000, "nested"),
     "not UTF-8": (b"\xff\xfe", "UTF-8"),
 }

@@ -1,0 +1,146 @@
+"""``jointplay run`` of studies with the real solver, and what can be done with what it leaves."""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jointplay.command_line.application import run
+from storage.studies import StudyReader
+
+CRANK = ["run", "slider-crank"]
+DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:17", "--settle", "2", "--record", "4"]
+
+
+def files_of(store: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(store)): path.read_bytes()
+        for path in store.rglob("*")
+        if path.is_file()
+    }
+
+
+@pytest.fixture(scope="module")
+def diagram(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Seventeen clearances of the slider-crank, computed by two processes."""
+    output = tmp_path_factory.mktemp("diagram") / "OUT"
+    assert run([*CRANK, *DIAGRAM, "--processes", "2", "-o", str(output)]) == 0
+    return output
+
+
+def test_a_study_leaves_the_filled_in_job_the_store_the_points_and_figures(diagram):
+    job = json.loads((diagram / "job.json").read_text())
+    assert (job["kind"], job["settle"], job["continuation"]) == ("bifurcation", 2, "none")
+    reader = StudyReader(diagram / "results.zarr")
+    reader.verify()
+    assert reader.complete
+    assert reader.attributes["job"] == job
+    assert np.isfinite(reader.sections("P.eccentricity_x")).all()
+    period = 2.0 * np.pi / job["scene"]["parameters"]["speed"]
+    np.testing.assert_allclose(
+        reader.section_times(),
+        np.broadcast_to(np.arange(3, 7) * abs(period), (17, 4)),
+        rtol=1e-12,
+    )
+    with (diagram / "points.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["status"] for row in rows] == ["done"] * 17
+    assert [float(row["clearance [m]"]) for row in rows] == reader.values[:, 0].tolist()
+    assert [path.name for path in (diagram / "figures").iterdir()] == ["bifurcation.png"]
+
+
+def test_the_number_of_processes_changes_no_byte(jointplay, diagram, tmp_path):
+    again = tmp_path / "AGAIN"
+    ended = jointplay("run", diagram / "job.json", "--processes", "1", "-o", again)
+    assert ended.code == 0, ended.err
+    assert "17 done" in ended.out
+    assert files_of(again / "results.zarr") == files_of(diagram / "results.zarr")
+
+
+def test_sections_are_exported_bit_for_bit_and_drawn(jointplay, diagram, tmp_path):
+    file = tmp_path / "sections.csv"
+    ended = jointplay("export", diagram, "--channels", "P.eccentricity_y", "-o", file)
+    assert ended.code == 0
+    with file.open() as lines:
+        header, *rows = csv.reader(lines)
+    table = np.array(rows, dtype=float)
+    reader = StudyReader(diagram / "results.zarr")
+    column = table[:, header.index("P.eccentricity_y [m]")]
+    np.testing.assert_array_equal(column, reader.sections("P.eccentricity_y").ravel())
+    ended = jointplay("plot", diagram, "section", "--start", "16", "--stop", "17", "-o", tmp_path)
+    assert ended.code == 0
+    assert (tmp_path / "section.png").read_bytes().startswith(b"\x89PNG")
+    ended = jointplay("plot", diagram, "section", "-o", tmp_path)
+    assert ended.code == 2
+    assert "Choose one point" in ended.line()
+
+
+KINDS = {
+    "sweep": (["--sweep", "clearance=1e-4,3e-4", "--sweep", "restitution=0.5,0.9"], 4),
+    "poincare": (["--poincare", "--settle", "1", "--record", "5"], 1),
+    "ensemble": (["--ensemble", "3", "--settle", "1", "--record", "5"], 3),
+}
+
+
+@pytest.mark.parametrize(("options", "points"), KINDS.values(), ids=KINDS)
+def test_every_kind_of_study_runs_locally(jointplay, tmp_path, options, points):
+    periods = ["--periods", "2"] if "--sweep" in options else []
+    output = tmp_path / "OUT"
+    ended = jointplay(*CRANK, *options, *periods, "-o", output)
+    assert ended.code == 0, ended.err
+    assert f"points    {points} done" in ended.out
+    reader = StudyReader(output / "results.zarr")
+    assert reader.complete
+    assert reader.points == points
+    assert list((output / "figures").iterdir()) != []
+
+
+def test_points_that_fail_are_named_and_the_others_stand(jointplay, tmp_path):
+    """A friction law that is all but a step cannot be followed at the tightest tolerance."""
+    stiff = ["--set", "friction=1", "--tolerance", "1e-13", "--set", "static_velocity=1e-12"]
+    over = ["--sweep", "dynamic_velocity=1e-12,1e-2", "--duration", "0.05"]
+    output = tmp_path / "OUT"
+    ended = jointplay("run", "seven-bar-press", *stiff, *over, "-o", output)
+    assert ended.code == 0, ended.err
+    assert "points    1 done, 1 failed" in ended.out
+    assert "point 0 (dynamic_velocity = 1e-12)" in ended.out
+    reader = StudyReader(output / "results.zarr")
+    assert reader.failures.keys() == {0}
+    assert np.isfinite(reader.peaks("displacement").maximum[1])
+    alone = jointplay("run", "seven-bar-press", *stiff, "--sweep", "dynamic_velocity=1e-12",
+                      "--duration", "0.05", "-o", tmp_path / "ALONE")  # fmt: skip
+    assert alone.code == 3
+    assert "every point failed" in alone.err.splitlines()[-1]
+
+
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
+    tmp_path, processes
+):
+    output = tmp_path / "OUT"
+    long = ["--bifurcation", "clearance=1e-4:5e-4:400", "--settle", "0", "--record", "100"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "jointplay", *CRANK, *long, "--processes", processes, "-o", output],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if " points" in line and " 0 of 400" not in line:
+                break
+        process.send_signal(signal.SIGINT)
+        out, rest = process.communicate(timeout=60)
+    assert process.returncode == 4, rest
+    assert "cancelled" in rest.splitlines()[-1]
+    assert "waiting" in out
+    reader = StudyReader(output / "results.zarr")
+    assert not reader.complete
+    done = int((reader.status == 2).sum())
+    assert 0 < done < 400
+    assert np.isfinite(reader.sections("P.eccentricity_x")[reader.status == 2]).all()
