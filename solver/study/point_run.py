@@ -14,6 +14,8 @@ from solver.compiler.kernel import Kernel
 from solver.lanes.bundle import Event, LaneProblem, LaneStart
 from solver.lanes.start import start_state
 from solver.lanes.state import SectionKind
+from solver.nonlinear.settling import SETTLINGS, Settling
+from solver.study.indicators import RECURS, unwound
 from solver.study.plan import Study
 from solver.study.starts import perturbed_start, start_scales
 
@@ -21,7 +23,7 @@ Floats = NDArray[np.float64]
 
 ENDLESS = 2**62
 """More sections than any run takes."""
-WINDOW = 32
+WINDOW = 16
 """Periods between two looks at whether a point has settled."""
 
 
@@ -39,12 +41,27 @@ class PointRun:
     """Periods left out, once that is known; -1 before."""
     reached: int = 0
     """Periods of the present leg's end."""
-    skipped: int = 0
-    """Sections seen while settling."""
     taken: int = 0
     """Sections handed out."""
     seen: list[Floats] = field(default_factory=list)
-    """Section values that indicators, or the look at settling, still need."""
+    """States at sections, (sections, states) each, that settling or indicators still need."""
+    growth: list[Floats] = field(default_factory=list)
+    """Logarithms of the tangent's growth in each recorded period."""
+    settling: Settling | None = field(default=None, repr=False)
+
+    def has_settled(self, scales: Floats, angles: NDArray[np.bool_], most: int) -> bool:
+        """Whether the sections seen so far say so; those of the last leg are looked at now."""
+        found = self.settling or Settling(scales, RECURS, max(most, 1))
+        if found.result is None:
+            states = (
+                unwound(np.concatenate(self.seen), angles)
+                if self.seen
+                else np.zeros((0, len(scales)))
+            )
+            new = states[len(found.sections) :]
+            found.feed(new)
+        self.settling = found
+        return found.result is not None and found.result.code != SETTLINGS["unsettled"]
 
 
 def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
@@ -83,6 +100,15 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         event,
         start,
     )
+
+
+def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return what counts as one in each state, and which states are angles, (states,) each."""
+    position, speed = start_scales(
+        study.point_scene(point), kernel.coordinates, float(study.period[point])
+    )
+    angles = np.array([name.endswith(".theta") for name in kernel.coordinates], dtype=bool)
+    return np.concatenate([position, speed]), np.concatenate([angles, np.zeros_like(angles)])
 
 
 def most_settling(study: Study, point: int) -> int:

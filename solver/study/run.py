@@ -24,11 +24,22 @@ from solver.lanes.account import failure_of, peaks_of, statistics_of
 from solver.lanes.bundle import Bundle, LaneStart
 from solver.lanes.state import Counter, Status
 from solver.simulate import FIRST_BUDGET, LARGEST_BUDGET, SLICE_SECONDS
+from solver.study.indicators import MOST_SECTIONS, indicators_of
 from solver.study.plan import Study
-from solver.study.point_run import ENDLESS, WINDOW, PointRun, most_settling, problem_of
+from solver.study.point_run import (
+    ENDLESS,
+    WINDOW,
+    PointRun,
+    most_settling,
+    problem_of,
+    scales_of,
+)
 from solver.study.results import PointEnd, SectionRows, StudySlice
 
 Floats = NDArray[np.float64]
+
+SERIES = ("seen", "growth")
+"""Of a point's run: lists of arrays that a restart point needs."""
 
 
 class StudyRun:
@@ -138,15 +149,14 @@ class StudyRun:
         if not len(rows):
             return []
         times = rows[:, 0] * float(self.study.period[run.point]) + rows[:, 1]
-        values = bundle.observe(lane, rows, self.columns)
+        if run.settled < 0 or (self.study.indicators and run.taken < MOST_SECTIONS):
+            first_state = 2 + 2 * len(bundle.kernel.drivers)
+            run.seen.append(rows[:, first_state : first_state + bundle.kernel.states].copy())
         if run.settled < 0:
-            run.skipped += len(rows)
-            run.seen.append(values)
             return []
+        values = bundle.observe(lane, rows, self.columns)
         first = run.taken
         run.taken += len(rows)
-        if self.study.indicators:
-            run.seen.append(values)
         return [SectionRows(run.point, first, times, values)]
 
     def _goes_on(self, lane: int, run: PointRun) -> bool:
@@ -161,7 +171,8 @@ class StudyRun:
             return True
         period = float(study.period[point])
         most = most_settling(study, point)
-        if run.reached < most and not has_settled(run.seen):
+        scales, angles = scales_of(study, bundle.kernel, point)
+        if run.reached < most and not run.has_settled(scales, angles, most):
             run.reached = min(run.reached + WINDOW, most)
             bundle.extend(lane, run.reached * period, ENDLESS)
             return True
@@ -188,7 +199,7 @@ class StudyRun:
             bundle.time(lane),
             np.array([list(asdict(peak).values()) for peak in peaks]).reshape(-1, 4),
             self._statistics(lane, run),
-            {},
+            {} if failure or not study.indicators else self._indicators(run),
         )
         order = study.chain_order[run.chain]
         if run.position + 1 < len(order):
@@ -196,6 +207,15 @@ class StudyRun:
             following = run.position + 1
             self.waiting.append(PointRun(order[following], run.chain, following, start))
         return end
+
+    def _indicators(self, run: PointRun) -> dict[str, float]:
+        assert self.bundle is not None  # noqa: S101  (it has just advanced)
+        kernel, study = self.bundle.kernel, self.study
+        states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
+        scales, angles = scales_of(study, kernel, run.point)
+        growth = np.concatenate(run.growth) if run.growth else np.zeros(0)
+        period = float(study.period[run.point])
+        return indicators_of(study.indicators, states, scales, angles, growth, period)
 
     def _statistics(self, lane: int, run: PointRun) -> dict[str, float]:
         assert self.bundle is not None  # noqa: S101  (it has just advanced)
@@ -206,6 +226,7 @@ class StudyRun:
         found |= {f"energy_{name}" if name == "residual" else name: energy[name] for name in chosen}
         found |= {
             "settled_periods": max(run.settled, 0) if self.study.record else float("nan"),
+            "settling": run.settling.result.code if run.settling and run.settling.result else 0,
             "from_neighbour": float(run.start is not None),
         }
         return {name: float(value) for name, value in found.items()}
@@ -225,7 +246,9 @@ class StudyRun:
         runs = [*self.waiting, *(run for run in self.lanes if run is not None)]
         arrays: dict[str, NDArray[Any]] = {}
         for run in runs:
-            arrays |= {f"seen{run.point}-{i}": values for i, values in enumerate(run.seen)}
+            for name in SERIES:
+                parts = getattr(run, name)
+                arrays |= {f"{name}{run.point}-{i}": part for i, part in enumerate(parts)}
             if run.start is not None:
                 arrays |= {
                     f"start{run.point}-{name}": value
@@ -258,21 +281,19 @@ class StudyRun:
         self.lanes = [found and _run(found, arrays) for found in facts["lanes"]]
 
 
-def has_settled(windows: list[Floats]) -> bool:
-    """Whether the sections of the last windows look alike."""
-    return len(windows) > 2 and bool(WINDOW)
-
-
 def _facts(run: PointRun) -> dict[str, Any]:
-    names = ("point", "chain", "position", "settled", "reached", "skipped", "taken")
+    names = ("point", "chain", "position", "settled", "reached", "taken")
     facts = {name: getattr(run, name) for name in names}
-    return facts | {"seen": len(run.seen), "starts": run.start is not None}
+    facts |= {name: len(getattr(run, name)) for name in SERIES}
+    return facts | {"starts": run.start is not None}
 
 
 def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
-    seen, starts = facts.pop("seen"), facts.pop("starts")
+    starts = facts.pop("starts")
+    counts = {name: facts.pop(name) for name in SERIES}
     run = PointRun(**facts)
-    run.seen = [arrays[f"seen{run.point}-{i}"] for i in range(seen)]
+    for name, count in counts.items():
+        setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
     if starts:
         names = ("state", "contact", "impact_rate")
         run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]

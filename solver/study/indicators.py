@@ -1,0 +1,93 @@
+"""Indicators of one point, from the states of the whole system at its sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.nonlinear.lyapunov import exponent_from_growth
+from solver.nonlinear.recurrence import recurrence_period
+from solver.nonlinear.rotation import rotation_number
+from solver.nonlinear.verdict import decide
+from solver.nonlinear.zero_one import zero_one_test
+
+Floats = NDArray[np.float64]
+
+RECURS = 1e-3
+"""Sections closer than this share of the clearance are the same: far above the solver's error."""
+MOST_SECTIONS = 5000
+"""That indicators look at: the first ones of the record."""
+FEWEST_FOR_SPECTRUM = 16
+
+
+def indicators_of(
+    chosen: Sequence[str],
+    states: Floats,
+    scales: Floats,
+    angles: NDArray[np.bool_],
+    log_growth: Floats,
+    period: float,
+) -> dict[str, float]:
+    """Return the chosen indicators, each with its error, and the verdict that they allow.
+
+    Parameters
+    ----------
+    chosen
+        Of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``.
+    states : (sections, states)
+        Generalised coordinates and speeds.
+    scales : (states,)
+        What counts as one in each: the finest clearance, as length, turn, or rate of either.
+    angles : (states,)
+        Which are angles; whole turns do not count.
+    log_growth : (periods,)
+        Logarithm of the tangent vector's growth in each period of the record.
+    period
+        s.
+    """
+    states = unwound(states[:MOST_SECTIONS], angles) / scales
+    found: dict[str, float] = {}
+    lyapunov = zero_one = rotation = None
+    recurrence: int | None = None
+    if "lyapunov" in chosen and len(log_growth):
+        lyapunov = exponent_from_growth(log_growth, period)
+        found |= {"lyapunov": lyapunov.value, "lyapunov_error": lyapunov.error}
+    if len(states) and "zero_one" in chosen:
+        zero_one = zero_one_test(states, resolution=RECURS)
+        found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
+    if len(states) and "recurrence" in chosen:
+        recurrence = recurrence_period(states, np.ones(len(scales)), RECURS)
+        found["period"] = float(recurrence)
+    if len(states) > 2 and "rotation" in chosen:
+        rotation = rotation_number(principal_plane(states))
+        found["rotation"] = rotation.value if rotation else float("nan")
+        found["rotation_error"] = rotation.error if rotation else float("nan")
+    if len(states) >= FEWEST_FOR_SPECTRUM and "spectrum" in chosen:
+        # scipy.signal takes a second to import, which only this indicator needs
+        from solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
+
+        spectrum = power_spectrum(principal_plane(states)[:, 0], period)
+        frequency, share = strongest_line(spectrum)
+        found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
+    verdict = decide(lyapunov, zero_one, recurrence, rotation)
+    return found | {"verdict": float(verdict.code)}
+
+
+def unwound(states: Floats, angles: NDArray[np.bool_]) -> Floats:
+    """Return states without the whole turns that angles have made since the first."""
+    if not len(states):
+        return states
+    turns = np.round((states - states[0]) / (2.0 * np.pi))
+    return np.asarray(states - 2.0 * np.pi * turns * angles, np.float64)
+
+
+def principal_plane(states: Floats) -> Floats:
+    """Return the states seen along the two directions in which they spread most, (n, 2)."""
+    centred = states - states.mean(axis=0)
+    _, _, directions = np.linalg.svd(centred, full_matrices=False)
+    plane = centred @ directions[:2].T
+    if plane.shape[1] == 2:
+        return np.asarray(plane, np.float64)
+    return np.column_stack([plane, np.zeros(len(plane))])
