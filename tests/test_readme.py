@@ -1,4 +1,4 @@
-"""The commands and programs of the README, run as they stand, against a real service."""
+"""The commands and programs of the documentation, run as they stand, against a real service."""
 
 import os
 import re
@@ -14,7 +14,9 @@ from jointplay.serving import running_service
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
-BLOCKS = re.findall(r"^```(bash|python)\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+PAGES = [README, (ROOT / "docs" / "http.md").read_text()]
+BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+BLOCKS = [block for page in PAGES for block in BLOCK.findall(page)]
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +26,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.mark.parametrize(("language", "text"), BLOCKS, ids=[text.split()[0] for _, text in BLOCKS])
-def test_what_the_readme_says_works(language, text, service, tmp_path):
+def test_what_the_documentation_says_works(language, text, service, tmp_path):
     if "curl" in text and shutil.which("curl") is None:
         pytest.skip("this machine has no curl")
     text = text.replace("http://127.0.0.1:8000", service)

@@ -1,5 +1,6 @@
 """Broker, API, relay and worker as `jointplay serve` runs them, used by commands and client."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -8,7 +9,9 @@ import pytest
 
 from jointplay.client import Client
 from jointplay.serving import running_service
+from jointplay.study_source import WAITING
 from storage.results import ResultReader
+from storage.studies import StudyReader
 
 PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
 
@@ -45,6 +48,79 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
         assert [local.joints[index] for index in rows["joint"]] == impacts.joint
         assert len(impacts.joint) > 0
         np.testing.assert_array_equal(impacts.release, rows["release"])  # NaN where still open
+
+
+def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path):
+    diagram = ["slider-crank", "--bifurcation", "clearance=1e-4:5e-4:20", "--settle", "3"]
+    diagram += ["--record", "6"]
+    submitted = jointplay("submit", *diagram, "--wait", "--url", url)
+    assert submitted.code == 0, submitted.err
+    job_id = submitted.out.strip()
+    assert jointplay("run", *diagram, "-o", tmp_path / "OUT").code == 0
+    local = StudyReader(tmp_path / "OUT" / "results.zarr")
+    with Client(url) as client:
+        assert client.get(job_id).job == local.attributes["job"]
+        study = client.study(job_id)
+        assert study.complete
+        assert study.values.tobytes() == local.values.tobytes()
+        assert study.times.tobytes() == local.section_times().tobytes()
+        for observable in local.observables:
+            name = observable.name
+            assert study.sections(name).tobytes() == local.sections(name).tobytes(), name
+        for name, column in local.statistics.items():
+            assert study.statistics[name].tobytes() == column.tobytes(), name
+        drawn = client.figure(job_id, "bifurcation")
+    assert drawn == (tmp_path / "OUT" / "figures" / "bifurcation.png").read_bytes()
+    assert "20 done" in jointplay("show", job_id, "--url", url).out
+
+
+def test_a_study_is_read_while_it_runs_and_keeps_what_it_has_when_cancelled(jointplay, url):
+    long = ["slider-crank", "--bifurcation", "clearance=1e-4:5e-4:4000", "--record", "100"]
+    job_id = jointplay("submit", *long, "--settle", "0", "--url", url).out.strip()
+    with Client(url) as client:
+        seen = None
+
+        def look(job):
+            nonlocal seen
+            if seen is None and job.progress.fraction > 0.0:
+                seen = client.study(job_id, ["P.eccentricity_x"], sections=(0, 10))
+                client.cancel(job_id)
+
+        assert client.wait(job_id, look, timeout=120.0).state == "cancelled"
+        assert seen is not None
+        assert not seen.complete
+        assert (seen.status == WAITING).any()
+        assert (seen.counts > 0).any()
+        kept = client.study(job_id, ["P.eccentricity_x"], sections=(0, 10))
+        assert (kept.counts >= seen.counts).all()
+        recorded = np.isfinite(seen.times)
+        np.testing.assert_array_equal(
+            kept.sections("P.eccentricity_x")[recorded], seen.sections("P.eccentricity_x")[recorded]
+        )
+    shown = jointplay("show", job_id, "--wait", "--url", url)
+    assert shown.code == 4
+    assert "waiting" in shown.out
+
+
+def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
+    scene = {"preset": "slider-crank"}
+    jobs = [
+        {"kind": "simulate", "scene": scene, "duration": 0.01},
+        {"kind": "sweep", "scene": scene, "grid": {"clearance": [1e-4, 2e-4]}, "periods": 1},
+        {"kind": "poincare", "scene": scene, "settle": 1, "record": 3},
+        {"kind": "ensemble", "scene": scene, "members": 2, "settle": 1, "record": 3},
+    ]
+    (tmp_path / "jobs.json").write_text(json.dumps(jobs))
+    ended = jointplay("batch", tmp_path / "jobs.json", "--wait", "--url", url)
+    assert ended.code == 0, ended.err
+    batch, states = ended.out.splitlines()
+    assert states == "4 jobs: 4 succeeded"
+    with Client(url) as client:
+        assert client.batch(batch).fraction == 1.0
+        _, sweep, poincare, ensemble = client.batch_jobs(batch)
+        assert np.isfinite(client.study(sweep.id).peaks("displacement").maximum).all()
+        assert client.study(poincare.id).counts.tolist() == [3]
+        assert client.study(ensemble.id).counts.tolist() == [3, 3]
 
 
 def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):
