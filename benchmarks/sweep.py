@@ -1,0 +1,148 @@
+"""A bifurcation diagram of the press over HTTP: 200 clearances of 150 periods, by 1 and 2 workers.
+
+    python -m benchmarks sweep
+
+Stiffness 5e9, friction 0.1, restitution 0.7, bearing radius 10 mm, limit velocities 1e-3 and
+1e-2 m/s, tolerance 1e-6; the time runs from the request to the finished array, kernels warm.
+Beside it, in the same run: the time in kernels alone, and SciPy on the paper's equations.
+"""
+
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from benchmarks.press import CASE
+from jointplay.client import Client
+from jointplay.serving import running_service
+from solver.admission import Study, admit
+from solver.assembly import assemble
+from solver.lanes.bundle import Bundle
+from solver.mechanics.lagrange import LagrangeMechanism
+from solver.mechanics.view import view
+from solver.study.run import StudyRun
+
+VALUES, SETTLE, RECORD = 200, 100, 50
+PERIODS = VALUES * (SETTLE + RECORD)
+REPEATS = 3
+SCIPY_SECONDS = 0.02
+"""Simulated time that SciPy gets; the rest is scaled."""
+
+
+def document(values: int = VALUES, settle: int = SETTLE, record: int = RECORD) -> dict[str, Any]:
+    """Return the job."""
+    return {
+        "kind": "bifurcation",
+        "scene": {"preset": "seven-bar-press", "parameters": CASE},
+        "parameter": "clearance",
+        "values": {"from": 1e-4, "to": 1e-3, "count": values, "spacing": "linear"},
+        "settle": settle,
+        "record": record,
+        "tolerance": 1e-6,
+    }
+
+
+def over_http(workers: int) -> list[float]:
+    """Return the seconds from request to finished array of repeated jobs."""
+    seconds = []
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        running_service(Path(folder), workers) as url,
+        Client(url) as client,
+    ):
+        client.wait(client.submit(document(16 * workers, 2, 2)).id)
+        for repeat in range(REPEATS):
+            job = document() | {"label": str(repeat)}
+            begun = time.perf_counter()
+            found = client.wait(client.submit(job).id)
+            seconds.append(time.perf_counter() - begun)
+            if found.state != "succeeded":
+                raise SystemExit(f"the job {found.state}: {found.error}")
+    return seconds
+
+
+def in_kernels() -> tuple[float, float, float]:
+    """Return seconds in kernels, seconds in all, and the share of useful evaluations."""
+    study = admit(document())
+    assert isinstance(study, Study)
+    spent = [0.0]
+    original: Callable[[Bundle, int], int] = Bundle.advance
+
+    def timed(bundle: Bundle, budget: int) -> int:
+        begun = time.perf_counter()
+        running = original(bundle, budget)
+        spent[0] += time.perf_counter() - begun
+        return running
+
+    Bundle.advance = timed  # type: ignore[method-assign]
+    useful = attempts = 0.0
+    begun = time.perf_counter()
+    for block in range(len(study.blocks)):
+        run = StudyRun(study, block)
+        for piece in run.slices():
+            for end in piece.ended:
+                useful += end.statistics["steps"] + end.statistics["rejections"]
+        assert run.bundle is not None
+        attempts += 8.0 * run.bundle.attempts
+    total = time.perf_counter() - begun
+    Bundle.advance = original  # type: ignore[method-assign]
+    return spent[0], total, useful / attempts
+
+
+def with_scipy() -> float:
+    """Return seconds a period: 18 coordinates, multipliers, Baumgarte; the rate latched inside."""
+    study = admit(document())
+    assert isinstance(study, Study)
+    scene = study.point_scene(VALUES // 2)
+    numbers, assembly = view(scene), assemble(scene)
+    half = 3 * len(scene.bodies)
+    mode = dict.fromkeys(("A", "B"), 0.0)
+    rate = dict.fromkeys(mode, 1e-3)
+
+    def slope(t: float, y: np.ndarray) -> list[float]:
+        driven = {name: d.position + d.speed * t for name, d in scene.drivers.items()}
+        state = [float(x) for x in y]
+        mechanism = LagrangeMechanism(scene, numbers, state[:half], state[half:], driven)
+        motion = mechanism.motion(mode, rate)
+        for name, found in motion.contacts.items():
+            closed = found.penetration > 0.0
+            if closed and mode[name] == 0.0:
+                rate[name] = max(found.penetration_rate, 1e-3)
+            mode[name] = float(closed)
+        return [*state[half:], *motion.accelerations]
+
+    begun = time.perf_counter()
+    start = np.concatenate([assembly.pose, assembly.velocity])
+    solve_ivp(slope, (0.0, SCIPY_SECONDS), start, method="RK45", rtol=1e-6, atol=1e-9)
+    return (time.perf_counter() - begun) * float(study.period[0]) / SCIPY_SECONDS
+
+
+def main() -> None:
+    """Print the table."""
+    scipy = with_scipy()
+    hours = scipy * PERIODS / 3600.0
+    print(f"SciPy RK45 on the paper's equations: {scipy:.1f} s a period, scaled from"
+          f" {SCIPY_SECONDS:g} s of motion: {hours:.0f} h for the diagram")  # fmt: skip
+    kernels, alone, useful = in_kernels()
+    print(f"{VALUES} values x {SETTLE + RECORD} periods; medians of {REPEATS}, best in brackets")
+    print(f"one process: {alone:.2f} s, of it in kernels {kernels:.2f} s;"
+          f" {1e3 * kernels / PERIODS:.3f} ms a period; useful evaluations {useful:.1%}")  # fmt: skip
+    medians = {}
+    for workers in (1, 2):
+        seconds = over_http(workers)
+        medians[workers] = statistics.median(seconds)
+        share = kernels / (workers * medians[workers])
+        print(
+            f"{workers} worker{'s' if workers > 1 else ' '} over HTTP: {medians[workers]:6.2f} s"
+            f" ({min(seconds):.2f}); in kernels {share:.0%}"
+        )
+    print(f"two workers are {medians[1] / medians[2]:.2f} times as fast as one")
+
+
+if __name__ == "__main__":
+    main()
