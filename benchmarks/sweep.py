@@ -130,8 +130,10 @@ def main() -> None:
           f" {SCIPY_SECONDS:g} s of motion: {hours:.0f} h for the diagram")  # fmt: skip
     kernels, alone, useful = in_kernels()
     print(f"{VALUES} values x {SETTLE + RECORD} periods; medians of {REPEATS}, best in brackets")
-    print(f"one process: {alone:.2f} s, of it in kernels {kernels:.2f} s;"
-          f" {1e3 * kernels / PERIODS:.3f} ms a period; useful evaluations {useful:.1%}")  # fmt: skip
+    print(
+        f"one process: {alone:.2f} s, of it in kernels {kernels:.2f} s,"
+        f" {1e3 * kernels / PERIODS:.3f} ms a period; useful evaluations {useful:.1%}"
+    )
     medians = {}
     for workers in (1, 2):
         seconds = over_http(workers)
