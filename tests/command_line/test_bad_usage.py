@@ -112,9 +112,10 @@ def test_a_service_with_wrong_settings_ends_with_two_and_one_line(
 ):
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
-    ended = jointplay("serve", "--port", "0", "--data", tmp_path, *arguments)
+    ended = jointplay("serve", "--port", "0", "--data", tmp_path / "new", *arguments)
     assert ended.code == 2
     assert says in ended.line()
+    assert not (tmp_path / "new").exists()
 
 
 def test_the_data_folder_may_be_named_by_the_environment(jointplay, tmp_path, monkeypatch):
