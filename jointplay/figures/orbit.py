@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import page, scene_facts, smooth
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
@@ -28,7 +28,9 @@ def _names(joint: str) -> tuple[str, str]:
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     joints = scene_facts.chosen_joints(source, selection)
-    return scene_facts.stored(source, [name for joint in joints for name in _names(joint)])
+    rates = [rate for joint in joints for rate in smooth.stored_rates(source, _names(joint))]
+    names = [name for joint in joints for name in _names(joint)]
+    return scene_facts.stored(source, [*rates, *names])
 
 
 def _draw(source: Source, selection: Selection) -> Figure:
@@ -40,7 +42,7 @@ def _draw(source: Source, selection: Selection) -> Figure:
     metres = scale("m", np.array(list(joints.values())))
     panels = [axes for row in grid for axes in row]
     for axes, (joint, clearance) in zip(panels, joints.items(), strict=False):
-        _, path = sampling.in_a_plane(source, _names(joint), selection)
+        _, path = smooth.path(source, joint, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
         _orbit(axes, x, y, clearance / metres.factor)
         axes.locator_params(nbins=_INTERVALS // columns)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import page, sampling, scene_facts, smooth
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
@@ -30,7 +30,7 @@ class _Panel:
     rate: str
     position_label: str
     rate_label: str
-    title: str = ""
+    joint: str = ""
 
 
 def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
@@ -51,7 +51,7 @@ def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
                 f"{joint}.eccentricity_rate_{axis}",
                 f"eccentricity {axis}",
                 f"rate {axis}",
-                f"joint {joint}",
+                joint,
             )
             for axis in "xy"
         ]
@@ -82,7 +82,10 @@ def _draw(source: Source, selection: Selection) -> Figure:
 
 def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -> None:
     names = (panel.position, panel.rate)
-    _, path = sampling.in_a_plane(source, names, selection)
+    if panel.joint:
+        _, path = smooth.path(source, panel.joint, names, selection)
+    else:
+        _, path = sampling.in_a_plane(source, names, selection)
     points = _sections(source, names, selection)
     across, up = (
         scale(scene_facts.channel(source, name).unit, path[name], points[name]) for name in names
@@ -107,7 +110,7 @@ def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -
         )
     axes.set_xlabel(across.label(panel.position_label))
     axes.set_ylabel(up.label(panel.rate_label))
-    page.corner_text(axes, panel.title)
+    page.corner_text(axes, f"joint {panel.joint}" if panel.joint else "")
 
 
 def _sections(source: Source, names: tuple[str, str], selection: Selection) -> dict[str, Floats]:
