@@ -14,7 +14,7 @@ def ls(
     ] = 20,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
-    """List the jobs of a service, newest first: id, state, progress, when, label.
+    """List the jobs of a service, newest first: id, state, progress, when, kind, label.
 
     Example: `jointplay ls -n 50`
     """
@@ -23,7 +23,7 @@ def ls(
             created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
             done = f"{job.progress.fraction:.0%}"
             label = job.label or scene_name(job.job)
-            typer.echo(f"{job.id}  {job.state:10} {done:>4}  {created}  {label}")
+            typer.echo(f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}  {label}")
 
 
 def scene_name(job: dict[str, Any]) -> str:

@@ -79,6 +79,8 @@ def run(
         ),
     )
     admission = admit(document)
+    if processes is not None and not isinstance(admission, Study):
+        raise Stopped(Exit.BAD_INPUT, "--processes is of studies; this is one simulation.")
     _make(output)
     store = output / output_folder.STORE
     if isinstance(admission, Study):

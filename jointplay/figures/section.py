@@ -60,30 +60,40 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
     points = study_facts.chosen_points(source, selection)
     if not source.counts[points].any():
         raise NotDrawable("No section was recorded there yet.", "first")
+    everything = study_facts.Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
+    verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
     columns = min(_COLUMNS, len(pairs))
     rows = -(-len(pairs) // columns)
     height = _SINGLE_HEIGHT if columns == 1 else _PANEL_HEIGHT * rows
-    figure, grid = page.panels(rows, columns, height)
+    figure, grid = page.panels(rows, columns, height + (page.LEGEND_HEIGHT if verdicts else 0.0))
     panels = [axes for row in grid for axes in row]
     for axes, pair in zip(panels, pairs, strict=False):
-        _scatter(axes, source, pair, points, _INTERVALS // columns)
+        _scatter(axes, source, pair, points, verdicts or [everything])
+        axes.locator_params(axis="x", nbins=_INTERVALS // columns)
     for axes in panels[len(pairs) :]:
         axes.remove()
     figure.align_ylabels()
+    if verdicts:
+        page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
     return figure
 
 
 def _scatter(
-    axes: Axes, source: StudySource, pair: tuple[str, str], points: slice, intervals: int
+    axes: Axes,
+    source: StudySource,
+    pair: tuple[str, str],
+    points: slice,
+    groups: list[study_facts.Group],
 ) -> None:
-    values = [marks.sections(source, name, points).ravel() for name in pair]
+    values = [marks.sections(source, name, points) for name in pair]
     across, up = (
-        scale(study_facts.described(source.observables, name).unit, one[np.isfinite(one)])
+        scale(study_facts.described(source.observables, name).unit, one)
         for name, one in zip(pair, values, strict=True)
     )
-    size = marks.size(len(values[0]))
-    marks.draw_cloud(axes, values[0] / across.factor, values[1] / up.factor, page.BLUE, size)
-    axes.locator_params(axis="x", nbins=intervals)
+    size = marks.size(values[0].size)
+    for group in groups:
+        x, y = (one[group.members[points]].ravel() for one in values)
+        marks.draw_cloud(axes, x / across.factor, y / up.factor, group.colour, size)
     axes.set_xlabel(across.label(_short(pair[0])))
     axes.set_ylabel(up.label(_short(pair[1])))
     owners = {name.rpartition(".")[0] for name in pair}

@@ -31,7 +31,9 @@ class StudyPoints(BaseModel):
         description="Give it as start for the points that did not fit; null: there are none."
     )
     values: dict[str, Series] = Field(description="By parameter, its value at each point.")
-    status: list[Status]
+    status: list[Status] = Field(
+        description="What each point is doing; running in a job that has ended: begun, unfinished."
+    )
     failures: list[PointFailure] = Field(description="Of the points that failed.")
     statistics: dict[str, Values] = Field(
         description="By name: steps, onsets, energy_residual (J) and others."

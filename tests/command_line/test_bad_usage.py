@@ -30,6 +30,7 @@ WRONG = {
     "unknown channel": ([*TIMED, "--channels", "slider8.x"], "/channels/0"),
     "unknown formulation": ([*TIMED, "--formulation", "newton"], "/formulation"),
     "too many samples": ([*TIMED, "--output-step", "1e-9"], "/output_step"),
+    "processes of one simulation": ([*TIMED, "--processes", "2"], "--processes"),
     "no such file": (["run", "missing.json", "-o", "OUT"], "missing.json"),
     "no such results": (["export", "missing"], "missing"),
     "a folder without results": (["plot", "."], "no results"),

@@ -198,6 +198,15 @@ def test_a_section_shows_each_position_against_its_rate():
     np.testing.assert_allclose(marks, expected * 1e3)
 
 
+def test_verdicts_colour_the_sections_of_an_ensemble():
+    source = replace(one_point("ensemble", 4, record=5), verdicts=np.array([1, 3, 3, 1]))
+    axes, _ = drawn_with(source, "section", None).axes
+    marks = marks_of(axes)
+    x = source.section_values["left.eccentricity_x"] * 1e3
+    np.testing.assert_allclose(marks[page.BLUE.upper()][:, 0], x[[0, 3]].ravel())
+    np.testing.assert_allclose(marks[page.VERMILION.upper()][:, 0], x[[1, 2]].ravel())
+
+
 def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
     source = sweep((30,))
     order = np.random.default_rng(1).permutation(30)
