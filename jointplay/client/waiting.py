@@ -7,7 +7,8 @@ from typing import Protocol, TypeVar
 from jointplay.client.errors import ClientError
 
 _SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...
-_LONGEST_PAUSE = 1.0  # ... this, so that a long job costs one request a second
+_LONGEST_PAUSE = 1.0  # ... this, so that a long job costs one request a second ...
+_LATE = 0.05  # ... and no answer comes later than by this part of the time it took
 
 
 class _Finishable(Protocol):
@@ -39,15 +40,15 @@ def wait_for(
     state
         Says in words where it is, for that error.
     """
-    deadline = None if timeout is None else time.monotonic() + timeout
-    pause = _SHORTEST_PAUSE
+    begin = time.monotonic()
     while True:
         found = ask()
         if report is not None:
             report(found)
         if found.is_finished:
             return found
-        if deadline is not None and time.monotonic() + pause > deadline:
+        waited = time.monotonic() - begin
+        pause = min(max(_LATE * waited, _SHORTEST_PAUSE), _LONGEST_PAUSE)
+        if timeout is not None and waited + pause > timeout:
             raise ClientError(f"{state(found)} after {timeout:g} s.")
         time.sleep(pause)
-        pause = min(pause * 1.3, _LONGEST_PAUSE)
