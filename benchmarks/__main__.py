@@ -3,7 +3,7 @@
 import importlib
 import sys
 
-ALL = ("press", "sweep", "start", "results_store")
+ALL = ("press", "sweep", "platform", "start", "results_store")
 
 
 def main() -> int:

@@ -72,6 +72,11 @@ class BlockRun:
                 if outcome.state == "left":
                     self._catalogue.release(self._block.id, self._block.attempt)
                     return
+                recognised = (
+                    outcome.state == "succeeded"
+                    and self._work is not None
+                    and self._work.recognised
+                )
                 state = self._catalogue.finish(
                     self._block.id,
                     self._block.attempt,
@@ -79,6 +84,7 @@ class BlockRun:
                     outcome.error,
                     time=outcome.time,
                     fraction=outcome.fraction,
+                    durable=not recognised,
                 )
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)

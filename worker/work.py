@@ -44,6 +44,9 @@ Report = Callable[[AnyProgress, Callable[[], Kept]], Answer]
 class Work(Protocol):
     """One claimed block's work."""
 
+    recognised: bool
+    """Whether whoever takes the block again finds that it is done, and need not repeat it."""
+
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Do it; `advanced` is for what has no slices."""
         ...
@@ -55,6 +58,8 @@ class Work(Protocol):
 
 class SimulationWork:
     """A whole simulation, into a store of this attempt."""
+
+    recognised = False
 
     def __init__(self, admission: Admission, claim: Claim, settings: Settings) -> None:
         self._admission = admission
@@ -101,6 +106,8 @@ class SimulationWork:
 class StudyWork:
     """One block of a study, into the store that all its blocks fill."""
 
+    recognised = True
+
     def __init__(self, study: Study, layout: StudyLayout, claim: Claim, folder: Path) -> None:
         self._study, self._layout = study, layout
         self._block = claim.block
@@ -130,6 +137,8 @@ class StudyWork:
 
 class SealWork:
     """The end of a study: its store gets what all blocks left for it, and the manifest."""
+
+    recognised = False  # with it the job ends, which must be durable
 
     def __init__(self, layout: StudyLayout, folder: Path) -> None:
         self._layout, self._folder = layout, folder

@@ -265,17 +265,19 @@ class Catalogue:
         *,
         time: float | None = None,
         fraction: float | None = None,
+        durable: bool = True,
     ) -> JobState:
         """End a held block (done, failed with an error, cancelled); return the job's state.
 
-        `time` [s] and `fraction` (0..1) say how far it came, if that is known.
+        `time` [s] and `fraction` (0..1) say how far it came, if that is known. If not `durable` a
+        power cut may undo it: the block is then taken again.
 
         Raises
         ------
         Fenced
             The block is held no more; nothing was changed.
         """
-        with self._connections.writing(durable=True) as connection:
+        with self._connections.writing(durable=durable) as connection:
             return holding.finish(
                 connection,
                 block,

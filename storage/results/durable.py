@@ -58,6 +58,12 @@ class DurableFolder:
         sync_all([f"{self.root}/{folder}".rstrip("/") for folder in sorted(self._unsynced)])
         self._unsynced.clear()
 
+    def discard(self) -> None:
+        """Remove what was written since the last commit."""
+        for key in self._partial:
+            Path(f"{self.root}/{key}{self.partial}").unlink(missing_ok=True)
+        self._partial.clear()
+
     def draft(self, key: str, content: bytes) -> None:
         """Write one file that readers see whole, but that a power cut may take away."""
         self._put(key, content)

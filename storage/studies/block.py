@@ -13,7 +13,7 @@ import numpy as np
 
 from storage.results import shards
 from storage.results.durable import PARTIAL, DurableFolder
-from storage.results.errors import InvalidAppend, ResultsError
+from storage.results.errors import CorruptStore, InvalidAppend, ResultsError
 from storage.results.layout import TIME
 from storage.studies import part
 from storage.studies.layout import StudyLayout
@@ -63,6 +63,7 @@ class StudyBlock:
         """
         block = cls(folder, layout, index, attempt)
         found = Part.read(folder / part.FOLDER / name, layout.digest)
+        require_chunks(folder, layout, found)
         for key, rows in found.open.items():
             chunk = block._new_chunk()
             chunk[:, :, : rows.shape[2]] = rows
@@ -75,7 +76,8 @@ class StudyBlock:
     def done(folder: Path, layout: StudyLayout, index: int) -> bool:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
-            Part.read(folder / part.FOLDER / part.final_name(index), layout.digest)
+            found = Part.read(folder / part.FOLDER / part.final_name(index), layout.digest)
+            require_chunks(folder, layout, found)
         except (FileNotFoundError, ResultsError):
             return False
         return True
@@ -112,8 +114,6 @@ class StudyBlock:
         str
             The name for `resume`; it stays valid, also while later calls replace the file.
         """
-        self._folder.commit()
-        self._folder.records.clear()
         name = part.name_of(self._part.index, self._attempt)
         self._write_part(name, self._trimmed(), carried)
         return name
@@ -129,8 +129,6 @@ class StudyBlock:
         missing = self._count - self.watermark
         if missing:
             raise InvalidAppend(f"{missing} points of block {self._part.index} have not ended")
-        self._folder.commit()
-        self._folder.records.clear()
         self._write_part(part.final_name(self._part.index), self._trimmed(), b"")
         for path in (self._folder.root / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
             path.unlink(missing_ok=True)
@@ -207,6 +205,11 @@ class StudyBlock:
         return {key: chunk[:, :, : _last(chunk[-1])] for key, chunk in self._part.open.items()}
 
     def _write_part(self, name: str, chunks: dict[tuple[int, int], Floats], carried: bytes) -> None:
+        """Write a part, and bring it to the disk together with the chunks that it builds on.
+
+        Should a power cut leave the part without them, whoever reads it finds that they are
+        missing.
+        """
         known = self._part
         shown = Part(
             known.index,
@@ -219,8 +222,12 @@ class StudyBlock:
             chunks,
             carried,
         )
-        self._folder.write(f"{part.FOLDER}/{name}", shown.encode(self._layout))
-        self._folder.commit()
+        try:
+            self._folder.write(f"{part.FOLDER}/{name}", shown.encode(self._layout))
+            self._folder.commit()
+        except OSError:
+            self._folder.discard()
+            raise
         self._folder.records.clear()
 
     def _new_chunk(self) -> Floats:
@@ -243,9 +250,21 @@ def chunk_files(
 
     `chunk` is (observables + 1, points, sections), times last, by (row, column) in the grid.
     """
+    for path, values in zip(_paths(layout, key), chunk, strict=True):
+        yield path, shards.compress(values)
+
+
+def require_chunks(folder: Path, layout: StudyLayout, found: Part) -> None:
+    """Raise `CorruptStore` if a chunk is missing that a part builds on."""
+    for key in found.written(layout):
+        for path in _paths(layout, key):
+            if not (folder / path).exists():
+                raise CorruptStore(f"{folder / path} is missing, though block {found.index} had it")
+
+
+def _paths(layout: StudyLayout, key: tuple[int, int]) -> list[str]:
     names = [*(spec.name for spec in layout.observables), TIME]
-    for name, values in zip(names, chunk, strict=True):
-        yield f"sections/{name}/c/{key[0]}/{key[1]}", shards.compress(values)
+    return [f"sections/{name}/c/{key[0]}/{key[1]}" for name in names]
 
 
 def _last(times: Floats) -> int:

@@ -6,6 +6,7 @@ last part remains until the study is sealed.
 """
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import IntEnum
 from hashlib import sha256
@@ -102,6 +103,19 @@ class Part:
             "sha256": sha256(body).hexdigest(),
         }
         return _MAGIC + json.dumps(header, separators=(",", ":")).encode() + b"\n" + body
+
+    def written(self, layout: StudyLayout) -> Iterator[tuple[int, int]]:
+        """List the chunks that must be in the store by now, by (row, column) of their grid."""
+        points, sections = layout.chunk
+        first, count = layout.blocks[self.index]
+        for row in range(first // points, -(-(first + count) // points) if layout.record else 0):
+            begin, end = row * points - first, min((row + 1) * points, layout.points) - first
+            if begin < 0 or end > count:
+                continue  # shared with other blocks: written when the study is sealed
+            reached = int(self.counts[begin:end].max())
+            for column in range(-(-reached // sections)):
+                if (row, column) not in self.open:
+                    yield row, column
 
     @classmethod
     def read(cls, path: Path, digest: str) -> Self:

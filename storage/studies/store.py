@@ -15,7 +15,7 @@ from storage.results.durable import PARTIAL, DurableFolder
 from storage.results.errors import IncompleteStudy, StoreExists
 from storage.results.layout import MANIFEST
 from storage.studies import documents, part
-from storage.studies.block import chunk_files
+from storage.studies.block import chunk_files, require_chunks
 from storage.studies.layout import StudyLayout
 from storage.studies.part import Failure, Floats, Part, PointStatus
 from storage.studies.points import Points, together
@@ -72,7 +72,7 @@ def seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None] = lambd
     IncompleteStudy
         A block is not done.
     CorruptStore
-        What a block left is damaged.
+        What a block left is damaged or missing.
     """
     try:
         _seal(folder, layout, advanced)
@@ -99,7 +99,7 @@ def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> No
     writing = _writer(folder)
     for key, content in _values(layout):
         writing.write(key, content)
-    names, failures, ended = _survey(part_of, layout)
+    names, failures, ended = _survey(folder, part_of, layout)
     codes = sorted({failure.code for failure in failures.values()})
     for key, content in _columns(part_of, layout, names, codes):
         writing.write(key, content)
@@ -119,7 +119,7 @@ def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> No
 
 
 def _survey(
-    part_of: Callable[[int], Part], layout: StudyLayout
+    folder: Path, part_of: Callable[[int], Part], layout: StudyLayout
 ) -> tuple[dict[str, list[str]], dict[int, Failure], dict[str, int]]:
     """Names of all numbers by group, failed points, and how many points are done and failed."""
     groups: dict[str, set[str]] = {"statistics": set(), "indicators": set()}
@@ -127,6 +127,7 @@ def _survey(
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
+        require_chunks(folder, layout, found)
         groups["statistics"] |= found.statistics.keys()
         groups["indicators"] |= found.indicators.keys()
         failures |= found.failures

@@ -287,6 +287,32 @@ def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path)
         create(tmp_path / "store", other)
 
 
+@pytest.mark.parametrize("record", [7, 9000])
+def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
+    """A power cut may take files away whose names were not on the disk yet."""
+    study = MadeUpStudy(made_up_layout(points=10, record=record, blocks=((0, 8), (8, 2))))
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 1)
+    for piece in study.slices(1):
+        block.take(piece)
+    name = block.flush(b"")
+    first = 1 if record == 7 else 8  # chunks of eight points, or of one
+    missing = tmp_path / f"sections/slider7.q1/c/{first}/0"
+    content = missing.read_bytes()
+    missing.unlink()
+    with pytest.raises(CorruptStore, match=f"q1/c/{first}/0 is missing, though block 1"):
+        StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
+    missing.write_bytes(content)
+    StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
+    study.write_block(tmp_path, 0)
+    block.finish()
+    missing.unlink()
+    assert StudyBlock.done(tmp_path, study.layout, 0)
+    assert not StudyBlock.done(tmp_path, study.layout, 1)
+    with pytest.raises(CorruptStore, match="is missing"):
+        seal(tmp_path, study.layout)
+
+
 def test_a_store_cut_off_while_it_was_made_is_made_again(tmp_path):
     study = MadeUpStudy(made_up_layout())
     create(tmp_path, study.layout)
