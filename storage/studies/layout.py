@@ -1,7 +1,6 @@
 """What a study's store holds: many points, and for each its sections, peaks and numbers."""
 
 import json
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -21,6 +20,7 @@ CHUNK_SECTIONS: Final = 4096
 """Most sections of one point in a chunk: what waits for its chunk is rewritten every second."""
 
 _FEWEST_POINTS: Final = 8
+_MOSTLY: Final = 0.75
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,17 +94,21 @@ class StudyLayout:
     def chunk(self) -> tuple[int, int]:
         """Points and sections in one chunk of the arrays of sections, which is one file.
 
-        Its points divide every number at which a block begins, so that no two blocks touch one
-        chunk, unless that would make chunks of less than an octet: then the chunks on a boundary
-        are written when the study is sealed. A chunk holds several points only with all their
-        sections; otherwise each would wait for the slowest of them.
+        Its points divide most of the numbers at which blocks begin, so that few chunks belong to
+        two blocks; those are written when the study is sealed. Chunks of less than an octet are
+        not worth that: then many are. A chunk holds several points only with all their sections;
+        otherwise each would wait for the slowest of them.
         """
         sections = max(min(self.record, CHUNK_SECTIONS), 1)
         most = CHUNK_VALUES // sections if self.record <= sections else 1
         most = max(min(most, self.points), 1)
-        begins = math.gcd(*(first for first, _ in self.blocks))
-        aligned = next((d for d in range(most, 0, -1) if begins % d == 0), most)
-        return (aligned if aligned >= min(most, _FEWEST_POINTS) else most), sections
+        begins = np.array([first for first, _ in self.blocks[1:]], dtype=np.int64)
+        if not len(begins):
+            return most, sections
+        largest = min(most, max(count for _, count in self.blocks))
+        aligned = (d for d in range(largest, 0, -1) if np.mean(begins % d == 0) >= _MOSTLY)
+        found = next(aligned)
+        return (found if found >= min(most, _FEWEST_POINTS) else most), sections
 
     @cached_property
     def digest(self) -> str:

@@ -14,6 +14,10 @@ SHAPES = {
     "one point": {"points": 1, "blocks": ((0, 1),)},
     "uneven blocks": {"points": 56, "blocks": ((0, 24), (24, 32))},
     "blocks that share no divisor": {"points": 30, "blocks": ((0, 7), (7, 9), (16, 14))},
+    "most blocks alike": {
+        "points": 86,
+        "blocks": ((0, 16), (16, 16), (32, 16), (48, 16), (64, 12), (76, 10)),
+    },
     "chunks on boundaries": {"points": 36, "record": 3000, "blocks": ((0, 13), (13, 2), (15, 21))},
     "more sections than a chunk": {"points": 9, "record": 9000, "blocks": ((0, 8), (8, 1))},
     "a chunk of sections exactly": {"points": 9, "record": 4096, "blocks": ((0, 8), (8, 1))},
@@ -135,7 +139,7 @@ def test_a_flipped_bit_of_a_sealed_study_is_found(tmp_path, key):
     [
         (((0, 32), (32, 32), (64, 8)), 50, (32, 50)),  # one file a block
         (((0, 24), (24, 32)), 50, (24, 50)),
-        (((0, 24), (24, 32), (56, 8)), 50, (8, 50)),
+        (((0, 32), (32, 24), (56, 24)), 50, (8, 50)),
         (((0, 25), (25, 26)), 50, (25, 50)),
         (((0, 64), (64, 64)), 1000, (16, 1000)),  # 16 384 values at most
         (((0, 10_000),), 50, (327, 50)),  # one block of long chains: no boundary to respect
@@ -150,7 +154,10 @@ def test_no_two_blocks_share_a_chunk(blocks, record, chunk):
     assert all(first % chunk[0] == 0 for first, _ in blocks)
 
 
-def test_chunks_are_not_made_tiny_for_the_sake_of_boundaries():
+def test_chunks_are_not_made_small_for_the_sake_of_a_few_boundaries():
+    blocks = tuple((64 * index, 64) for index in range(13))
+    blocks += ((832, 56), (888, 56), (944, 56))
+    assert made_up_layout(points=1000, record=50, blocks=blocks).chunk == (64, 50)
     blocks = ((0, 997), (997, 997))  # a continuation in both directions
     assert made_up_layout(points=1994, record=50, blocks=blocks).chunk == (327, 50)
     blocks = ((0, 13), (13, 11), (24, 12))
