@@ -32,6 +32,10 @@ class Derivative:
         self._along = along
         self._found: dict[int, Expression] = {}
 
+    def assume(self, node: Expression, rate: Expression) -> None:
+        """Take a node's rate of change as given, instead of deriving it."""
+        self._found[node.index] = rate
+
     def __call__(self, node: Expression) -> Expression:
         """Return the rate of change of an expression."""
         waiting = [node]
@@ -39,10 +43,13 @@ class Derivative:
             top = waiting[-1]
             arguments = _differentiated(top)
             unknown = [a for a in arguments if a.index not in self._found]
-            if not unknown:
+            if top.index in self._found:
+                waiting.pop()
+            elif unknown:
+                waiting.extend(unknown)
+            else:
                 self._found[top.index] = self._derive(top, arguments)
                 waiting.pop()
-            waiting.extend(unknown)
         return self._found[node.index]
 
     def _derive(self, node: Expression, arguments: tuple[Expression, ...]) -> Expression:

@@ -120,6 +120,11 @@ def lane_function(
     return "\n".join([*header, *body.lines, *stores]) + "\n"
 
 
+def nothing(name: str) -> str:
+    """Return the source of a function W -> W that does nothing."""
+    return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
+
+
 def reachable(outputs: Iterable[Expression]) -> list[Expression]:
     """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
 

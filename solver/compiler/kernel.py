@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from solver.compiler import scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.equations import record, slopes
+from solver.compiler.equations import Equations, record, slopes
 from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression
@@ -61,6 +62,8 @@ class Kernel:
     """What the ``channel`` block holds."""
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
+    equations: Equations
+    tableau: Tableau
 
     @property
     def states(self) -> int:
@@ -91,10 +94,7 @@ class Kernel:
 
         The scene must have the structure that this kernel was compiled for.
         """
-        numbers: dict[str, float] = {}
-        view(scene, lambda path, value: numbers.setdefault(path, value))
-        found: dict[int, float] = {}
-        return np.array([_evaluate(node, numbers, found) for _, node in self.fixed])
+        return values_of([node for _, node in self.fixed], scene)
 
 
 def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau) -> Kernel:
@@ -149,7 +149,17 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
         equations.play,
         rows,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+        equations,
+        tableau,
     )
+
+
+def values_of(nodes: Sequence[Expression], scene: Scene) -> NDArray[np.float64]:
+    """Evaluate expressions of a scene's numbers alone."""
+    numbers: dict[str, float] = {}
+    view(scene, lambda path, value: numbers.setdefault(path, value))
+    found: dict[int, float] = {}
+    return np.array([_evaluate(node, numbers, found) for node in nodes])
 
 
 def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:

@@ -31,6 +31,8 @@ class Recorder:
         self.numbers: dict[str, float] = {}
         self.functions: dict[int, Function] = {}
         """What is known of nodes that stand for a function of one expression."""
+        self.kinks: dict[Expression, Expression] = {}
+        """Piecewise linear functions and their arguments, in the order of recording."""
 
     def constant(self, value: float) -> Expression:
         """Return the node of a literal number; minus zero is zero."""
@@ -205,6 +207,12 @@ class Expression:
         self.recorder.functions[sine.index] = Function("sine", self, cosine)
         self.recorder.functions[cosine.index] = Function("cosine", self, sine)
         return sine, cosine
+
+    def kinked(self, argument: Expression) -> Expression:
+        """Note that this is a piecewise linear function of one expression."""
+        if not self.fixed:
+            self.recorder.kinks[self] = argument
+        return self
 
     def power(self, exponent: object) -> Expression:
         """X ** exponent for x >= 0 by our own lane functions."""

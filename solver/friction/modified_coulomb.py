@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from solver.mechanics.scalars import Scalar, absolute, clamp_to_unit, minimum, sign
+from solver.mechanics.scalars import Scalar, absolute, clamp_to_unit, kinked, minimum, sign
 from solver.scene.quantities import Strict
 
 STEEPEST_RAMP = 1e300
@@ -54,4 +54,5 @@ def ramp_slope(law: SimpleNamespace) -> Scalar:
 def friction_force(law: SimpleNamespace, normal_force: Scalar, slip: Scalar) -> Scalar:
     """Return F_t on the journal along t, N; it opposes the slip velocity (m/s)."""
     ramp = (absolute(slip) - law.static_velocity) * ramp_slope(law)
-    return -(law.coefficient * clamp_to_unit(ramp) * normal_force * sign(slip))  # eqs (11), (12)
+    direction = kinked(clamp_to_unit(ramp) * sign(slip), slip)
+    return -(law.coefficient * direction * normal_force)  # eqs (11), (12)

@@ -29,6 +29,7 @@ from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import check_pace, plan, stop, turn_over
 from solver.lanes.rows import emit
 from solver.lanes.state import Counter, SectionKind, Setting, Status
+from solver.lanes.tangent import latch_tangent, record_growth
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))
@@ -84,8 +85,11 @@ def settle(
     counters: np.ndarray,
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
+    growth_rows: np.ndarray,
+    tangent_gaps: LaneFunction,
 ) -> bool:
     """Look after one lane once its step is taken; whether a buffer is nearly full."""
+    tangents = growth_rows.shape[1] > 0
     period = settings[Setting.PERIOD, lane]
     begun = float(counters[Counter.PERIOD, lane]) * period
     now = begun + work[slots[Slot.TIME] * LANES + lane]
@@ -93,6 +97,9 @@ def settle(
     landed = counters[Counter.LANDING, lane]
     if landed >= 0:
         begin_contact(landed, now, lane, slots, work)
+        if tangents:
+            tangent_gaps(work)
+            latch_tangent(landed, lane, slots, work)
         counters[Counter.ONSETS, lane] += 1
         counters[Counter.LANDING, lane] = -1
         counters[Counter.LANDINGS, lane] = 0
@@ -115,6 +122,8 @@ def settle(
     over = work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]
     if over or has_all_events(lane, settings, counters):
         end_peaks(lane, slots, work, now)
+        if tangents:
+            full |= record_growth(now, lane, slots, work, counters, growth_rows)
         for j in range(slots[Slot.JOINTS]):
             if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
                 end_contact(j, math.nan, lane, slots, work, counters, impact_rows)
@@ -125,6 +134,8 @@ def settle(
     if flag & DUE:
         if work[slots[Slot.TIME] * LANES + lane] >= period:
             turn_over(lane, slots, work, settings, counters)
+            if tangents:
+                full |= record_growth(now, lane, slots, work, counters, growth_rows)
         plan(lane, slots, work, settings)
     return full
 
@@ -137,6 +148,15 @@ def count_active(slots: np.ndarray, work: np.ndarray) -> int:
         if work[slots[Slot.ACTIVE] * LANES + lane] > 0.0:
             running += 1
     return running
+
+
+@kernel()
+def any_accepted(slots: np.ndarray, work: np.ndarray) -> bool:
+    """Whether a lane takes the step that was just judged."""
+    accepted = 0.0
+    for lane in range(LANES):
+        accepted += work[slots[Slot.ACCEPT] * LANES + lane]
+    return accepted > 0.0
 
 
 @kernel()
@@ -158,12 +178,13 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
         *[LANE_FUNCTION] * 5,
         *[FLAG_FUNCTION] * 2,
         *[PROBE_FUNCTION] * 3,
+        *[LANE_FUNCTION] * 2,
         int64[::1],
         *[float64[::1]] * 2,
         TABLE,
         int64[:, ::1],
         TABLE,
-        *[ROWS] * 3,
+        *[ROWS] * 4,
         int64,
         int64,
     )
@@ -180,6 +201,8 @@ def advance(
     lend: LaneFunction,
     probe: LaneFunction,
     probe_around: LaneFunction,
+    tangent_step: LaneFunction,
+    tangent_gaps: LaneFunction,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
@@ -189,6 +212,7 @@ def advance(
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
+    growth_rows: np.ndarray,
     watch: int,
     budget: int,
 ) -> int:
@@ -199,6 +223,8 @@ def advance(
     attempt, mark, take, take_some, right_hand_side, observe, scan, scan_some, lend
     probe, probe_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
+    tangent_step, tangent_gaps
+        `Tangents.functions`; not called where `growth_rows` has no room.
     slots
         Where quantities live in `work` and `spare`, both (slots * LANES,).
     settings, counters
@@ -209,6 +235,8 @@ def advance(
         Dense states at samples and sections; `solver.lanes.state.row_width` gives the width.
     impact_rows : (LANES, capacity, 6)
         Contacts that ended: joint, onset, release, approach rate, peak force, impulse.
+    growth_rows : (LANES, capacity, 2)
+        Growth of tangents: end of its time, logarithm. Without capacity there are no tangents.
     watch
         Whether the extremes of channels are sought; sections at crossings need it, too.
 
@@ -223,6 +251,7 @@ def advance(
     running = count_active(slots, work)
     landing = still_landing(counters)
     crossing = any_crossing(settings)
+    tangents = growth_rows.shape[1] > 0
     made = 0
     while made < budget and running > 0:
         made += 1
@@ -269,6 +298,8 @@ def advance(
                         lane, slots, work, spare, counters, settings, scratch,
                         lend, probe_around, right_hand_side, observe,
                     )  # fmt: skip
+        if tangents and (quiet or any_accepted(slots, work)):
+            tangent_step(work)
         if quiet:
             take(work)
             continue
@@ -283,8 +314,9 @@ def advance(
                 or has_all_events(lane, settings, counters)
             ):
                 full |= settle(
-                    flag, lane, slots, work, settings, counters, section_rows, impact_rows
-                )
+                    flag, lane, slots, work, settings, counters,
+                    section_rows, impact_rows, growth_rows, tangent_gaps,
+                )  # fmt: skip
         still = count_active(slots, work)
         landing = still_landing(counters)
         if full or still < running:  # a free lane may have a new problem waiting

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.assembly import assemble, shortest_link
-from solver.compiler.kernel import LEDGER, Kernel
+from solver.compiler.kernel import LEDGER, CompiledAddress, Kernel
 from solver.compiler.layout import LANES
+from solver.compiler.tangents import Tangents
 from solver.drive import characteristic_time, common_period
 from solver.lanes.advance import advance
 from solver.lanes.clock import product_difference
@@ -21,6 +22,7 @@ from solver.lanes.peaks import POINTS
 from solver.lanes.periods import PACE_STEPS, look_ahead, plan
 from solver.lanes.start import mechanism_size, start_state
 from solver.lanes.state import Counter, SectionKind, Setting, Status, row_width
+from solver.lanes.tangent import start_tangent
 from solver.scene.document import Revolute, Scene
 
 Floats = NDArray[np.float64]
@@ -86,17 +88,29 @@ class Bundle:
     """Runs up to eight problems of one structure side by side; lanes do not touch each other."""
 
     def __init__(
-        self, kernel: Kernel, problems: Sequence[LaneProblem] = (), *, watch: bool = True
+        self,
+        kernel: Kernel,
+        problems: Sequence[LaneProblem] = (),
+        *,
+        watch: bool = True,
+        tangents: Tangents | None = None,
     ) -> None:
-        """Load the problems; `watch` says whether extremes of channels are sought."""
+        """Load the problems.
+
+        `watch` says whether extremes of channels are sought. With the kernel's `tangents` every
+        lane carries a tangent vector, and `growth_rows` tells how it grows; nothing else changes.
+        """
         if len(problems) > LANES:
             raise ValueError(f"a bundle holds {LANES} problems, not {len(problems)}")
         self.kernel = kernel
         self.watch = watch
         self.attempts = 0
         """Attempts at a step that were made, each of all lanes at once."""
-        size = kernel.layout.size * LANES
-        self.work, self.spare = aligned_zeros(size), aligned_zeros(size)
+        self.tangents = tangents
+        self.layout = kernel.layout if tangents is None else tangents.layout
+        self.slots = kernel.slots if tangents is None else tangents.slots
+        self.work = aligned_zeros(self.layout.size * LANES)
+        self.spare = aligned_zeros(kernel.layout.size * LANES)
         drivers, joints = len(kernel.drivers), len(kernel.play)
         self.settings = np.zeros((Setting.FIRST_DRIVER + 2 * drivers, LANES))
         self.counters = np.zeros((Counter.COUNT, LANES), dtype=np.int64)
@@ -106,6 +120,7 @@ class Bundle:
         self.sample_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.section_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.impact_rows = np.zeros((LANES, ROWS_AT_ONCE, 6))
+        self.growth_rows = np.zeros((LANES, 0 if tangents is None else ROWS_AT_ONCE, 2))
         self.scratch = np.zeros((kernel.rows.scanned + 1, POINTS + 1))
         for lane, problem in enumerate(problems):
             self.load(lane, problem)
@@ -157,7 +172,7 @@ class Bundle:
 
     def table(self, name: str, count: int = 1) -> Floats:
         """Return a view (count, LANES) of a block of the work array."""
-        first = self.kernel.layout[name]
+        first = self.layout[name]
         return self.work.reshape(-1, LANES)[first : first + count]
 
     def advance(self, budget: int) -> int:
@@ -169,7 +184,8 @@ class Bundle:
         self.attempts += int(
             advance(
                 *self.kernel.functions,
-                self.kernel.slots,
+                *self._tangent_functions(),
+                self.slots,
                 self.work,
                 self.spare,
                 self.settings,
@@ -178,11 +194,17 @@ class Bundle:
                 self.sample_rows,
                 self.section_rows,
                 self.impact_rows,
+                self.growth_rows,
                 int(self.watch or self._crossing),
                 budget,
             )
         )
         return int(np.count_nonzero(self.counters[Counter.STATUS] == Status.RUNNING))
+
+    def _tangent_functions(self) -> tuple[CompiledAddress, CompiledAddress]:
+        if self.tangents is None:  # any two: they are not called
+            return self.kernel.functions[1], self.kernel.functions[2]
+        return self.tangents.functions
 
     def observe(self, lane: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
         """Return channels (rows, columns) of a lane at rows of dense state."""
@@ -253,6 +275,10 @@ class Bundle:
         kernel, scene, work = self.kernel, problem.scene, self.work.reshape(-1, LANES)
         for (slot, _), value in zip(kernel.fixed, kernel.fixed_values(scene), strict=True):
             work[slot, lane] = value
+        if self.tangents is not None:
+            values = self.tangents.fixed_values(scene)
+            for (slot, _), value in zip(self.tangents.fixed, values, strict=True):
+                work[slot, lane] = value
         length = shortest_link(scene)
         unit = characteristic_time(scene, length)
         common = common_period(scene).seconds
@@ -366,8 +392,19 @@ class Bundle:
         block("change0", rows)[:] = math.nan
         if joints:
             block("lowest0", rows)[rows - joints :] = -math.inf
+        if self.tangents is not None:
+            self._start_tangent(lane)
         self._run(lane)
         self.first_energy[:, lane] = self.energy(lane)
+
+    def _start_tangent(self, lane: int) -> None:
+        """Give a lane its first tangent; its state is in the stage still."""
+        assert self.tangents is not None  # noqa: S101  (asked before)
+        start_tangent(lane, self.slots, self.work)
+        if self.tangents.kinks:
+            self.tangents.module.kinks(self.work)
+            rows = 3 * self.tangents.kinks
+            self.table("kink_start0", rows)[:, lane] = self.table("kink_end0", rows)[:, lane]
 
 
 def aligned_zeros(size: int) -> Floats:

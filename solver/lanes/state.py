@@ -38,7 +38,8 @@ class Counter(IntEnum):
     SAMPLE_ROWS = 10
     SECTION_ROWS = 11
     IMPACT_ROWS = 12
-    COUNT = 13
+    GROWTH_ROWS = 13
+    COUNT = 14
 
 
 class Setting(IntEnum):

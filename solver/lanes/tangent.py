@@ -9,6 +9,7 @@ import numpy as np
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import kernel
+from solver.lanes.state import Counter
 
 GOLDEN = 0.6180339887498949
 """Its multiples less their whole parts are unrelated: a direction that no symmetry singles out."""
@@ -40,9 +41,10 @@ def latch_tangent(j: int, lane: int, slots: np.ndarray, work: np.ndarray) -> Non
     identity): that matrix is I + (f_after - f_before) ⊗ ∇δ / δ̇, and a contact law whose force
     grows from zero at δ = 0, K δ^n with n >= 1 and friction proportional to it, makes the slope f
     continuous there. The same holds where contact ends. It fails for a law whose force jumps at
-    touch, such as a viscous damper without the factor δ^n. It also fails for friction with equal
-    limit velocities: the force then jumps where the slip reverses, which is no onset; the
-    derivative of the branch in force, zero, leaves that jump out.
+    touch, such as a viscous damper without the factor δ^n. Friction with equal limit velocities
+    jumps, too, but where the slip reverses, which is no onset: there the mean slope over the step
+    (`solver.compiler.kinks`) is the saltation of a slip that goes on through the jump. A slip that
+    is held at the jump is contracted to nothing in the motion; in the tangent it only decays.
     """
     gap_slot = slots[Slot.GAP] + 4 * j
     tangent_slot = slots[Slot.TANGENT_GAP] + 3 * j
@@ -53,6 +55,26 @@ def latch_tangent(j: int, lane: int, slots: np.ndarray, work: np.ndarray) -> Non
         latched = work[(tangent_slot + 1) * LANES + lane]
         latched += work[(tangent_slot + 2) * LANES + lane] * later
     work[(slots[Slot.TANGENT_IMPACT_RATE] + j) * LANES + lane] = latched
+
+
+@kernel()
+def record_growth(
+    now: float,
+    lane: int,
+    slots: np.ndarray,
+    work: np.ndarray,
+    counters: np.ndarray,
+    growth_rows: np.ndarray,
+) -> bool:
+    """Hand out by how much a lane's tangent grew since the row before; whether that was the last.
+
+    A row is the time of its end, s since the start, and the logarithm of the growth.
+    """
+    row = growth_rows[lane, counters[Counter.GROWTH_ROWS, lane]]
+    row[0] = now
+    row[1] = renormalise(lane, slots, work)
+    counters[Counter.GROWTH_ROWS, lane] += 1
+    return counters[Counter.GROWTH_ROWS, lane] >= growth_rows.shape[1]
 
 
 @kernel()

@@ -71,6 +71,17 @@ def clamp_to_unit(x: Scalar) -> Scalar:
     return minimum(positive_part(x), 1.0)
 
 
+def kinked(value: Scalar, argument: Scalar) -> Scalar:
+    """Return `value`, a function of `argument` alone that is linear but for kinks and jumps.
+
+    Recorded expressions note it: a tangent vector that passes a kink within a step takes the mean
+    slope over the step, for the slope at a few points of the step would miss where the kink is.
+    """
+    if isinstance(value, float | int | type_of_array):
+        return value
+    return value.kinked(argument)
+
+
 def power(x: Scalar, exponent: Scalar) -> Scalar:
     """Return x ** exponent for x >= 0; the Hertz exponent 1.5 costs one square root."""
     if isinstance(exponent, float) and exponent == 1.5:
