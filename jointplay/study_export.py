@@ -1,7 +1,7 @@
 """Studies as CSV or JSON text, piece by piece: memory does not grow with points and sections."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,16 +54,22 @@ def point_lines(
     source: StudySource,
     channels: Sequence[str],
     points: range,
+    units: Mapping[str, str],
     comments: Sequence[str] = (),
 ) -> Iterator[str]:
     """Write one row a point: its values, what became of it, extremes, indicators and statistics.
+
+    Parameters
+    ----------
+    units
+        Of indicators and statistics, by name.
 
     Yields
     ------
     str
         Whole lines; numbers have 17 significant digits, what is not known is `nan`.
     """
-    columns = _columns_of_points(source, channels)
+    columns = {**_values_of_points(source), **_columns_of_points(source, channels, units)}
     words = _words_of_points(source)
     yield from _commented(comments)
     yield ",".join(["point", *words, *columns]) + "\n"
@@ -92,7 +98,9 @@ def section_json(source: StudySource, observables: Sequence[str], points: range)
     yield "}}\n"
 
 
-def point_json(source: StudySource, channels: Sequence[str], points: range) -> Iterator[str]:
+def point_json(
+    source: StudySource, channels: Sequence[str], points: range, units: Mapping[str, str]
+) -> Iterator[str]:
     """Write what has one number a point as one JSON document.
 
     Yields
@@ -106,7 +114,7 @@ def point_json(source: StudySource, channels: Sequence[str], points: range) -> I
     if "verdict" in words:
         yield f', "verdict": {json.dumps(words["verdict"][part])}'
     yield ', "columns": {'
-    columns = _columns_of_points(source, channels, with_values=False)
+    columns = _columns_of_points(source, channels, units)
     for position, (title, column) in enumerate(columns.items()):
         yield f"{', ' if position else ''}{json.dumps(title)}: {_list(column[part])}"
     yield "}}\n"
@@ -137,22 +145,28 @@ def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
     yield "]"
 
 
+def _values_of_points(source: StudySource) -> dict[str, Floats]:
+    return {
+        _titled(parameter): source.values[:, column]
+        for column, parameter in enumerate(source.parameters)
+    }
+
+
 def _columns_of_points(
-    source: StudySource, channels: Sequence[str], *, with_values: bool = True
+    source: StudySource, channels: Sequence[str], units: Mapping[str, str]
 ) -> dict[str, Floats]:
     columns: dict[str, Floats] = {}
-    if with_values:
-        for column, parameter in enumerate(source.parameters):
-            columns[_titled(parameter)] = source.values[:, column]
-    units = {one.name: one.unit for one in source.channels}
+    described = {one.name: one.unit for one in source.channels}
     for name in channels:
         peaks = source.peaks(name)
-        columns[f"{name} minimum [{units[name]}]"] = peaks.minimum
+        columns[f"{name} minimum [{described[name]}]"] = peaks.minimum
         columns[f"{name} minimum at [s]"] = peaks.minimum_time
-        columns[f"{name} maximum [{units[name]}]"] = peaks.maximum
+        columns[f"{name} maximum [{described[name]}]"] = peaks.maximum
         columns[f"{name} maximum at [s]"] = peaks.maximum_time
-    columns |= {name: one for name, one in source.indicators.items() if name != "verdict"}
-    return columns | dict(source.statistics)
+    for name, one in {**source.indicators, **source.statistics}.items():
+        if name != "verdict":  # it is there as a word
+            columns[f"{name} [{units.get(name, '1')}]"] = one
+    return columns
 
 
 def _words_of_points(source: StudySource) -> dict[str, list[str]]:

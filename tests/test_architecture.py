@@ -91,8 +91,6 @@ def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
 
 # Numbers whose unit stands beside them as a field, or which are pure numbers by their nature.
 WITHOUT_UNIT = {
-    "Bifurcation.indicators",
-    "Bifurcation.statistics",
     "Output.factor",
     "Output.offset",
     "Parameter.default",
@@ -108,10 +106,7 @@ WITHOUT_UNIT = {
     "Reported.parameters",
     "Reported.value",
     "Rows.values",
-    "Sections.indicators",
-    "Sections.statistics",
     "Series.values",
-    "Sweep.statistics",
     "Target.factor",
 }
 

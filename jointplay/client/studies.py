@@ -139,7 +139,12 @@ def _columns(pages: Sequence[Document], group: str) -> dict[str, Floats]:
     """Join columns by name; a page that was made before a name occurred has none of it."""
     names = dict.fromkeys(name for page in pages for name in page.get(group, ()))
     return {
-        name: _joined([page[group].get(name, [None] * len(page["status"])) for page in pages])
+        name: _joined(
+            [
+                page[group][name]["values"] if name in page[group] else [None] * len(page["status"])
+                for page in pages
+            ]
+        )
         for name in names
     }
 

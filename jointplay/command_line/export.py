@@ -178,14 +178,16 @@ def _study(
     form: Form,
 ) -> _Text:
     from jointplay import study_export as formats
+    from jointplay.command_line.study_summary import units
 
     chosen = point_range(source.points, start, stop)
     if points or not source.observables:
         names = _chosen(channels, [one.name for one in source.channels])
         values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
         if form == "json":
-            return _Text(formats.point_json(source, names, chosen), values)
-        return _Text(formats.point_lines(source, names, chosen, _comments(source)), values)
+            return _Text(formats.point_json(source, names, chosen, units()), values)
+        lines = formats.point_lines(source, names, chosen, units(), _comments(source))
+        return _Text(lines, values)
     names = _chosen(channels, [one.name for one in source.observables])
     values = int(source.counts[chosen.start : chosen.stop].sum()) * (len(names) + 3)
     if form == "json":

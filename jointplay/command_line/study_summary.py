@@ -30,12 +30,20 @@ def summarise(output: Path) -> None:
     source = StudyReader(output_folder.store_in(output))
     table = output / output_folder.POINTS_FILE
     channels = [channel.name for channel in source.channels]
-    table.write_text("".join(study_export.point_lines(source, channels, range(source.points))))
+    everything = range(source.points)
+    table.write_text("".join(study_export.point_lines(source, channels, everything, units())))
     draw_all(source, output / output_folder.FIGURES, "png")
     print_points(source)
     typer.echo(f"all {source.points} points are in {table}")
     if len(source.failures) == source.points:
         raise Stopped(Exit.FAILED, "every point failed; the first one says why above")
+
+
+def units() -> dict[str, str]:
+    """Return the units of the statistics and indicators of points, by name."""
+    from solver.study.meanings import INDICATORS, STATISTICS
+
+    return {name: unit for name, (unit, _) in (STATISTICS | INDICATORS).items()}
 
 
 def print_points(source: "StudySource") -> None:

@@ -1,6 +1,6 @@
 """From a study's store to the columns that the API shows."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -19,10 +19,13 @@ from service.studies.queries import (
     points_of,
     sections_of,
 )
+from solver.study.meanings import INDICATORS, STATISTICS
 from storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
 STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")
+MEANINGS = STATISTICS | INDICATORS
+NO_MEANING = ("1", "")
 VERDICT = "verdict"
 _READ = 4_000_000
 
@@ -104,7 +107,7 @@ def _points(store: StudyReader, points: range, following: int | None) -> dict[st
             for point, one in sorted(store.failures.items())
             if point in points
         ],
-        "statistics": {name: one[part].tolist() for name, one in store.statistics.items()},
+        "statistics": _described(store.statistics, part),
     }
 
 
@@ -113,12 +116,22 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
     codes, names = store.verdicts, store.verdict_names
     return {
         **_points(store, points, following),
-        "indicators": {
-            name: one[part].tolist() for name, one in store.indicators.items() if name != VERDICT
-        },
+        "indicators": _described(store.indicators, part),
         "verdicts": None
         if codes is None
         else [None if code < 0 else names[code] for code in codes[part]],
+    }
+
+
+def _described(columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
+    return {
+        name: Series.model_construct(
+            unit=MEANINGS.get(name, NO_MEANING)[0],
+            long_name=MEANINGS.get(name, NO_MEANING)[1],
+            values=one[part].tolist(),
+        )
+        for name, one in columns.items()
+        if name != VERDICT
     }
 
 

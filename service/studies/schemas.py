@@ -35,17 +35,17 @@ class StudyPoints(BaseModel):
         description="What each point is doing; running in a job that has ended: begun, unfinished."
     )
     failures: list[PointFailure] = Field(description="Of the points that failed.")
-    statistics: dict[str, Values] = Field(
-        description="By name: steps, onsets, energy_residual (J) and others."
+    statistics: dict[str, Series] = Field(
+        description="By name: steps, onsets, energy_residual and others."
     )
 
 
 class JudgedPoints(StudyPoints):
     """Points with what tells regular from chaotic motion."""
 
-    indicators: dict[str, Values] = Field(
-        description="By name, the uncertainties as `…_error`: lyapunov (1/s), zero_one, period "
-        "(in sections), rotation (turns a section) and others, as far as they were asked for."
+    indicators: dict[str, Series] = Field(
+        description="By name, the uncertainties as `…_error`: lyapunov, zero_one, period, rotation "
+        "and others, as far as they were asked for."
     )
     verdicts: list[str | None] | None = Field(
         description="periodic, quasi-periodic, chaotic or undecided; null: not asked for."

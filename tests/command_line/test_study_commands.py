@@ -144,7 +144,7 @@ def test_sections_and_points_are_exported(jointplay, at, finished_study, tmp_pat
     assert jointplay("export", finished_study, *points, *at).code == 0
     document = json.loads(file.read_text())
     assert document["verdict"][:3] == ["undecided", "periodic", "quasi-periodic"]
-    assert document["columns"]["steps"][19] == 1019.0
+    assert document["columns"]["steps [1]"][19] == 1019.0
 
 
 def test_extremes_of_a_sweep_are_exported(jointplay, at, finished_sweep):

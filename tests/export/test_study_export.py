@@ -15,6 +15,7 @@ from closed_form_study import bifurcation, one_point, sweep
 
 from jointplay.study_export import point_json, point_lines, section_json, section_lines
 
+UNITS = {"lyapunov": "1/s", "lyapunov_error": "1/s"}
 OBSERVED = ["left.eccentricity_x", "block.vx"]
 
 
@@ -44,20 +45,20 @@ def test_sections_of_one_point_have_no_parameter():
 
 def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
     source = bifurcation(points=6, judged=True, failed=(1,), unfinished=(4, 5))
-    header, *rows = rows_of(point_lines(source, [], range(6)))
+    header, *rows = rows_of(point_lines(source, [], range(6), UNITS))
     assert header[:5] == ["point", "status", "verdict", "failure", "play [m]"]
     assert [row[1] for row in rows] == ["done", "failed", "done", "done", "running", "waiting"]
     assert (rows[1][2], rows[1][3]) == ("", "step-size-underflow")
     names = source.verdict_names
     assert rows[3][2] == names[source.verdicts[3]]
-    column = header.index("lyapunov")
+    column = header.index("lyapunov [1/s]")
     assert float(rows[3][column]) == source.indicators["lyapunov"][3]
     assert rows[1][column] == "nan"
 
 
 def test_extremes_of_a_sweep_stand_beside_its_parameters():
     source = sweep((4, 2))
-    header, *rows = rows_of(point_lines(source, ["stroke"], range(2, 8)))
+    header, *rows = rows_of(point_lines(source, ["stroke"], range(2, 8), UNITS))
     assert header[3:] == [
         "play [m]",
         "friction [1]",
@@ -80,9 +81,11 @@ def test_json_gives_back_every_bit_and_null_for_what_is_no_number():
     assert document["status"] == ["done", "failed", "done", "done"]
     assert document["time"][1] == document["sections"]["block.vx"][1] == []
     assert document["sections"]["block.vx"][3] == source.section_values["block.vx"][4].tolist()
-    document = json.loads("".join(point_json(source, [], range(5))), parse_constant=pytest.fail)
-    assert document["columns"]["lyapunov"][2] is None
-    assert document["columns"]["lyapunov"][4] == source.indicators["lyapunov"][4]
+    document = json.loads(
+        "".join(point_json(source, [], range(5), UNITS)), parse_constant=pytest.fail
+    )
+    assert document["columns"]["lyapunov [1/s]"][2] is None
+    assert document["columns"]["lyapunov [1/s]"][4] == source.indicators["lyapunov"][4]
     assert document["verdict"][2] == ""
 
 

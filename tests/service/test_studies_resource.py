@@ -66,8 +66,10 @@ def test_a_diagram_has_values_status_sections_verdicts_and_failures(http, finish
     assert rows[5] == known_section(5, column, np.arange(6)).tolist()
     assert [len(row) for row in rows] == [3 if point in (3, 17) else 6 for point in range(20)]
     assert found["verdicts"][:5] == ["undecided", "periodic", "quasi-periodic", None, "undecided"]
-    assert found["indicators"]["lyapunov"][:4] == [0.0, 0.1, 0.2, None]
-    assert found["statistics"]["steps"][19] == 1019.0
+    exponents = found["indicators"]["lyapunov"]
+    assert (exponents["unit"], exponents["values"][:4]) == ("1/s", [0.0, 0.1, 0.2, None])
+    assert "verdict" not in found["indicators"]
+    assert found["statistics"]["steps"]["values"][19] == 1019.0
 
 
 def test_without_an_observable_the_first_one_is_shown(http, finished_study):
@@ -160,7 +162,7 @@ def test_a_study_can_be_read_while_it_runs(http, worker):
     assert found["complete"] is False
     assert found["status"] == ["waiting"] * 8 + ["done"] * 2 + ["running"] + ["waiting"] * 9
     assert [len(row) for row in found["sections"]["values"]] == [0] * 8 + [6, 6, 2] + [0] * 9
-    assert found["indicators"]["lyapunov"][9:11] == [0.9, None]
+    assert found["indicators"]["lyapunov"]["values"][9:11] == [0.9, None]
     assert http.get(f"/v1/jobs/{job}/figures/bifurcation.png").content.startswith(b"\x89PNG")
     claim = worker.start(job, 0)
     worker.compute(claim)

@@ -1,0 +1,53 @@
+"""``jointplay reproduce``: a publication computed again, its numbers beside ours in one page."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jointplay.command_line.exits import Exit, Stopped
+
+
+def reproduce(
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", metavar="OUT", help="Folder to make; must not exist."),
+    ] = Path("reproduction"),
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Little of everything, in seconds: to see it work.")
+    ] = False,
+    processes: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Default one for each core.")
+    ] = None,
+) -> None:
+    """Compute the published figures of the press again, and set every printed number beside ours.
+
+    OUT gets report.html, which needs nothing beside itself, and runs/ with the results of every
+    job.  Takes a few minutes on two cores, longer when kernels have to be compiled first.
+
+    Example: `jointplay reproduce -o reproduction`
+    """
+    from concurrent.futures.process import BrokenProcessPool
+
+    from jointplay.command_line.progress import progress
+    from jointplay.reproduce.processes import Interrupted
+    from jointplay.reproduce.reproduction import reproduce as whole
+    from jointplay.reproduce.runs import RunFailed
+    from jointplay.reproduce.size import FULL, QUICK
+
+    try:
+        output.mkdir(parents=True)
+    except FileExistsError:
+        line = f"{output} exists already; results are never overwritten, name another folder."
+        raise Stopped(Exit.BAD_INPUT, line) from None
+    try:
+        with progress("reproducing") as report:
+            page = whole(output, QUICK if quick else FULL, processes, report)
+    except Interrupted:
+        line = f"interrupted; {output} has no report, remove it before you start again."
+        raise Stopped(Exit.INTERRUPTED, line) from None
+    except RunFailed as error:
+        raise Stopped(Exit.FAILED, str(error)) from None
+    except BrokenProcessPool:
+        raise Stopped(Exit.FAILED, "a process that computed a part of it died.") from None
+    typer.echo(f"the report is {page}; results of all jobs are in {output / 'runs'}/")
