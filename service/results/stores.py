@@ -18,6 +18,7 @@ from storage.settings import Settings
 from storage.studies import StudyReader
 
 _OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
+_OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study
 
 
 def open_store(job: Job, settings: Settings) -> ResultReader:
@@ -83,7 +84,7 @@ def _sealed(folder: Path) -> ResultReader:
     return reader
 
 
-@lru_cache(maxsize=_OPEN_STORES)
+@lru_cache(maxsize=_OPEN_STUDIES)
 def _sealed_study(folder: Path) -> StudyReader:
     reader = StudyReader(folder)
     if not reader.sealed:
