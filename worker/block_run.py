@@ -31,6 +31,8 @@ _BLOCK_STATES = {
 }
 _MOST_OVERHEAD = 20
 """Restart points are made so rarely that computing takes this many times as long as they do."""
+_LOOK = 0.25
+"""Seconds after which the catalogue is asked again whether to go on."""
 _LONG = 1.0
 """Seconds after which a block that has not advanced is said to be compiling."""
 
@@ -55,6 +57,7 @@ class BlockRun:
         self._lease = Lease(catalogue, claim, settings)
         self._draining = draining
         self._next_record = time.monotonic() + settings.progress_period
+        self._next_look = 0.0
         self._reports = 0
         self._reached = (claim.block.progress_time, claim.block.progress_fraction)
         self._work: Work | None = None
@@ -124,7 +127,7 @@ class BlockRun:
         return Outcome("failed", *self._reached, JobError(error_class, code, detail))
 
     def _report(self, progress: AnyProgress, keep: Callable[[], Kept]) -> Answer:
-        """Between two slices: notice a request to stop; about once a second, record."""
+        """Between two slices: soon notice a request to stop; about once a second, record."""
         self._lease.advanced()
         self._reports += 1
         if self._reports == 2:  # one slice is done, so its kernel is there
@@ -133,13 +136,17 @@ class BlockRun:
         if self._draining.is_set():
             self._keep(keep)
             return Answer.leave
-        if time.monotonic() < self._next_record:
-            verdict = self._lease.verdict()
-        else:
+        now = time.monotonic()
+        if now >= self._next_record:
             took = self._keep(keep)
             verdict = self._lease.record_progress(progress.time, progress.fraction)
-            pause = max(self._settings.progress_period, _MOST_OVERHEAD * took)
-            self._next_record = time.monotonic() + pause
+            now = time.monotonic()
+            self._next_record = now + max(self._settings.progress_period, _MOST_OVERHEAD * took)
+        elif now >= self._next_look:
+            verdict = self._lease.verdict()
+        else:
+            return Answer.go_on
+        self._next_look = now + _LOOK
         return Answer.go_on if verdict is Verdict.go_on else Answer.cancel
 
     def _keep(self, keep: Callable[[], Kept]) -> float:
