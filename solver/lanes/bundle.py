@@ -206,6 +206,10 @@ class Bundle:
             return self.kernel.functions[1], self.kernel.functions[2]
         return self.tangents.functions
 
+    def growth(self, lane: int) -> Floats:
+        """Return how a lane's tangent grew in this call: (k, 2) ends of time, s, and logarithms."""
+        return self.growth_rows[lane, : self.counters[Counter.GROWTH_ROWS, lane]]
+
     def observe(self, lane: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
         """Return channels (rows, columns) of a lane at rows of dense state."""
         module = self.kernel.module

@@ -20,6 +20,8 @@ RECURS = 1e-3
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM = 16
+LATE = 0.1
+"""Of a period: growth is noted with the first step beyond its end, a hundredth of it at most."""
 
 
 def indicators_of(
@@ -73,6 +75,23 @@ def indicators_of(
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
     verdict = decide(lyapunov, zero_one, recurrence, rotation)
     return found | {"verdict": float(verdict.code)}
+
+
+def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:
+    """Return how much the tangent grew in each recorded period, (periods,) logarithms.
+
+    rows : (k, 2) ends of the times in which it grew, s since the start, and logarithms. They end
+    with the first step beyond a period and with the run, which may be in the midst of one: that
+    one is left out.
+    """
+    turns = rows[:, 0] / period - settled
+    index = np.round(turns).astype(np.int64) - 1
+    whole = (index >= 0) & (np.abs(turns - (index + 1)) <= LATE)
+    if not whole.any():
+        return np.zeros(0)
+    grown = np.zeros(int(index[whole].max()) + 1)
+    np.add.at(grown, index[whole], rows[whole, 1])
+    return grown
 
 
 def unwound(states: Floats, angles: NDArray[np.bool_]) -> Floats:

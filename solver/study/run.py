@@ -19,12 +19,13 @@ from numpy.typing import NDArray
 
 from solver.compile_loop import ready_kernel
 from solver.compiler.layout import LANES
+from solver.compiler.tangents import compile_tangents
 from solver.errors import SimulationFailed
 from solver.lanes.account import failure_of, peaks_of, statistics_of
 from solver.lanes.bundle import Bundle, LaneStart
 from solver.lanes.state import Counter, Status
 from solver.simulate import FIRST_BUDGET, LARGEST_BUDGET, SLICE_SECONDS
-from solver.study.indicators import MOST_SECTIONS, indicators_of
+from solver.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
 from solver.study.plan import Study
 from solver.study.point_run import (
     ENDLESS,
@@ -118,7 +119,8 @@ class StudyRun:
         point = int(np.flatnonzero(study.structure == structure)[0])
         kernel = ready_kernel(study.point_scene(point), study.job["formulation"])
         self.structure = structure
-        self.bundle = Bundle(kernel, watch=bool(study.channels))
+        tangents = compile_tangents(kernel) if "lyapunov" in study.indicators else None
+        self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
         self.columns = np.array(
             [kernel.rows.index(channel.name) for channel in study.observables], dtype=np.int64
         )
@@ -131,6 +133,8 @@ class StudyRun:
         for lane, run in enumerate(self.lanes):
             if run is None:
                 continue
+            if run.settled >= 0:
+                run.growth.append(self.bundle.growth(lane).copy())
             handed_out += self._rows(lane, run)
             status = Status(self.bundle.counters[Counter.STATUS, lane])
             if status == Status.DONE and self._goes_on(lane, run):
@@ -213,9 +217,10 @@ class StudyRun:
         kernel, study = self.bundle.kernel, self.study
         states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
         scales, angles = scales_of(study, kernel, run.point)
-        growth = np.concatenate(run.growth) if run.growth else np.zeros(0)
         period = float(study.period[run.point])
-        return indicators_of(study.indicators, states, scales, angles, growth, period)
+        growth = np.concatenate([np.zeros((0, 2)), *run.growth])
+        by_period = growth_by_period(growth, period, run.settled)
+        return indicators_of(study.indicators, states, scales, angles, by_period, period)
 
     def _statistics(self, lane: int, run: PointRun) -> dict[str, float]:
         assert self.bundle is not None  # noqa: S101  (it has just advanced)
