@@ -13,7 +13,8 @@ import numpy as np
 from solver.admission import admit
 from solver.compiler.kernel import Kernel, compile_kernel
 from solver.integrators import METHODS
-from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter
 from solver.mechanics.tree import spanning_tree
 from solver.scene.document import Scene

@@ -14,7 +14,8 @@ from solver.assembly import assemble
 from solver.compile_loop import ready_kernel
 from solver.ideal.run import IdealRun
 from solver.lanes.account import failure_of, peaks_of, statistics_of
-from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Setting, Status
 from solver.results import IMPACT, Floats, Slice, Summary
 from solver.scene.document import Scene

@@ -5,83 +5,30 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.assembly import assemble, shortest_link
-from solver.compiler.kernel import LEDGER, CompiledAddress, Kernel
+from solver.compiler.kernel import CompiledAddress, Kernel
 from solver.compiler.layout import LANES
 from solver.compiler.tangents import Tangents
-from solver.drive import characteristic_time, common_period
 from solver.lanes.advance import advance
+from solver.lanes.beginning import begin
+from solver.lanes.binding import bind
 from solver.lanes.clock import product_difference
 from solver.lanes.observation import observe_rows
 from solver.lanes.peaks import POINTS
-from solver.lanes.periods import PACE_STEPS, look_ahead, plan
-from solver.lanes.start import mechanism_size, start_state
+from solver.lanes.periods import look_ahead, plan
+from solver.lanes.problem import LaneProblem, LaneStart
 from solver.lanes.state import Counter, SectionKind, Setting, Status, row_width
-from solver.lanes.tangent import start_tangent
-from solver.scene.document import Revolute, Scene
 
 Floats = NDArray[np.float64]
 
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
-STEPS_IN_A_PERIOD = 100
-"""Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
-RESTART = 1e-3
-"""The first step in contact closes this share of the clearance at the impact rate."""
-SMALLEST_STEP = 1e-15
-"""Of a period: a step below it ends the run."""
-FIRST_STEP = 1e-6
-"""First step, in periods."""
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 STATE = ("work", "settings", "counters", "first_energy")
 """Arrays of a bundle that the next step, or what is said of the run, depends on."""
-
-
-@dataclass(frozen=True)
-class Event:
-    """A Poincare section that no clock gives: an onset at a joint, or a channel at a value."""
-
-    kind: SectionKind
-    place: int
-    """Index of the joint with play, or row of the channel block."""
-    value: float = 0.0
-    sense: float = 1.0
-    """1: the channel comes from below; -1: from above."""
-    not_before: float = 0.0
-    """Time from which events count, s."""
-
-
-@dataclass(frozen=True)
-class LaneStart:
-    """Where a lane starts instead of at the scene's own start."""
-
-    state: Floats
-    """Coordinates, then speeds."""
-    contact: NDArray[np.bool_] | None = None
-    """Joints that are in contact already, with their latched impact rates (m/s)."""
-    impact_rate: Floats | None = None
-
-
-@dataclass(frozen=True)
-class LaneProblem:
-    """What one lane is to compute."""
-
-    scene: Scene
-    duration: float
-    tolerance: float
-    output_step: float
-    samples: int
-    sections: int
-    """Number of the section that follows the last one wanted; of events, how many."""
-    section_offset: float
-    first_section: int = 0
-    event: Event | None = None
-    start: LaneStart | None = None
 
 
 class Bundle:
@@ -130,12 +77,14 @@ class Bundle:
 
         Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
-        self._bind(lane, problem)
+        bind(self, lane, problem)
         fresh = self.counters[Counter.STATUS] == Status.IDLE
         fresh[lane] = False
         self.work.reshape(-1, LANES)[:, fresh] = self.work.reshape(-1, LANES)[:, [lane]]
         self.table("active")[0, fresh] = 0.0
-        self._start(lane, problem.start)
+        begin(self, lane, problem.start)
+        self._run(lane)
+        self.first_energy[:, lane] = self.energy(lane)
 
     def extend(self, lane: int, duration: float, sections: int, *, forget: bool = False) -> None:
         """Let a lane that is done go on to a later end; `forget` its extremes so far.
@@ -273,142 +222,6 @@ class Bundle:
         with np.load(io.BytesIO(state), allow_pickle=False) as saved:
             for name in STATE:
                 getattr(self, name)[:] = saved[name]
-
-    def _bind(self, lane: int, problem: LaneProblem) -> None:
-        """Set a lane's numbers, scales and start."""
-        kernel, scene, work = self.kernel, problem.scene, self.work.reshape(-1, LANES)
-        for (slot, _), value in zip(kernel.fixed, kernel.fixed_values(scene), strict=True):
-            work[slot, lane] = value
-        if self.tangents is not None:
-            values = self.tangents.fixed_values(scene)
-            for (slot, _), value in zip(self.tangents.fixed, values, strict=True):
-                work[slot, lane] = value
-        length = shortest_link(scene)
-        unit = characteristic_time(scene, length)
-        common = common_period(scene).seconds
-        period = common or unit
-        self._clock(lane, problem, period, common is not None)
-        if problem.start is None:
-            assembly = assemble(scene)
-            start = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
-            state = np.concatenate(start)
-        else:
-            state = problem.start.state
-        count = len(kernel.coordinates)
-        self.table("y0", 2 * count)[:, lane] = state
-        clearances = [scene.joints[name].clearance for name in kernel.play]  # type: ignore[union-attr]
-        finest = min((c.radial_clearance for c in clearances if c), default=math.inf)
-        reach = mechanism_size(scene, length)
-        for i, name in enumerate(kernel.coordinates):
-            angle = name.endswith(".theta")
-            scale = 1.0 if angle else length
-            close = min(scale, finest / reach if angle else finest)
-            self.table(f"weight{i}")[0, lane] = 1.0 / (problem.tolerance * close)
-            self.table(f"weight{count + i}")[0, lane] = unit / (
-                problem.tolerance * scale * 2.0 * math.pi
-            )
-        for j, clearance in enumerate(clearances):
-            assert clearance is not None  # noqa: S101  (joints with play have one; narrows the type)
-            self.table(f"impact_floor{j}")[0, lane] = clearance.contact.impact_rate_floor
-            self.table(f"restart{j}")[0, lane] = RESTART * clearance.radial_clearance
-
-    def _clock(self, lane: int, problem: LaneProblem, period: float, common: bool) -> None:
-        scene = problem.scene
-        for name in (
-            "time",
-            "stage_time",
-            "memory",
-            "steps",
-            "tried",
-            "before_step",
-            "before_time",
-        ):
-            self.table(name)[0, lane] = 0.0
-        self.table("pace_at")[0, lane] = PACE_STEPS
-        self.table("step")[0, lane] = FIRST_STEP * period
-        self.table("largest_step")[0, lane] = period / STEPS_IN_A_PERIOD
-        self.table("smallest_step")[0, lane] = period
-        self.table("end")[0, lane] = problem.duration
-        setting = self.settings[:, lane]
-        setting[Setting.PERIOD] = period
-        setting[Setting.COMMON] = 1.0 if common else 0.0
-        turning = all(isinstance(scene.joints[d.joint], Revolute) for d in scene.drivers.values())
-        setting[Setting.TURNING] = 1.0 if turning else 0.0
-        setting[Setting.DURATION] = problem.duration
-        setting[Setting.OUTPUT_STEP] = problem.output_step
-        setting[Setting.SECTION_OFFSET] = problem.section_offset
-        setting[Setting.SMALLEST_STEP] = SMALLEST_STEP * period
-        for k, driver in enumerate(scene.drivers.values()):
-            self.table(f"phase{k}")[0, lane] = driver.position
-            self.table(f"wound{k}")[0, lane] = 0.0
-            travel = driver.speed * period / (2.0 * math.pi if turning else 1.0)
-            setting[Setting.FIRST_DRIVER + 2 * k] = driver.position
-            setting[Setting.FIRST_DRIVER + 2 * k + 1] = round(travel) if common else travel
-        event = problem.event or Event(SectionKind.CRANK, 0)
-        setting[Setting.SECTION_KIND], setting[Setting.SECTION_PLACE] = event.kind, event.place
-        setting[Setting.SECTION_VALUE], setting[Setting.SECTION_SENSE] = event.value, event.sense
-        setting[Setting.SECTION_FROM] = event.not_before
-        setting[Setting.PACE_TIME] = 0.0
-        counter = self.counters[:, lane]
-        counter[:] = 0
-        counter[Counter.LANDING] = -1
-        counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
-        counter[Counter.SECTION] = problem.first_section
-
-    def _start(self, lane: int, start: LaneStart | None) -> None:
-        """Evaluate a lane's start: first slopes, contacts that begin closed, first records."""
-        kernel, module = self.kernel, self.kernel.module
-        joints, rows = len(kernel.play), kernel.rows.scanned
-        lanes = self.work.reshape(-1, LANES)[:, lane]
-        at = kernel.layout
-
-        def block(name: str, count: int) -> Floats:
-            return lanes[at[name] : at[name] + count]
-
-        block("stage0", kernel.states)[:] = block("y0", kernel.states)
-        floor = block("impact_floor0", joints) if joints else np.zeros(0)
-        for j in range(joints):
-            lanes[at[f"mode{j}"]], lanes[at[f"impact_rate{j}"]] = 0.0, floor[j]
-        module.right_hand_side(self.work)
-        for j in range(joints):
-            rate = lanes[at[f"gap_rate{j}"]]
-            closed = lanes[at[f"gap{j}"]] > 0.0
-            latched = max(rate, floor[j])
-            if start is not None and start.contact is not None and start.contact[j]:
-                latched = max(start.impact_rate[j], floor[j])  # type: ignore[index]
-            lanes[at[f"mode{j}"]] = 1.0 if closed else 0.0
-            lanes[at[f"impact_rate{j}"]] = latched
-            lanes[at[f"approach{j}"]] = rate
-            lanes[at[f"onset_time{j}"]] = lanes[at[f"onset_total{j}"]] = 0.0
-        module.right_hand_side(self.work)
-        ledger = LEDGER + joints
-        block("k1_0", kernel.states)[:] = block("slope0", kernel.states)
-        block("kledger1_0", ledger)[:] = block("ledger0", ledger)
-        block("total0", ledger)[:] = 0.0
-        for j in range(joints):
-            lanes[at[f"gap_start{j}"]] = lanes[at[f"gap{j}"]]
-            lanes[at[f"gap_rate_start{j}"]] = lanes[at[f"gap_rate{j}"]]
-        module.observe(self.work)
-        for name in ("previous0", "highest0", "lowest0"):
-            block(name, rows)[:] = block("channel0", rows)
-        for name in ("highest_time0", "lowest_time0"):
-            block(name, rows)[:] = 0.0
-        block("change0", rows)[:] = math.nan
-        if joints:
-            block("lowest0", rows)[rows - joints :] = -math.inf
-        if self.tangents is not None:
-            self._start_tangent(lane)
-        self._run(lane)
-        self.first_energy[:, lane] = self.energy(lane)
-
-    def _start_tangent(self, lane: int) -> None:
-        """Give a lane its first tangent; its state is in the stage still."""
-        assert self.tangents is not None  # noqa: S101  (asked before)
-        start_tangent(lane, self.slots, self.work)
-        if self.tangents.kinks:
-            self.tangents.module.kinks(self.work)
-            rows = 3 * self.tangents.kinks
-            self.table("kink_start0", rows)[:, lane] = self.table("kink_end0", rows)[:, lane]
 
 
 def aligned_zeros(size: int) -> Floats:

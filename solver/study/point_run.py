@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from solver.assembly import assemble
 from solver.compiler.kernel import Kernel
-from solver.lanes.bundle import Event, LaneProblem, LaneStart
+from solver.lanes.problem import Event, LaneProblem, LaneStart
 from solver.lanes.start import start_state
 from solver.lanes.state import SectionKind
 from solver.nonlinear.settling import SETTLINGS, Settling

@@ -22,7 +22,8 @@ from solver.compiler.layout import LANES
 from solver.compiler.tangents import compile_tangents
 from solver.errors import SimulationFailed
 from solver.lanes.account import failure_of, peaks_of, statistics_of
-from solver.lanes.bundle import Bundle, LaneStart
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneStart
 from solver.lanes.state import Counter, Status
 from solver.simulate import FIRST_BUDGET, LARGEST_BUDGET, SLICE_SECONDS
 from solver.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from solver.admission import Admission, admit, sample_count
 from solver.compiler.kernel import compile_kernel
 from solver.integrators import TSITOURAS5
-from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Status
 from solver.mechanics.tree import spanning_tree
 from solver.simulate import Simulation

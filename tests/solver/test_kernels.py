@@ -15,7 +15,8 @@ import pytest
 from solver.compiler.kernel import Kernel, compile_kernel
 from solver.compiler.layout import LANES
 from solver.integrators import TSITOURAS5
-from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem
 from solver.mechanics.observe import channel_values, ledger_rates
 from solver.mechanics.tree import spanning_tree
 from solver.mechanics.view import view

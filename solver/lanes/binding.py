@@ -1,0 +1,113 @@
+"""Sets a lane's numbers: those of its scene, its error scales, its clock and its counters."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from solver.assembly import assemble, shortest_link
+from solver.compiler.layout import LANES
+from solver.drive import characteristic_time, common_period
+from solver.lanes.periods import PACE_STEPS
+from solver.lanes.problem import Event, LaneProblem
+from solver.lanes.start import mechanism_size, start_state
+from solver.lanes.state import Counter, SectionKind, Setting
+from solver.scene.document import Revolute
+
+if TYPE_CHECKING:
+    from solver.lanes.bundle import Bundle
+
+STEPS_IN_A_PERIOD = 100
+"""Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
+RESTART = 1e-3
+"""The first step in contact closes this share of the clearance at the impact rate."""
+SMALLEST_STEP = 1e-15
+"""Of a period: a step below it ends the run."""
+FIRST_STEP = 1e-6
+"""First step, in periods."""
+
+
+def bind(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
+    """Set a lane's numbers, scales and start."""
+    kernel, scene, work = bundle.kernel, problem.scene, bundle.work.reshape(-1, LANES)
+    for (slot, _), value in zip(kernel.fixed, kernel.fixed_values(scene), strict=True):
+        work[slot, lane] = value
+    if bundle.tangents is not None:
+        values = bundle.tangents.fixed_values(scene)
+        for (slot, _), value in zip(bundle.tangents.fixed, values, strict=True):
+            work[slot, lane] = value
+    length = shortest_link(scene)
+    unit = characteristic_time(scene, length)
+    common = common_period(scene).seconds
+    period = common or unit
+    _clock(bundle, lane, problem, period, common is not None)
+    if problem.start is None:
+        assembly = assemble(scene)
+        start = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+        state = np.concatenate(start)
+    else:
+        state = problem.start.state
+    count = len(kernel.coordinates)
+    bundle.table("y0", 2 * count)[:, lane] = state
+    clearances = [scene.joints[name].clearance for name in kernel.play]  # type: ignore[union-attr]
+    finest = min((c.radial_clearance for c in clearances if c), default=math.inf)
+    reach = mechanism_size(scene, length)
+    for i, name in enumerate(kernel.coordinates):
+        angle = name.endswith(".theta")
+        scale = 1.0 if angle else length
+        close = min(scale, finest / reach if angle else finest)
+        bundle.table(f"weight{i}")[0, lane] = 1.0 / (problem.tolerance * close)
+        bundle.table(f"weight{count + i}")[0, lane] = unit / (
+            problem.tolerance * scale * 2.0 * math.pi
+        )
+    for j, clearance in enumerate(clearances):
+        assert clearance is not None  # noqa: S101  (joints with play have one; narrows the type)
+        bundle.table(f"impact_floor{j}")[0, lane] = clearance.contact.impact_rate_floor
+        bundle.table(f"restart{j}")[0, lane] = RESTART * clearance.radial_clearance
+
+
+def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, common: bool) -> None:
+    """Set a lane's time, counters and what falls due when."""
+    scene = problem.scene
+    for name in (
+        "time",
+        "stage_time",
+        "memory",
+        "steps",
+        "tried",
+        "before_step",
+        "before_time",
+    ):
+        bundle.table(name)[0, lane] = 0.0
+    bundle.table("pace_at")[0, lane] = PACE_STEPS
+    bundle.table("step")[0, lane] = FIRST_STEP * period
+    bundle.table("largest_step")[0, lane] = period / STEPS_IN_A_PERIOD
+    bundle.table("smallest_step")[0, lane] = period
+    bundle.table("end")[0, lane] = problem.duration
+    setting = bundle.settings[:, lane]
+    setting[Setting.PERIOD] = period
+    setting[Setting.COMMON] = 1.0 if common else 0.0
+    turning = all(isinstance(scene.joints[d.joint], Revolute) for d in scene.drivers.values())
+    setting[Setting.TURNING] = 1.0 if turning else 0.0
+    setting[Setting.DURATION] = problem.duration
+    setting[Setting.OUTPUT_STEP] = problem.output_step
+    setting[Setting.SECTION_OFFSET] = problem.section_offset
+    setting[Setting.SMALLEST_STEP] = SMALLEST_STEP * period
+    for k, driver in enumerate(scene.drivers.values()):
+        bundle.table(f"phase{k}")[0, lane] = driver.position
+        bundle.table(f"wound{k}")[0, lane] = 0.0
+        travel = driver.speed * period / (2.0 * math.pi if turning else 1.0)
+        setting[Setting.FIRST_DRIVER + 2 * k] = driver.position
+        setting[Setting.FIRST_DRIVER + 2 * k + 1] = round(travel) if common else travel
+    event = problem.event or Event(SectionKind.CRANK, 0)
+    setting[Setting.SECTION_KIND], setting[Setting.SECTION_PLACE] = event.kind, event.place
+    setting[Setting.SECTION_VALUE], setting[Setting.SECTION_SENSE] = event.value, event.sense
+    setting[Setting.SECTION_FROM] = event.not_before
+    setting[Setting.PACE_TIME] = 0.0
+    counter = bundle.counters[:, lane]
+    counter[:] = 0
+    counter[Counter.LANDING] = -1
+    counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
+    counter[Counter.SECTION] = problem.first_section
