@@ -1,4 +1,5 @@
 # make demo       a service, the press at the paper's clearances over HTTP, figures in demo/, stop
+# make reproduce  the paper's figures and numbers beside ours: reproduction/report.html
 # make test       everything that continuous integration checks
 # make test-long  the tests that take longer
 # make bench      measure speed on this machine
@@ -35,6 +36,10 @@ install: $(STAMP)
 demo: $(STAMP)
 	@$(BIN)/jointplay demo seven-bar-press
 
+reproduce: $(STAMP)
+	@rm -rf reproduction
+	@$(BIN)/jointplay reproduce -o reproduction
+
 test: $(STAMP)
 	@$(BIN)/python -m tests.everything
 
@@ -45,6 +50,6 @@ bench: $(STAMP)
 	@$(BIN)/python -m benchmarks
 
 clean:
-	rm -rf $(VENV) demo build *.egg-info .jointplay .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
+	rm -rf $(VENV) demo reproduction build *.egg-info .jointplay .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
 
-.PHONY: help install demo test test-long bench clean
+.PHONY: help install demo reproduce test test-long bench clean

@@ -11,6 +11,7 @@ from jointplay.command_line import (
     export,
     ls,
     plot,
+    reproduce,
     run_locally,
     scene,
     serve,
@@ -30,6 +31,7 @@ application = typer.Typer(
 )
 application.command("run")(run_locally.run)
 application.command()(demo.demo)
+application.command()(reproduce.reproduce)
 application.command()(serve.serve)
 application.command()(submit.submit)
 application.command()(batch.batch)

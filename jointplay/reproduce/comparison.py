@@ -1,0 +1,55 @@
+"""A printed number and ours, as one row of a table of the report."""
+
+from dataclasses import dataclass
+from typing import Final
+
+SAME: Final = 0.02
+CLOSE: Final = 0.15
+ORDER: Final = 0.5
+"""Deviations up to which ours are called the same, close, or of the same order."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What one variant gives: a main line, smaller ones below, and ours over the printed one."""
+
+    main: str
+    details: tuple[str, ...] = ()
+    ratio: float | None = None
+
+    @property
+    def grade(self) -> str:
+        """How near ours is, in one word; empty where there is nothing to compare."""
+        if self.ratio is None:
+            return ""
+        deviation = abs(self.ratio - 1.0)
+        for word, bound in (("same", SAME), ("close", CLOSE), ("order", ORDER)):
+            if deviation <= bound:
+                return word
+        return "far"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One printed number, or several that belong together, beside ours.
+
+    `pointers` are the places of the numbers in `reported_values.json`; `causes` name sections of
+    the report that say why ours may differ.
+    """
+
+    pointers: tuple[str, ...]
+    case: str
+    quantity: str
+    printed: str
+    cells: tuple[Cell, ...]
+    causes: tuple[str, ...] = ()
+
+
+def milliseconds(time: float) -> str:
+    """Return a time [s] in ms."""
+    return f"{1e3 * time:.4g} ms"
+
+
+def signed(value: float, digits: str) -> str:
+    """Return a number with a minus sign as wide as a digit, that no line is broken after."""
+    return format(value, digits).replace("-", "−")
