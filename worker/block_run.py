@@ -87,6 +87,7 @@ class BlockRun:
                     outcome.error,
                     time=outcome.time,
                     fraction=outcome.fraction,
+                    steps=(outcome.statistics or {}).get("steps"),
                     durable=not recognised,
                 )
         except Fenced as fenced:
@@ -139,7 +140,9 @@ class BlockRun:
         now = time.monotonic()
         if now >= self._next_record:
             took = self._keep(keep)
-            verdict = self._lease.record_progress(progress.time, progress.fraction)
+            verdict = self._lease.record_progress(
+                progress.time, progress.fraction, progress.steps()
+            )
             now = time.monotonic()
             self._next_record = now + max(self._settings.progress_period, _MOST_OVERHEAD * took)
         elif now >= self._next_look:

@@ -47,6 +47,7 @@ class Progress:
     time: float  # simulated time [s]
     fraction: float  # 0..1
     restart_point: Callable[[], RestartPoint]
+    steps: Callable[[], int | None] = lambda: None  # accepted steps so far
 
 
 @dataclass(frozen=True)
@@ -136,9 +137,12 @@ def _advance(
             fraction,
         )
 
+    def steps() -> int:
+        return int(simulation.summary().statistics["steps"])
+
     slices = simulation.slices()
     while True:
-        answer = Answer(report(Progress(time, fraction, restart_point)))
+        answer = Answer(report(Progress(time, fraction, restart_point, steps)))
         if answer is Answer.leave:
             return Outcome("left", time, fraction)
         if answer is Answer.cancel:

@@ -48,11 +48,18 @@ class Lease:
         self._refuse_when_fenced()
         return self._catalogue.verdict(self._block, self._attempt)
 
-    def record_progress(self, simulated: float, fraction: float) -> Verdict:
+    def record_progress(
+        self, simulated: float, fraction: float, steps: int | None = None
+    ) -> Verdict:
         """Store progress and extend the lease; Fenced if the block is somebody else's."""
         self._refuse_when_fenced()
         return self._catalogue.record_progress(
-            self._block, self._attempt, self._settings.lease, time=simulated, fraction=fraction
+            self._block,
+            self._attempt,
+            self._settings.lease,
+            time=simulated,
+            fraction=fraction,
+            steps=steps,
         )
 
     def _refuse_when_fenced(self) -> None:

@@ -54,11 +54,17 @@ class StudyProgress:
     watermark: int  # points that have ended
     restart_point: Callable[[], str]
     """Brings what was computed to the disk and returns the name to resume from."""
+    ended_steps: int = 0
+    """Accepted steps of the points that ended since this try began."""
 
     @property
     def time(self) -> float:
         """Simulated time means nothing where many points are computed."""
         return 0.0
+
+    def steps(self) -> int:
+        """Return the accepted steps."""
+        return self.ended_steps
 
 
 def layout_of(study: Study) -> StudyLayout:
@@ -163,12 +169,13 @@ def run_laid_out(
     block, carried, fraction = _begin(layout, index, folder, attempt, resume_from)
     computation = StudyRun(study, index, carried)
     slices = computation.slices()
+    steps = 0
 
     def restart_point() -> str:
         return block.flush(computation.checkpoint())
 
     while True:
-        answer = Answer(report(StudyProgress(fraction, block.watermark, restart_point)))
+        answer = Answer(report(StudyProgress(fraction, block.watermark, restart_point, steps)))
         if answer is Answer.leave:
             return Outcome("left", 0.0, fraction)
         if answer is Answer.cancel:
@@ -177,8 +184,9 @@ def run_laid_out(
         piece: StudySlice | None = next(slices, None)
         if piece is None:
             block.finish()
-            return Outcome("succeeded", 0.0, 1.0)
+            return Outcome("succeeded", 0.0, 1.0, statistics={"steps": steps})
         block.take(piece)
+        steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
         fraction = piece.fraction
 
 

@@ -36,6 +36,11 @@ class AnyProgress(Protocol):
         """0..1, of the block."""
         ...
 
+    @property
+    def steps(self) -> Callable[[], int | None]:
+        """Return the accepted steps of this try, as far as they are known."""
+        ...
+
 
 Report = Callable[[AnyProgress, Callable[[], Kept]], Answer]
 """Called between two slices; the second argument brings a restart point to the disk."""

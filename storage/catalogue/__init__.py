@@ -2,7 +2,14 @@
 
 from typing import TYPE_CHECKING, Any
 
-from storage.catalogue.errors import BatchNotFound, CatalogueError, Fenced, JobNotFound, KeyReused
+from storage.catalogue.errors import (
+    BatchNotFound,
+    CatalogueError,
+    Fenced,
+    JobNotFinished,
+    JobNotFound,
+    KeyReused,
+)
 from storage.catalogue.records import (
     Attempt,
     Batch,
@@ -11,8 +18,10 @@ from storage.catalogue.records import (
     Claim,
     ErrorClass,
     Event,
+    Glance,
     Job,
     JobError,
+    JobFilter,
     JobPage,
     JobState,
     NewJob,
@@ -39,8 +48,11 @@ __all__ = [
     "ErrorClass",
     "Event",
     "Fenced",
+    "Glance",
     "Job",
     "JobError",
+    "JobFilter",
+    "JobNotFinished",
     "JobNotFound",
     "JobPage",
     "JobState",

@@ -5,10 +5,11 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 
 import time
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from sqlalchemy import text
 
-from storage.catalogue import batches, holding, listing, schema, submission, upkeep
+from storage.catalogue import batches, holding, listing, removal, schema, submission, upkeep
 from storage.catalogue.connections import Connections
 from storage.catalogue.identifiers import Identifiers
 from storage.catalogue.records import (
@@ -18,8 +19,10 @@ from storage.catalogue.records import (
     BlockState,
     Claim,
     Event,
+    Glance,
     Job,
     JobError,
+    JobFilter,
     JobPage,
     JobState,
     NewJob,
@@ -75,10 +78,14 @@ class Catalogue:
 
     # What users ask for
 
-    def submit(self, new: NewJob, key: SubmissionKey | None = None) -> Submitted:
+    def submit(
+        self, new: NewJob, key: SubmissionKey | None = None, *, reuse: bool = False
+    ) -> Submitted:
         """Accept a job; it survives a power cut once this returns.
 
-        With a key that was used before the earlier job is returned, and `created` is false.
+        With a key that was used before the earlier job is returned, and `created` is false. With
+        `reuse` so is a job of the same owner that asks the same of the same solver and is queued,
+        running or succeeded, and not expired; then `cached` is true.
 
         Raises
         ------
@@ -88,7 +95,7 @@ class Catalogue:
         now = self._clock()
         identifier = self._identifiers.next(now)
         with self._connections.writing(durable=True) as connection:
-            return submission.submit(connection, identifier, new, key, now)
+            return submission.submit(connection, identifier, new, key, now, reuse=reuse)
 
     def request_cancel(self, job: str) -> Job:
         """Cancel a queued job at once, ask a running one to stop, leave a finished one alone.
@@ -164,16 +171,13 @@ class Catalogue:
         *,
         limit: int = 50,
         after: str | None = None,
-        state: JobState | None = None,
-        kind: str | None = None,
-        label: str | None = None,
-        owner: str | None = None,
-        batch: str | None = None,
         oldest_first: bool = False,
+        **wanted: Any,
     ) -> JobPage:
         """Return one page of jobs, newest first; `after` is the `next` of the page before.
 
-        `oldest_first` turns it round: the jobs of a batch then come as they were submitted.
+        `oldest_first` turns it round: the jobs of a batch then come as they were submitted. The
+        other arguments are fields of `JobFilter`. Expired jobs are left out.
 
         Raises
         ------
@@ -183,13 +187,10 @@ class Catalogue:
         with self._connections.reading() as connection:
             return listing.page_of_jobs(
                 connection,
+                JobFilter(**wanted),
+                self._clock(),
                 limit=limit,
                 after=after,
-                state=state,
-                kind=kind,
-                label=label,
-                owner=owner,
-                batch=batch,
                 oldest_first=oldest_first,
             )
 
@@ -208,10 +209,26 @@ class Catalogue:
         with self._connections.reading() as connection:
             return listing.events_of(connection, job, after=after, limit=limit)
 
-    def same_digest(self, digest: str, owner: str = "") -> Job | None:
-        """Return the newest succeeded, unexpired job with this digest, if there is one."""
+    def glances(self, jobs: Sequence[str]) -> tuple[Glance, ...]:
+        """Return what changes while jobs are computed, of those among them that there are."""
         with self._connections.reading() as connection:
-            return listing.same_digest(connection, digest, owner, self._clock())
+            return listing.glances_of(connection, jobs)
+
+    def expired(self, job: Job) -> bool:
+        """Tell whether a job and its results can be read no more."""
+        return job.expired(self._clock())
+
+    def delete(self, job: str) -> Job:
+        """Let a finished job expire now; its results are removed soon.
+
+        Raises
+        ------
+        JobNotFound
+        JobNotFinished
+            It has to be cancelled first.
+        """
+        with self._connections.writing(durable=True) as connection:
+            return removal.expire(connection, job, self._clock())
 
     # What workers do
 
@@ -231,12 +248,20 @@ class Catalogue:
             return holding.heartbeat(connection, block, attempt, lease, self._clock())
 
     def record_progress(
-        self, block: str, attempt: int, lease: float, *, time: float, fraction: float
+        self,
+        block: str,
+        attempt: int,
+        lease: float,
+        *,
+        time: float,
+        fraction: float,
+        steps: int | None = None,
     ) -> Verdict:
-        """Heartbeat that also stores simulated time [s] and fraction (0..1); or Fenced."""
+        """Heartbeat that also stores simulated time [s], fraction (0..1) and steps; or Fenced."""
+        now = self._clock()
         with self._connections.writing() as connection:
             return holding.record_progress(
-                connection, block, attempt, lease, self._clock(), time=time, fraction=fraction
+                connection, block, attempt, lease, now, time=time, fraction=fraction, steps=steps
             )
 
     def note_activity(self, block: str, attempt: int, activity: str) -> None:
@@ -265,12 +290,13 @@ class Catalogue:
         *,
         time: float | None = None,
         fraction: float | None = None,
+        steps: int | None = None,
         durable: bool = True,
     ) -> JobState:
         """End a held block (done, failed with an error, cancelled); return the job's state.
 
-        `time` [s] and `fraction` (0..1) say how far it came, if that is known. If not `durable` a
-        power cut may undo it: the block is then taken again.
+        `time` [s], `fraction` (0..1) and `steps` say how far it came, if that is known. If not
+        `durable` a power cut may undo it: the block is then taken again.
 
         Raises
         ------
@@ -287,6 +313,7 @@ class Catalogue:
                 self._clock(),
                 time=time,
                 fraction=fraction,
+                steps=steps,
             )
 
     def release(self, block: str, attempt: int) -> None:
@@ -310,6 +337,16 @@ class Catalogue:
         """Take blocks from workers whose lease ran out; fail what lost too many workers."""
         with self._connections.writing(durable=True) as connection:
             return upkeep.reap(connection, max_attempts, self._clock())
+
+    def removable(self, limit: int) -> tuple[str, ...]:
+        """Return jobs that have expired and whose results are still there."""
+        with self._connections.reading() as connection:
+            return removal.removable(connection, limit, self._clock())
+
+    def mark_removed(self, jobs: Sequence[str]) -> None:
+        """Remember that the results of these jobs are gone."""
+        with self._connections.writing() as connection:
+            removal.mark_removed(connection, jobs, self._clock())
 
     def hold_duty(self, name: str, holder: str, seconds: float) -> bool:
         """Take or keep a duty for so many seconds; false while somebody else has it."""

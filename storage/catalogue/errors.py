@@ -13,6 +13,14 @@ class JobNotFound(CatalogueError):
         self.job = job
 
 
+class JobNotFinished(CatalogueError):
+    """A job that is not finished cannot be deleted."""
+
+    def __init__(self, job: str, state: str) -> None:
+        super().__init__(f"job {job} is {state}; cancel it before it is deleted")
+        self.job = job
+
+
 class BatchNotFound(CatalogueError):
     """No batch has this id."""
 

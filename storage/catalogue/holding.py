@@ -125,6 +125,7 @@ def record_progress(
     *,
     time: float,
     fraction: float,
+    steps: int | None,
 ) -> Verdict:
     """Extend the lease and store how far the block, and with it the job, has come."""
     job_id = _change_held(
@@ -134,6 +135,7 @@ def record_progress(
         lease_until=now + lease,
         progress_time=time,
         progress_fraction=fraction,
+        **({} if steps is None else {"progress_steps": steps}),
     )
     _sum_progress(connection, job_id)
     return verdict(connection, block_id, attempt)
@@ -161,13 +163,16 @@ def note_activity(
 
 def _sum_progress(connection: Connection, job_id: str) -> None:
     weighted = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
-    fraction, time = connection.execute(
-        select(weighted, func.max(_block.c.progress_time)).where(_block.c.job == job_id)
+    steps_of_all = func.sum(_block.c.progress_steps)
+    fraction, time, steps = connection.execute(
+        select(weighted, func.max(_block.c.progress_time), steps_of_all).where(
+            _block.c.job == job_id
+        )
     ).one()
     connection.execute(
         update(tables.job)
         .where(tables.job.c.id == job_id)
-        .values(progress_fraction=fraction, progress_time=time, activity=None)
+        .values(progress_fraction=fraction, progress_time=time, steps=steps, activity=None)
     )
 
 
@@ -181,10 +186,11 @@ def finish(
     *,
     time: float | None,
     fraction: float | None,
+    steps: int | None,
 ) -> JobState:
     """End a held block (done, failed or cancelled) and, with its last block, the job.
 
-    `time` and `fraction` say how far it came; a block that is done came all the way.
+    `time`, `fraction` and `steps` say how far it came; a block that is done came all the way.
 
     Returns
     -------
@@ -194,6 +200,8 @@ def finish(
     changes: dict[str, Any] = {"state": outcome.value, "lease_until": None}
     if time is not None:
         changes["progress_time"] = time
+    if steps is not None:
+        changes["progress_steps"] = steps
     if outcome is BlockState.done:
         fraction = 1.0
     if fraction is not None:

@@ -24,5 +24,11 @@ class Identifiers:
             return _encode(self._last)
 
 
+def earliest(time: float) -> str:
+    """Return what no id made before a time (epoch seconds) is beyond, and no later one below."""
+    milliseconds = min(max(int(time * 1000), 0), (1 << 48) - 1)
+    return _encode(milliseconds << _RANDOM_BITS)
+
+
 def _encode(number: int) -> str:
     return "".join(_ALPHABET[(number >> shift) & 31] for shift in range(125, -5, -5))

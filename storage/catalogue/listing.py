@@ -1,24 +1,33 @@
-"""Reading jobs: pages by key, histories, and jobs that were computed before."""
+"""Reading jobs: pages by key, histories, and what changes while they are computed."""
 
-from sqlalchemy import Connection, select
+from collections.abc import Sequence
+
+from sqlalchemy import Connection, and_, func, not_, select
 
 from storage.catalogue import tables
-from storage.catalogue.records import Attempt, Block, Event, Job, JobPage, JobState
+from storage.catalogue.identifiers import earliest
+from storage.catalogue.records import (
+    Attempt,
+    Block,
+    Event,
+    Glance,
+    JobFilter,
+    JobPage,
+    JobState,
+)
 from storage.catalogue.rows import attempt_record, block_record, event_record, job_record
 
 LARGEST_PAGE = 1000
+_TERMINAL = [state.value for state in JobState if state.terminal]
 
 
 def page_of_jobs(
     connection: Connection,
+    wanted: JobFilter,
+    now: float,
     *,
     limit: int,
     after: str | None,
-    state: JobState | None,
-    kind: str | None,
-    label: str | None,
-    owner: str | None,
-    batch: str | None,
     oldest_first: bool,
 ) -> JobPage:
     """Return jobs beyond `after`, newest or oldest first; pages do not shift when jobs arrive."""
@@ -29,15 +38,17 @@ def page_of_jobs(
     statement = select(tables.job).order_by(order).limit(limit + 1)
     if after is not None:
         statement = statement.where(columns.id > after if oldest_first else columns.id < after)
-    for column, wanted in (
-        (columns.state, state.value if state else None),
-        (columns.kind, kind),
-        (columns.label, label),
-        (columns.owner, owner),
-        (columns.batch, batch),
-    ):
-        if wanted is not None:
-            statement = statement.where(column == wanted)
+    for name in ("state", "kind", "label", "scene", "owner", "batch"):
+        value = getattr(wanted, name)
+        if value is not None:
+            statement = statement.where(columns[name] == str(value))
+    # an id begins with its time: the primary key finds a window of time at once
+    if wanted.since is not None:
+        statement = statement.where(columns.id >= earliest(wanted.since))
+    if wanted.before is not None:
+        statement = statement.where(columns.id < earliest(wanted.before))
+    expired = and_(columns.expires <= now, columns.state.in_(_TERMINAL))
+    statement = statement.where(columns.expires.is_(None) | not_(expired))
     found = [job_record(row) for row in connection.execute(statement)]
     more = len(found) > limit
     jobs = tuple(found[:limit])
@@ -75,18 +86,20 @@ def events_of(connection: Connection, job_id: str, *, after: int, limit: int) ->
     return tuple(event_record(row) for row in rows)
 
 
-def same_digest(connection: Connection, digest: str, owner: str, now: float) -> Job | None:
-    """Return the newest succeeded job of this owner with this digest that has not expired."""
-    columns = tables.job.c
-    row = connection.execute(
-        select(tables.job)
-        .where(
-            columns.digest == digest,
-            columns.owner == owner,
-            columns.state == JobState.succeeded.value,
-            (columns.expires.is_(None)) | (columns.expires > now),
-        )
-        .order_by(columns.id.desc())
-        .limit(1)
-    ).one_or_none()
-    return job_record(row) if row else None
+def glances_of(connection: Connection, jobs: Sequence[str]) -> tuple[Glance, ...]:
+    """Return what changes while jobs are computed, of those among them that there are."""
+    columns, event = tables.job.c, tables.event
+    newest = select(func.max(event.c.seq)).where(event.c.job == columns.id).scalar_subquery()
+    rows = connection.execute(
+        select(
+            columns.id,
+            columns.state,
+            columns.activity,
+            columns.attempt,
+            columns.progress_time,
+            columns.progress_fraction,
+            columns.steps,
+            newest,
+        ).where(columns.id.in_(jobs))
+    )
+    return tuple(Glance(row[0], JobState(row[1]), *row[2:]) for row in rows)

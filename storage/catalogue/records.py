@@ -82,6 +82,7 @@ class NewJob:
     owner: str = ""
     label: str | None = None
     batch: str | None = None
+    scene: str | None = None  # its name, by which jobs are found
     expires: float | None = None
     blocks: tuple[tuple[int, int], ...] = ((0, 1),)
     seal: bool = False
@@ -120,14 +121,26 @@ class Job:
     finished: float | None
     expires: float | None
     activity: str | None  # a word for what takes long before anything advances: "compiling"
+    scene: str | None
+    steps: int | None  # accepted steps of the solver, as far as they are known
+    removed: float | None  # when its results were removed
+
+    def expired(self, now: float) -> bool:
+        """Whether it and its results can be read no more; what is still live never expires."""
+        return self.state.terminal and self.expires is not None and self.expires <= now
 
 
 @dataclass(frozen=True)
 class Submitted:
-    """Answer to a submission; `created` is false if an idempotency key found an earlier job."""
+    """Answer to a submission.
+
+    `created` is false if an idempotency key found an earlier job, `cached` is true if the job is
+    one that another request had submitted before, because both ask for the same.
+    """
 
     job: Job
     created: bool
+    cached: bool = False
 
 
 @dataclass(frozen=True)
@@ -183,6 +196,7 @@ class Block:
     checkpoint: str | None  # path of the checkpoint below the job's results folder
     progress_time: float
     progress_fraction: float
+    progress_steps: int | None
 
 
 @dataclass(frozen=True)
@@ -214,6 +228,34 @@ class Event:
     time: float
     type: str
     data: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Glance:
+    """What changes while a job is computed; `last_event` is the number of its newest event."""
+
+    job: str
+    state: JobState
+    activity: str | None
+    attempt: int
+    time: float  # simulated seconds
+    fraction: float  # 0..1
+    steps: int | None
+    last_event: int
+
+
+@dataclass(frozen=True)
+class JobFilter:
+    """Which jobs to list; what is none does not matter. Times are of the submission."""
+
+    state: JobState | None = None
+    kind: str | None = None
+    label: str | None = None
+    scene: str | None = None
+    owner: str | None = None
+    batch: str | None = None
+    since: float | None = None  # from this time on
+    before: float | None = None
 
 
 @dataclass(frozen=True)

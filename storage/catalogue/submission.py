@@ -29,21 +29,68 @@ from storage.catalogue.records import (
 from storage.catalogue.rows import find_job, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
+_LONGEST_NAME = 200  # of a scene, as it is looked for
+_REUSED = (JobState.queued.value, JobState.running.value, JobState.succeeded.value)
 _LIVE = (BlockState.queued.value, BlockState.running.value)
 
 
 def submit(
-    connection: Connection, job_id: str, new: NewJob, key: SubmissionKey | None, now: float
+    connection: Connection,
+    job_id: str,
+    new: NewJob,
+    key: SubmissionKey | None,
+    now: float,
+    *,
+    reuse: bool,
 ) -> Submitted:
     """Store a job, its blocks and their wake-ups, or find the job an earlier request made."""
     if key is not None:
         earlier = earlier_answer(connection, key, now)
         if earlier is not None and earlier.job is not None:
-            return Submitted(find_job(connection, earlier.job), created=False)
+            job = find_job(connection, earlier.job)
+            # a key is stored with the job that it made, and later than one that it found
+            return Submitted(job, created=False, cached=earlier.created > job.created)
+    if reuse and (same := _same_job(connection, new, now)) is not None:
+        if key is not None:
+            remember_key(connection, key, now, job=same)
+        _keep_until(connection, same, new.expires)
+        return Submitted(find_job(connection, same), created=False, cached=True)
     insert_jobs(connection, [(job_id, new)], now)
     if key is not None:
         remember_key(connection, key, now, job=job_id)
     return Submitted(find_job(connection, job_id), created=True)
+
+
+def _same_job(connection: Connection, new: NewJob, now: float) -> str | None:
+    """Return the newest job that asks this solver for the same, unless it ended badly or expired.
+
+    The digest covers the filled-in job without its label, the version the solver's sources.
+    """
+    columns = tables.job.c
+    found = connection.execute(
+        select(columns.id)
+        .where(
+            columns.digest == new.digest,
+            columns.solver_version == new.solver_version,
+            columns.kind == new.kind,
+            columns.owner == new.owner,
+            columns.state.in_(_REUSED),
+            columns.expires.is_(None) | (columns.expires > now),
+        )
+        .order_by(columns.id.desc())
+        .limit(1)
+    )
+    return found.scalar_one_or_none()
+
+
+def _keep_until(connection: Connection, job_id: str, expires: float | None) -> None:
+    """Let a job that is wanted again expire no sooner than the new request asks."""
+    columns = tables.job.c
+    of_job = update(tables.job).where(columns.id == job_id)
+    if expires is None:
+        connection.execute(of_job.values(expires=None))
+    else:
+        connection.execute(of_job.where(columns.expires < expires).values(expires=expires))
 
 
 def insert_jobs(connection: Connection, jobs: Sequence[tuple[str, NewJob]], now: float) -> None:
@@ -75,6 +122,7 @@ def _job_row(job_id: str, new: NewJob, now: float) -> dict[str, Any]:
         "owner": new.owner,
         "label": new.label,
         "batch": new.batch,
+        "scene": None if new.scene is None else new.scene[:_LONGEST_NAME],
         "spec": new.spec,
         "digest": new.digest,
         "solver_version": new.solver_version,

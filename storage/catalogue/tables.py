@@ -47,6 +47,9 @@ job = Table(
     Column("finished", Float(53)),
     Column("expires", Float(53)),
     Column("activity", String(32)),
+    Column("scene", String(200)),
+    Column("steps", BigInteger),
+    Column("removed", Float(53)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_owner_id", "owner", "id"),
@@ -54,7 +57,11 @@ job = Table(
     # progress of a whole batch without a look at its jobs' documents
     Index("ix_job_batch_state", "batch", "state", "progress_fraction"),
     Index("ix_job_digest_id", "digest", "id"),
-    Index("ix_job_expires", "expires"),
+    Index("ix_job_kind_id", "kind", "id"),
+    Index("ix_job_label_id", "label", "id"),
+    Index("ix_job_scene_id", "scene", "id"),
+    # whose results are to be removed, however many were
+    Index("ix_job_removed_expires", "removed", "expires"),
 )
 
 batch = Table(
@@ -84,6 +91,7 @@ block = Table(
     Column("checkpoint", Text),
     Column("progress_time", Float(53), nullable=False),
     Column("progress_fraction", Float(53), nullable=False),
+    Column("progress_steps", BigInteger),
     UniqueConstraint("job", "index"),
     Index("ix_block_state_lease_until", "state", "lease_until"),
 )
