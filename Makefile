@@ -28,7 +28,7 @@ $(STAMP): pyproject.toml
 	  echo "$$($$chosen --version) makes $(VENV)"; $$chosen -m venv --clear $(VENV); \
 	fi; \
 	echo "installing the dependencies into $(VENV) (a minute or two)"; \
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'; \
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,xarray]'; \
 	touch $(STAMP)
 
 install: $(STAMP)

@@ -14,6 +14,7 @@ import service.results.endpoints
 import service.results.figures
 import service.scenes.endpoints
 import service.studies.endpoints
+import service.zarr.endpoints
 from service import problems
 from service.openapi import described
 from storage.catalogue import Catalogue
@@ -31,6 +32,7 @@ _RESOURCES = (
     service.studies.endpoints,
     service.results.endpoints,
     service.results.figures,
+    service.zarr.endpoints,
     service.scenes.endpoints,
     service.health.endpoints,
     service.problems.endpoints,

@@ -4,11 +4,11 @@ from service.problems import RequestRefused, kinds
 from storage.catalogue import Job
 
 RESULTS = {
-    "simulate": ("history", "peaks", "poincare", "impacts", "statistics", "figures"),
-    "bifurcation": ("bifurcation", "poincare", "figures"),
-    "sweep": ("sweep", "figures"),
-    "poincare": ("poincare", "figures"),
-    "ensemble": ("poincare", "figures"),
+    "simulate": ("history", "peaks", "poincare", "impacts", "statistics", "figures", "zarr"),
+    "bifurcation": ("bifurcation", "poincare", "figures", "zarr"),
+    "sweep": ("sweep", "figures", "zarr"),
+    "poincare": ("poincare", "figures", "zarr"),
+    "ensemble": ("poincare", "figures", "zarr"),
 }
 
 

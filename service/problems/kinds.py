@@ -123,6 +123,18 @@ NOT_FOUND = Kind(
     "There is nothing at this address",
     "The addresses are in /openapi.json, readable at /docs.",
 )
+RANGE_NOT_SATISFIABLE = Kind(
+    "range-not-satisfiable",
+    416,
+    "The range has none of the bytes",
+    "Content-Range gives the size; a range such as `bytes=-260` means the last bytes.",
+)
+NOT_ACCEPTABLE = Kind(
+    "not-acceptable",
+    406,
+    "There is no such form of the answer",
+    "The problem's `detail` lists the media types that Accept can ask for.",
+)
 METHOD_NOT_ALLOWED = Kind(
     "method-not-allowed",
     405,
@@ -162,6 +174,8 @@ ALL = {
         BODY_TOO_LARGE,
         NOT_JSON,
         NOT_FOUND,
+        RANGE_NOT_SATISFIABLE,
+        NOT_ACCEPTABLE,
         METHOD_NOT_ALLOWED,
         UNAVAILABLE,
         INTERNAL,

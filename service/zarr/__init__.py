@@ -1,0 +1,1 @@
+"""The stores of jobs over HTTP, for stock Zarr clients."""

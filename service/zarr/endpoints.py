@@ -1,0 +1,123 @@
+"""``/v1/jobs/{id}/zarr/…``: a job's store as it is stored, for stock Zarr clients."""
+
+import gzip
+from typing import Annotated, Any, Final
+
+from fastapi import APIRouter, Path, Request, Response
+
+from service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+)
+from service.problems import ErrorDetail, RequestRefused, kinds, problems
+from service.problems.document import clipped
+from service.zarr import ranges
+from service.zarr.content import Content
+from service.zarr.keys import is_key
+from service.zarr.views import content_of
+from storage.catalogue import Job
+
+router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
+
+_DOCUMENT: Final = "zarr.json"
+_FOREVER: Final = "public, max-age=31536000, immutable"
+_SERVED: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "The bytes of the key.",
+        "content": {
+            "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
+            "application/json": {"schema": {"type": "object"}},
+        },
+    },
+    206: {
+        "description": "The bytes of the range.",
+        "content": {
+            "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
+            "application/json": {"schema": {"type": "string", "format": "binary"}},
+        },
+    },
+}
+
+
+@router.head("/{key:path}", include_in_schema=False, dependencies=[NO_PARAMETERS])
+@router.get(
+    "/{key:path}",
+    response_class=Response,
+    responses=_SERVED | problems(kinds.UNKNOWN_JOB, kinds.NOT_FOUND, kinds.RANGE_NOT_SATISFIABLE),
+    dependencies=[NO_PARAMETERS],
+)
+def show_stored(
+    request: Request,
+    job: JobOfThePath,
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    key: Annotated[str, Path(description="Key of the Zarr store, such as `zarr.json`.")],
+) -> Response:
+    """Return one key of the job's Zarr v3 store, or a range of its bytes.
+
+    Open the address up to `/zarr` with any Zarr client: `xarray.open_zarr(".../zarr")`.  While
+    the job runs it shows what has been committed; once it is finished everything may be cached
+    for ever.
+    """
+    # the router drops a newline after the key
+    exact = request.scope["path"].endswith(f"/zarr/{key}")
+    content = content_of(job, key, catalogue, settings) if exact and is_key(key) else None
+    if content is None:
+        raise _nothing_at(job, key)
+    try:
+        return _answer(request, job, key, content)
+    finally:
+        content.close()
+
+
+def _answer(request: Request, job: Job, key: str, content: Content) -> Response:
+    headers = {
+        "Accept-Ranges": "bytes",
+        "Cache-Control": _FOREVER if job.state.terminal else "no-cache",
+    }
+    media_type = "application/octet-stream"
+    asked = request.headers.get("range")
+    if key.endswith(_DOCUMENT):
+        media_type = "application/json"
+        headers["Vary"] = "Accept-Encoding"
+        if asked is None and _takes_gzip(request.headers.get("accept-encoding", "")):
+            packed = gzip.compress(content.read(0, content.size), 6, mtime=0)
+            content = Content(len(packed), f'{content.tag[:-1]}-gzip"', packed)
+            headers["Content-Encoding"] = "gzip"
+    headers["ETag"] = content.tag
+    if ranges.names(request.headers.get("if-none-match"), content.tag):
+        return Response(status_code=304, headers=headers)
+    condition = request.headers.get("if-range")
+    try:
+        part = ranges.window(asked if condition in (None, content.tag) else None, content.size)
+    except ranges.Unsatisfiable:
+        raise RequestRefused(
+            kinds.RANGE_NOT_SATISFIABLE,
+            f"{clipped(key)} has {content.size} bytes, and none of them is in the range "
+            f"{clipped(asked or '')!r}.",
+            headers={"Content-Range": f"bytes */{content.size}", "Accept-Ranges": "bytes"},
+        ) from None
+    start, stop = part or (0, content.size)
+    if part is not None:
+        headers["Content-Range"] = f"bytes {start}-{stop - 1}/{content.size}"
+    headers["Content-Length"] = str(stop - start)
+    body = b"" if request.method == "HEAD" else content.read(start, stop)
+    return Response(body, 206 if part else 200, headers, media_type)
+
+
+def _takes_gzip(accepted: str) -> bool:
+    for one in accepted.lower().split(","):
+        coding, _, quality = one.replace(" ", "").partition(";q=")
+        if coding in ("gzip", "*"):
+            return quality.strip("0.") != "" or quality == ""
+    return False
+
+
+def _nothing_at(job: Job, key: str) -> RequestRefused:
+    sentence = f"The store of job {job.id} has no {clipped(key)!r}"
+    if not job.state.terminal:
+        sentence += f"; the job is {job.state}, and what it commits appears here"
+    errors = [ErrorDetail(parameter="key", detail=f"{sentence}.")]
+    return RequestRefused(kinds.NOT_FOUND, f"{sentence}.", errors)

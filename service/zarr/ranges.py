@@ -1,0 +1,54 @@
+"""Byte ranges and entity tags of requests (RFC 9110, sections 13 and 14)."""
+
+import re
+from typing import Final
+
+_SINGLE: Final = re.compile(r"bytes=(?:(\d{1,19})-(\d{0,19})|-(\d{1,19}))", re.ASCII)
+
+
+class Unsatisfiable(Exception):
+    """The range has no byte of the content."""
+
+
+def window(header: str | None, size: int) -> tuple[int, int] | None:
+    """Return first byte and the one after the last that a Range header means.
+
+    Parameters
+    ----------
+    header
+        The header's value. Several ranges, other units and nonsense mean the whole, as the
+        standard allows.
+    size
+        Bytes of the whole.
+
+    Returns
+    -------
+    tuple
+        None for the whole.
+
+    Raises
+    ------
+    Unsatisfiable
+        The range begins behind the last byte, or is a suffix of no byte.
+    """
+    matched = _SINGLE.fullmatch(header.replace(" ", "")) if header else None
+    if matched is None:
+        return None
+    if matched[3]:
+        start, stop = max(size - int(matched[3]), 0), size
+    else:
+        start = int(matched[1])
+        stop = min(int(matched[2]) + 1, size) if matched[2] else size
+        if matched[2] and int(matched[2]) < start:
+            return None
+    if start >= stop:
+        raise Unsatisfiable
+    return start, stop
+
+
+def names(header: str | None, tag: str) -> bool:
+    """Tell whether an If-None-Match header names an entity tag, compared weakly."""
+    if header is None:
+        return False
+    listed = [one.strip().removeprefix("W/") for one in header.split(",")]
+    return "*" in listed or tag in listed
