@@ -1,6 +1,7 @@
 """``/v1/jobs/{id}/zarr/…``: a job's store as it is stored, for stock Zarr clients."""
 
 import gzip
+import json
 from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
@@ -39,6 +40,23 @@ _SERVED: dict[int | str, dict[str, Any]] = {
         },
     },
 }
+
+
+@router.get(
+    "", dependencies=[NO_PARAMETERS], responses=problems(kinds.UNKNOWN_JOB, kinds.NOT_FOUND)
+)
+def show_root(
+    job: JobOfThePath, catalogue: CatalogueDependency, settings: SettingsDependency
+) -> dict[str, Any]:
+    """Return the metadata of the whole store, which Zarr clients read from `/zarr/zarr.json`."""
+    content = content_of(job, _DOCUMENT, catalogue, settings)
+    if content is None:
+        raise _nothing_at(job, _DOCUMENT)
+    try:
+        root: dict[str, Any] = json.loads(content.read(0, content.size))
+    finally:
+        content.close()
+    return root
 
 
 @router.head("/{key:path}", include_in_schema=False, dependencies=[NO_PARAMETERS])
