@@ -71,6 +71,12 @@ class Settings(BaseSettings):
         le=100,
         description="A block that lost its worker this often has failed.",
     )
+    keep: float | None = Field(
+        default=None,
+        gt=0,
+        le=1e10,
+        description="Jobs expire this long after their submission; none: they are kept.",
+    )
     stall: float = Field(
         default=600.0,
         gt=0,
@@ -101,14 +107,18 @@ class Settings(BaseSettings):
             )
         return self
 
-    def result_folder(self, job: str, attempt: int) -> Path:
-        """Folder of one attempt's results store.
+    def job_folder(self, job: str) -> Path:
+        """Folder of everything that was computed for a job.
 
         Grouped by the last two characters of the job's id: the first ones are its date, and
         would put every job of a year into one folder.
         """
-        return self.data / "results" / job[-2:] / job / f"a{attempt}"
+        return self.data / "results" / job[-2:] / job
+
+    def result_folder(self, job: str, attempt: int) -> Path:
+        """Folder of one attempt's results store."""
+        return self.job_folder(job) / f"a{attempt}"
 
     def study_folder(self, job: str) -> Path:
         """Folder of a study's store, which all blocks and attempts of the job fill together."""
-        return self.data / "results" / job[-2:] / job / "study"
+        return self.job_folder(job) / "study"

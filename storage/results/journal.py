@@ -3,6 +3,10 @@
 One file per generation below `.journal`; a generation begins with all rows that wait at its
 first checkpoint and grows by what is appended between checkpoints; a written shard starts the
 next one. So no generation holds more than the buffers of the tables.
+
+A generation begins with a line of JSON: how many rows of each table are in shards, and how many
+bytes a row takes. Then follows, for each checkpoint and table, a frame: the number of new rows
+and their columns. `storage.results.waiting` reads it for those who follow a growing store.
 """
 
 import hashlib
@@ -22,8 +26,8 @@ from storage.results.growing_table import GrowingTable
 
 FOLDER: Final = ".journal"
 _KEPT_GENERATIONS: Final = 3
-_ROWS: Final = struct.Struct("<Q")
-_FORMAT: Final = 1
+ROWS: Final = struct.Struct("<Q")
+_FORMAT: Final = 2
 
 
 class Journal:
@@ -56,6 +60,8 @@ class Journal:
             for table, first in zip(tables, self._journalled, strict=True)
             for part in _frame(table, first)
         )
+        if self._size == 0:
+            frame = _header(tables) + frame
         path = self._path(self._generation)
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
         try:
@@ -143,20 +149,26 @@ class Checkpoint:
             raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
         if hashlib.sha256(content).hexdigest() != self._sha256:
             raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
-        view = memoryview(content)
+        view = memoryview(content)[content.find(b"\n") + 1 :]
         while view:
             for table in tables:
                 view = _replay_frame(view, table)
 
 
+def _header(tables: Sequence[GrowingTable]) -> bytes:
+    row_bytes = [sum(c.dtype.itemsize for c in table.table.columns) for table in tables]
+    known = {"durable": [table.durable for table in tables], "row_bytes": row_bytes}
+    return json.dumps(known).encode() + b"\n"
+
+
 def _frame(table: GrowingTable, first: int) -> list[bytes]:
     columns = [column.tobytes() for column in table.pending(first)]
-    return [_ROWS.pack(table.rows - first), *columns]
+    return [ROWS.pack(table.rows - first), *columns]
 
 
 def _replay_frame(view: memoryview, table: GrowingTable) -> memoryview:
-    (rows,) = _ROWS.unpack_from(view)
-    view = view[_ROWS.size :]
+    (rows,) = ROWS.unpack_from(view)
+    view = view[ROWS.size :]
     columns = []
     for column in table.table.columns:
         size = rows * column.dtype.itemsize

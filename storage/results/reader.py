@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import zarr
@@ -19,6 +19,8 @@ from storage.results.layout import (
     ArraySpec,
     Peak,
 )
+from storage.results.live import columns_of, committed
+from storage.results.waiting import Waiting
 
 Floats = NDArray[np.float64]
 
@@ -31,8 +33,9 @@ class ResultReader:
     path
         Folder of the store.
     watermark
-        Samples that may be read while the store grows; by default those that are on the disk.
-        A sealed store shows all it has.
+        Samples that may be read while the store grows: those of a checkpoint, of which some may
+        wait for their shard, or fewer than are in shards. By default those in shards. A sealed
+        store shows all it has.
 
     Raises
     ------
@@ -58,6 +61,9 @@ class ResultReader:
         """The run came to its end; False while it runs and when it failed or was cancelled."""
         self.joints: tuple[str, ...] = tuple(self.attributes["joints"])
         """Names that the `joint` of an impact points to."""
+        self._waiting: dict[str, Waiting] = {}
+        if watermark is not None and not self.sealed:
+            self._waiting = committed(self.path, watermark, self.attributes)
         self.samples = self._rows("", watermark)
         """Samples that can be read."""
 
@@ -116,9 +122,12 @@ class ResultReader:
 
     def impacts(self, start: int = 0, stop: int | None = None) -> NDArray[Any]:
         """Read impacts, in order of release, as (j,) structured array of dtype `IMPACT`."""
-        group = {name: self._array(f"impacts/{name}") for name in IMPACT.names or ()}
-        window = slice(start, stop)
-        columns = {name: np.asarray(array[window]) for name, array in group.items()}
+        total = self._rows("impacts", None)
+        first, last, _ = slice(start, stop).indices(total)
+        columns = {
+            name: self._column("impacts", name, first, max(first, last))
+            for name in IMPACT.names or ()
+        }
         rows = np.empty(len(columns["joint"]), IMPACT)
         for name, column in columns.items():
             rows[name] = column
@@ -147,14 +156,17 @@ class ResultReader:
         manifest.verify(self.path)
 
     def _rows(self, group: str, watermark: int | None) -> int:
-        """Rows of a table that are there: all once sealed, else those in shards."""
-        time = self._array(f"{group}/{TIME}" if group else TIME)
+        """Rows of a table that are there: all once sealed, else those committed or in shards."""
+        last = list(columns_of(self.attributes)[group])[-1]
+        time = self._array(f"{group}/{last}" if group else last)
         rows = int(time.shape[0])
         if self.sealed:
             return rows
+        if group in self._waiting and self._waiting[group].columns:
+            return self._waiting[group].rows
         if watermark is None:
             shard_rows = (time.shards or time.chunks)[0]
-            folder = self.path / group / TIME / "c"
+            folder = self.path / group / last / "c"
             shards = 0
             while (folder / str(shards)).exists():
                 shards += 1
@@ -172,25 +184,36 @@ class ResultReader:
         low, high = 0, -(-self.samples // rows)  # chunks
         while low < high:
             middle = (low + high) // 2
-            last = float(cast(Any, array[min((middle + 1) * rows, self.samples) - 1]))
+            at = min((middle + 1) * rows, self.samples) - 1
+            last = float(self._column("", TIME, at, at + 1)[0])
             if last < time or (after and last == time):
                 low = middle + 1
             else:
                 high = middle
         first = min(low * rows, self.samples)
-        chunk = np.asarray(array[first : min(first + rows, self.samples)])
+        chunk = self._column("", TIME, first, min(first + rows, self.samples))
         return first + int(np.searchsorted(chunk, time, side="right" if after else "left"))
 
     def _read(
         self, group: str, channels: Sequence[str] | None, start: int, stop: int
     ) -> tuple[Floats, dict[str, Floats]]:
-        prefix = f"{group}/" if group else ""
         names = self._names(channels)
-        window = slice(start, max(start, stop))
-        time = np.asarray(self._array(prefix + TIME)[window], dtype=np.float64)
-        return time, {
-            name: np.asarray(self._array(prefix + name)[window], dtype=np.float64) for name in names
-        }
+        stop = max(start, stop)
+        time = self._column(group, TIME, start, stop)
+        return time, {name: self._column(group, name, start, stop) for name in names}
+
+    def _column(self, group: str, name: str, start: int, stop: int) -> NDArray[Any]:
+        """Read rows of one array: from shards, then from those that wait for theirs."""
+        array = self._array(f"{group}/{name}" if group else name)
+        waiting = self._waiting.get(group)
+        if waiting is None or not waiting.columns or stop <= waiting.durable:
+            return np.asarray(array[start:stop])
+        durable = waiting.durable
+        tail = waiting.columns[columns_of(self.attributes)[group].index(name)]
+        tail = tail[max(start - durable, 0) : stop - durable]
+        if start >= durable:
+            return tail
+        return np.concatenate([np.asarray(array[start:durable]), tail])
 
     def _names(self, channels: Sequence[str] | None) -> tuple[str, ...]:
         known = tuple(self.attributes["channels"])

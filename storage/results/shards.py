@@ -5,6 +5,7 @@ Written here rather than through zarr because a store has about 200 arrays, each
 """
 
 import struct
+from collections.abc import Sequence
 from typing import Any, Final
 
 import google_crc32c
@@ -12,10 +13,13 @@ import numpy as np
 from numcodecs import blosc
 from numpy.typing import NDArray
 
+from storage.results.errors import CorruptStore
+
 COMPRESSOR: Final = "zstd"
 COMPRESSION_LEVEL: Final = 3
 _ABSENT: Final = 2**64 - 1
 _codec: Final = blosc.Blosc(cname=COMPRESSOR, clevel=COMPRESSION_LEVEL, shuffle=blosc.SHUFFLE)
+_uncompressed: Final = blosc.Blosc(cname=COMPRESSOR, clevel=0, shuffle=blosc.NOSHUFFLE)
 
 # a forked worker has none of the threads that its parent's compressor started, and with threads
 # of its own the bytes of a long chunk would depend on their number
@@ -43,19 +47,92 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
     """
     if chunk_rows == shard_rows:
         return _chunk(rows, chunk_rows, fill)
-    chunks: list[bytes] = []
+    return pack(
+        [
+            _chunk(rows[first : first + chunk_rows], chunk_rows, fill) if first < len(rows) else b""
+            for first in range(0, shard_rows, chunk_rows)
+        ]
+    )
+
+
+def pack(chunks: Sequence[bytes], offset: int = 0) -> bytes:
+    """Put compressed chunks, empty where there is none, into one file with its index.
+
+    `offset` is how many bytes will stand before them.
+    """
     index: list[int] = []
-    offset = 0
-    for first in range(0, shard_rows, chunk_rows):
-        if first >= len(rows):
-            index += (_ABSENT, _ABSENT)
-            continue
-        chunk = _chunk(rows[first : first + chunk_rows], chunk_rows, fill)
-        chunks.append(chunk)
-        index += (offset, len(chunk))
+    for chunk in chunks:
+        index += (offset, len(chunk)) if chunk else (_ABSENT, _ABSENT)
         offset += len(chunk)
     packed = struct.pack(f"<{len(index)}Q", *index)
     return b"".join((*chunks, packed, struct.pack("<I", google_crc32c.value(packed))))
+
+
+def index_bytes(chunks: int) -> int:
+    """Bytes of the index of a shard."""
+    return 16 * chunks + 4
+
+
+def unpack_index(packed: bytes) -> list[tuple[int, int]]:
+    """Read offset and length of each chunk; length 0 where there is none.
+
+    Raises
+    ------
+    CorruptStore
+        The checksum differs.
+    """
+    body = packed[:-4]
+    if struct.unpack("<I", packed[-4:])[0] != google_crc32c.value(body):
+        raise CorruptStore("the index of a shard does not have its checksum")
+    numbers = struct.unpack(f"<{len(body) // 8}Q", body)
+    return [
+        (0, 0) if offset == _ABSENT else (offset, length)
+        for offset, length in zip(numbers[::2], numbers[1::2], strict=True)
+    ]
+
+
+def chunks_of(content: bytes, chunks: int, dtype: np.dtype[Any]) -> list[NDArray[Any]]:
+    """Decode all chunks of a shard; those that are not there are empty."""
+    index = unpack_index(content[-index_bytes(chunks) :])
+    return [decompress(content[o : o + length], dtype) for o, length in index]
+
+
+def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int, fill: float) -> bytes:
+    """Encode a shard that is still growing.
+
+    Chunks are not compressed and stand at offsets that do not depend on how full the shard is,
+    beyond any byte of the finished shard. So whoever has read the index of one version reads
+    right from every later one, and asks the finished shard for bytes that it does not have.
+
+    Parameters
+    ----------
+    chunks
+        Rows of each chunk of the shard: the last ones may be short or empty.
+    chunk_rows, fill
+        As for `encode`.
+    """
+    encoded = [_padded(rows, chunk_rows, fill) for rows in chunks]
+    slot = max(len(one) for one in encoded)
+    begin = len(chunks) * slot + index_bytes(len(chunks))
+    index: list[int] = []
+    for position, rows in enumerate(chunks):
+        index += (begin + position * slot, slot) if len(rows) else (_ABSENT, _ABSENT)
+    packed = struct.pack(f"<{len(index)}Q", *index)
+    crc = struct.pack("<I", google_crc32c.value(packed))
+    return b"".join((bytes(begin), *encoded, packed, crc))
+
+
+def decompress(content: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Decode one chunk; empty for no bytes."""
+    if not content:
+        return np.empty(0, dtype)
+    return np.frombuffer(_codec.decode(content), dtype)
+
+
+def _padded(rows: NDArray[Any], chunk_rows: int, fill: float) -> bytes:
+    whole = np.full(chunk_rows, fill, rows.dtype)
+    whole[: len(rows)] = rows
+    return bytes(_uncompressed.encode(whole))
 
 
 def compress(chunk: NDArray[Any]) -> bytes:

@@ -26,6 +26,9 @@ _ENDED = (PointStatus.done, PointStatus.failed)
 class StudyBlock:
     """Takes what a block's computation hands out; memory is bounded by the points in work.
 
+    After an `OSError` (the disk is full, for example) it is of no use any more; what `flush`
+    wrote last can be resumed.
+
     Parameters
     ----------
     folder

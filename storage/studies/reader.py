@@ -1,6 +1,7 @@
 """Read a study's store, also while it is being filled: stock zarr, with the parts laid over it."""
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -269,7 +270,10 @@ class StudyReader:
             found = json.loads((self.path / FAILURES).read_bytes())
         except FileNotFoundError:
             return {}
-        return {int(point): Failure(*failure) for point, failure in found.items()}
+        return {
+            int(point): Failure(code, detail, math.nan if time is None else time)
+            for point, (code, detail, time) in found.items()
+        }
 
     def _members(self, group: str) -> list[tuple[str, zarr.Array[Any]]]:
         found = self._root.get(group)

@@ -1,6 +1,7 @@
 """A study's store as a whole: made by whichever block comes first, sealed when all are done."""
 
 import json
+import math
 import secrets
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -108,7 +109,7 @@ def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> No
         writing.write(key, content)
         advanced()
     if failures:
-        writing.write(FAILURES, metadata.serialise({str(p): f for p, f in failures.items()}))
+        writing.write(FAILURES, metadata.serialise(_told(failures)))
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
     for key, document in documents.sealed(layout, names, attributes).items():
         writing.write(key, metadata.serialise(document))
@@ -159,6 +160,14 @@ def _columns(
             peaks = window(first, size).peaks
             for position, name in enumerate(documents.PEAKS):
                 yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
+
+
+def _told(failures: dict[int, Failure]) -> dict[str, tuple[str, str, float | None]]:
+    """Failures as JSON has them: no number is infinite or not a number."""
+    return {
+        str(point): (code, detail, time if math.isfinite(time) else None)
+        for point, (code, detail, time) in failures.items()
+    }
 
 
 def _boundary_chunks(

@@ -1,10 +1,13 @@
 """A study that runs shows what is known, and its bytes depend on the results alone."""
 
+import errno
 import json
+import os
 import random
 import threading
 import tracemalloc
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import pytest
@@ -48,7 +51,6 @@ def undisturbed(tmp_path, study):
 def test_a_running_study_shows_every_flush(tmp_path, study, step):
     create(tmp_path, study.layout)
     block = StudyBlock(tmp_path, study.layout, 0)
-    _, count = study.layout.blocks[0]
     known = np.zeros(study.layout.points, int)
     status = np.zeros(study.layout.points, int)
     for piece in study.slices(0, step):
@@ -76,7 +78,7 @@ def test_a_running_study_shows_every_flush(tmp_path, study, step):
         np.testing.assert_array_equal(
             reader.peaks("A.force1").maximum, np.where(ended, study.peaks[:, 1, 2], np.nan)
         )
-    assert block.watermark == count
+    assert block.watermark == study.layout.blocks[0][1]
     assert not StudyReader(tmp_path).complete
 
 
@@ -311,6 +313,58 @@ def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
     assert not StudyBlock.done(tmp_path, study.layout, 1)
     with pytest.raises(CorruptStore, match="is missing"):
         seal(tmp_path, study.layout)
+
+
+@pytest.mark.parametrize("written", [0, 1, 3, 5, 8])
+def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, written):
+    study = MadeUpStudy(made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))))
+    undisturbed = files(study.write(tmp_path / "undisturbed"))
+    folder = tmp_path / "store"
+    create(folder, study.layout)
+    pieces = list(study.slices(0, 1500))
+    block = StudyBlock(folder, study.layout, 0)
+    for piece in pieces[:2]:
+        block.take(piece)
+    name = block.flush(b"")
+    write, calls = os.write, count()
+
+    def write_until_full(descriptor, content):
+        if next(calls) >= written:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(descriptor, content)
+
+    def go_on():
+        for piece in pieces[2:]:
+            block.take(piece)
+            block.flush(b"")
+
+    with monkeypatch.context() as full:
+        full.setattr(os, "write", write_until_full)
+        with pytest.raises(OSError, match="No space left"):
+            go_on()
+    assert (StudyReader(folder).counts[:8] > 0).any()
+    other, _ = StudyBlock.resume(folder, study.layout, 0, 2, name)
+    for piece in pieces[2:]:
+        other.take(piece)
+    other.finish()
+    study.write_block(folder, 1)
+    seal(folder, study.layout)
+    assert files(folder) == undisturbed
+
+
+def test_a_failure_without_a_time_is_kept(tmp_path):
+    study = MadeUpStudy(made_up_layout(points=8))
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    ends = tuple(replace(study.end(point), time=float("nan")) for point in range(8))
+    block.take(StudySlice(1.0, tuple(range(8)), (), ends))
+    block.finish()
+    running = StudyReader(tmp_path).failures[3]
+    seal(tmp_path, study.layout)
+    sealed = StudyReader(tmp_path).failures[3]
+    assert running[:2] == sealed[:2]
+    assert np.isnan(running.time)
+    assert np.isnan(sealed.time)
 
 
 def test_a_store_cut_off_while_it_was_made_is_made_again(tmp_path):

@@ -1,0 +1,154 @@
+"""A growing store as stock Zarr clients may see it: every committed row and no other.
+
+The documents on the disk announce all rows to come; here their shapes end where the run is
+committed. The last shard, which is not full yet, is made of the rows that wait for it.
+"""
+
+import copy
+import json
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from storage.results import shards
+from storage.results.errors import NotAStore
+from storage.results.layout import IMPACT, TIME
+from storage.results.metadata import FILE, Document, serialise
+from storage.results.waiting import Waiting, waiting_rows
+
+_DOUBLE: Final = np.dtype("<f8")
+
+
+class LiveStore:
+    """The committed rows of one attempt's store.
+
+    Parameters
+    ----------
+    folder
+        Of the store.
+    samples
+        That are committed: those of its last recorded checkpoint.
+
+    Raises
+    ------
+    NotAStore
+        There is none.
+    """
+
+    def __init__(self, folder: Path, samples: int) -> None:
+        self.folder = folder
+        try:
+            root: Document = json.loads((folder / FILE).read_bytes())
+            self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
+            self._attributes: dict[str, Any] = root["attributes"]
+        except (FileNotFoundError, ValueError, KeyError) as error:
+            raise NotAStore(f"{folder} holds no results store") from error
+        self._columns = columns_of(self._attributes)
+        self._waiting = committed(folder, samples, self._attributes)
+
+    def document(self, key: str) -> bytes | None:
+        """Give a zarr.json, or None where there is no group or array."""
+        path = key.removesuffix(FILE).rstrip("/")
+        if path and path not in self._members:
+            return None
+        shown = {name: self._shown(name) for name in self._members}
+        node = {**shown[path]} if path else None
+        if node is not None and node["node_type"] == "array":
+            return serialise(node)
+        below = {name.removeprefix(f"{path}/"): one for name, one in shown.items()}
+        if path:
+            below = {k: one for k, one in below.items() if f"{path}/{k}" in shown}
+        attributes = self._attributes if node is None else node["attributes"]
+        document: Document = {
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": attributes,
+            "consolidated_metadata": {
+                "kind": "inline",
+                "must_understand": False,
+                "metadata": below,
+            },
+        }
+        return serialise(document)
+
+    def chunk(self, key: str) -> bytes | None:
+        """Make the file of a chunk that is not on the disk yet, or None if it has no row.
+
+        Its chunks are where `shards.loose` says, in every version of it, so that a client that
+        has read the index of an earlier one reads right.
+        """
+        path, _, place = key.rpartition("/c/")
+        group, _, name = path.rpartition("/")
+        names = self._columns.get(group, ())
+        if path not in self._members or name not in names or not place.isdecimal():
+            return None
+        waiting = self._waiting[group]
+        array = self._members[path]
+        shard_rows, chunk_rows = shape_of(array)
+        if int(place) != waiting.durable // shard_rows or waiting.rows == waiting.durable:
+            return None
+        rows = waiting.columns[names.index(name)]
+        fill = shards.fill(rows.dtype)
+        if shard_rows == chunk_rows:
+            return shards.encode(rows, chunk_rows, shard_rows, fill)
+        chunks = [rows[i : i + chunk_rows] for i in range(0, shard_rows, chunk_rows)]
+        return shards.loose(chunks, chunk_rows, fill)
+
+    def loosened(self, key: str, content: bytes) -> bytes | None:
+        """Give a finished shard as `chunk` gave it before, for a client that is still at it."""
+        return loosened(self._members.get(key.rpartition("/c/")[0]), content)
+
+    def _shown(self, name: str) -> Document:
+        document = self._members[name]
+        group, _, column = name.rpartition("/")
+        if document["node_type"] == "array" and column in self._columns.get(group, ()):
+            document = copy.copy(document)
+            document["shape"] = [min(self._waiting[group].rows, _most(document, group))]
+        return document
+
+
+def loosened(array: Document | None, content: bytes) -> bytes | None:
+    """Give a shard of an array in the form of `shards.loose`; None if it is no such shard."""
+    if array is None or array["node_type"] != "array" or len(array["shape"]) != 1:
+        return None
+    shard_rows, chunk_rows = shape_of(array)
+    if shard_rows == chunk_rows:
+        return None
+    dtype = np.dtype(array["data_type"])
+    chunks = shards.chunks_of(content, shard_rows // chunk_rows, dtype)
+    return shards.loose(chunks, chunk_rows, shards.fill(dtype))
+
+
+def shape_of(array: Document) -> tuple[int, int]:
+    """Give rows of a shard and of a chunk of an array's document."""
+    (shard_rows,) = array["chunk_grid"]["configuration"]["chunk_shape"]
+    first = array["codecs"][0]
+    if first["name"] != "sharding_indexed":
+        return int(shard_rows), int(shard_rows)
+    (chunk_rows,) = first["configuration"]["chunk_shape"]
+    return int(shard_rows), int(chunk_rows)
+
+
+def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    """Name the columns of each table that grows, by group, in the order of the journal."""
+    sampled = (*attributes["channels"], TIME)
+    return {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
+
+
+def committed(folder: Path, samples: int, attributes: dict[str, Any]) -> dict[str, Waiting]:
+    """Find how far each table was when that many samples were committed, by group.
+
+    Without the journal of that moment only whole shards count.
+    """
+    columns = columns_of(attributes)
+    sampled = [_DOUBLE] * len(columns[""])
+    dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
+    found = waiting_rows(folder, samples, dtypes)
+    if found is None:
+        return {group: Waiting(samples if not group else 0, ()) for group in columns}
+    return dict(zip(columns, found, strict=True))
+
+
+def _most(document: Document, group: str) -> int:
+    return int(document["shape"][0]) if group == "" else 2**62
