@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from solver.mechanics.absolute import AbsoluteMechanism, Row
 from solver.mechanics.tree import spanning_tree
 from solver.mechanics.view import view
 from solver.scene.document import Fixed, Prismatic, Revolute, Scene
-from solver.scene.references import ends
+from solver.scene.references import ends, has_play
 
 Floats = NDArray[np.float64]
 
@@ -24,6 +25,15 @@ LARGEST_TURN = 0.5
 """Of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+GEOMETRY: Final[Any] = {
+    "ground": True,
+    "bodies": {"__all__": {"points"}},
+    "joints": True,
+    "drivers": True,
+    "start": True,
+}
+MOST_KEPT = 512
+"""Assemblies that are kept; studies of one geometry need one."""
 
 
 @dataclass(frozen=True)
@@ -112,11 +122,31 @@ def first_angles(scene: Scene) -> dict[str, float]:
     return angles
 
 
+_found: dict[str, Assembly] = {}
+
+
 def assemble(scene: Scene) -> Assembly:
     """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
 
-    Never raises for a mechanism that cannot close: the residual tells.
+    Never raises for a mechanism that cannot close: the residual tells. Scenes of one geometry, as
+    the points of most studies, share what was found for the first.
     """
+    geometry = _geometry(scene)
+    if geometry not in _found:
+        while len(_found) >= MOST_KEPT:
+            _found.pop(next(iter(_found)), None)
+        _found[geometry] = _assembled(scene)
+    return _found[geometry]
+
+
+def _geometry(scene: Scene) -> str:
+    """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
+    found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})
+    play = "".join(str(int(has_play(joint))) for joint in scene.joints.values())
+    return f"{found} {play} {shortest_link(scene)!r}"
+
+
+def _assembled(scene: Scene) -> Assembly:
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     length = shortest_link(scene)
     driven = driver_positions(scene)
@@ -148,6 +178,7 @@ def assemble(scene: Scene) -> Assembly:
     velocity = _start_velocity(ideal, loose, pose, scale)
     _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
     rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
+    pose.flags.writeable = velocity.flags.writeable = False
     return Assembly(
         pose=pose,
         velocity=velocity,

@@ -89,6 +89,13 @@ class Kernel:
         )
         return tuple(CompiledAddress(function) for function in functions)
 
+    @cached_property
+    def observing(self) -> tuple[CompiledAddress, ...]:
+        """Those that `solver.lanes.observation.observe_rows` takes."""
+        m = self.module
+        functions = (m.right_hand_side, m.observe, m.observe_rest)
+        return tuple(CompiledAddress(function) for function in functions)
+
     def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
 

@@ -161,12 +161,9 @@ class Bundle:
 
     def observe(self, lane: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
         """Return channels (rows, columns) of a lane at rows of dense state."""
-        module = self.kernel.module
         out = np.empty((len(rows), len(columns)))
         observe_rows(
-            module.right_hand_side,
-            module.observe,
-            module.observe_rest,
+            *self.kernel.observing,
             self.kernel.slots,
             self.work,
             self.spare,

@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.compile_loop import ready_kernel
+from solver.compiler.kernel import Kernel
 from solver.compiler.layout import LANES
-from solver.compiler.tangents import compile_tangents
+from solver.compiler.tangents import Tangents, compile_tangents
 from solver.errors import SimulationFailed
 from solver.lanes.account import failure_of, peaks_of, statistics_of
 from solver.lanes.bundle import Bundle
@@ -117,10 +118,8 @@ class StudyRun:
     def _switch(self, structure: int) -> None:
         """Prepare lanes for points of another structure."""
         study = self.study
-        point = int(np.flatnonzero(study.structure == structure)[0])
-        kernel = ready_kernel(study.point_scene(point), study.job["formulation"])
+        kernel, tangents = kernel_of(study, structure)
         self.structure = structure
-        tangents = compile_tangents(kernel) if "lyapunov" in study.indicators else None
         self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
         self.columns = np.array(
             [kernel.rows.index(channel.name) for channel in study.observables], dtype=np.int64
@@ -285,6 +284,24 @@ class StudyRun:
             assert self.bundle is not None  # noqa: S101  (switching made it)
             self.bundle.restore(arrays["bundle"].tobytes())
         self.lanes = [found and _run(found, arrays) for found in facts["lanes"]]
+
+
+_kernels: dict[tuple[str, int], tuple[Kernel, Tangents | None]] = {}
+MOST_KEPT = 8
+"""Kernels that a process keeps for the next block: recording the equations takes 0.1 s."""
+
+
+def kernel_of(study: Study, structure: int) -> tuple[Kernel, Tangents | None]:
+    """Return the kernel of points of one structure, and its tangents where they are wanted."""
+    key = (study.digest, structure)
+    if key not in _kernels:
+        while len(_kernels) >= MOST_KEPT:
+            _kernels.pop(next(iter(_kernels)))
+        point = int(np.flatnonzero(study.structure == structure)[0])
+        kernel = ready_kernel(study.point_scene(point), study.job["formulation"])
+        wanted = "lyapunov" in study.indicators
+        _kernels[key] = kernel, compile_tangents(kernel) if wanted else None
+    return _kernels[key]
 
 
 def _facts(run: PointRun) -> dict[str, Any]:
