@@ -7,6 +7,7 @@ from importlib.metadata import version
 from fastapi import FastAPI
 
 import service.batches.endpoints
+import service.events.endpoints
 import service.health.endpoints
 import service.jobs.endpoints
 import service.problems.endpoints
@@ -16,6 +17,8 @@ import service.scenes.endpoints
 import service.studies.endpoints
 import service.zarr.endpoints
 from service import problems
+from service.events.watcher import Watcher
+from service.idempotency import InFlight
 from service.openapi import described
 from storage.catalogue import Catalogue
 from storage.settings import Settings
@@ -28,6 +31,7 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 """
 _RESOURCES = (
     service.jobs.endpoints,
+    service.events.endpoints,
     service.batches.endpoints,
     service.studies.endpoints,
     service.results.endpoints,
@@ -56,6 +60,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
         app.state.catalogue = catalogue
+        app.state.watcher = Watcher(catalogue)
+        app.state.in_flight = InFlight()
         try:
             yield
         finally:

@@ -1,5 +1,6 @@
 """What endpoints need from the application: the catalogue, the settings, a job of the path."""
 
+from datetime import UTC, datetime
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
@@ -38,15 +39,24 @@ SettingsDependency = Annotated[Settings, Depends(_settings)]
 
 
 def found(catalogue: Catalogue, job_id: str) -> Job:
-    """Return the job, or refuse with 404; the id is matched before anything looks it up."""
+    """Return the job, or refuse with 404 or 410; the id is matched before it is looked up."""
     if is_job_id(job_id):
         try:
-            return catalogue.get(job_id)
+            job = catalogue.get(job_id)
         except JobNotFound:
             pass
+        else:
+            if catalogue.expired(job):
+                raise RequestRefused(kinds.EXPIRED_JOB, _gone(job))
+            return job
     sentence = f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs."
     errors = [ErrorDetail(parameter="job_id", detail=sentence)]
     raise RequestRefused(kinds.UNKNOWN_JOB, sentence, errors)
+
+
+def _gone(job: Job) -> str:
+    moment = datetime.fromtimestamp(job.expires or 0.0, UTC)
+    return f"Job {job.id} expired or was deleted at {moment:%Y-%m-%dT%H:%M:%SZ}."
 
 
 JobId = Annotated[str, Path(description="Id of the job, as POST /v1/jobs returned it.")]

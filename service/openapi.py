@@ -8,9 +8,10 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
 from service.batches.schemas import BatchDocument
+from service.jobs.request import FIELDS
 from service.problems.document import ProblemDocument, problems
 from service.problems.kinds import INVALID_REQUEST
-from solver.jobs import AnyJob
+from solver.jobs import KINDS, AnyJob
 
 _REFERENCE = "#/components/schemas/{model}"
 _UNMENTIONED: dict[str, Any] = {
@@ -46,6 +47,8 @@ def _add_schemas(schemas: dict[str, Any]) -> None:
         for part, definition in schema.pop("$defs", {}).items():
             schemas.setdefault(part, definition)
         schemas[name] = schema
+    for kind in KINDS.values():
+        schemas[kind.__name__]["properties"] |= FIELDS
     # its model takes them as they are: admission checks one after the other
     schemas["BatchDocument"]["properties"]["jobs"]["items"] = {
         "$ref": _REFERENCE.format(model="JobDocument")

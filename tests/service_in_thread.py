@@ -117,6 +117,7 @@ class Worker:
         job: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}}
         if fields.get("kind", "simulate") == "simulate":
             job["duration"] = 2.0
+        job["cache"] = False  # each test's job is its own
         answer = self._http.post("/v1/jobs", json=job | fields)
         assert answer.status_code == 202, answer.text
         return str(answer.json()["id"])

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
@@ -35,7 +35,7 @@ class RestartPoint:
     simulation: bytes
     results: bytes
     folder: Path  # of the store that `results` belongs to
-    watermark: int  # samples readers may see
+    watermark: int  # samples readers may see: all so far, as `results` brought them to the disk
     time: float  # simulated time [s]
     fraction: float  # 0..1
 
@@ -58,7 +58,7 @@ class Outcome:
     time: float  # simulated time reached [s]
     fraction: float  # 0..1
     error: JobError | None = None
-    statistics: Mapping[str, Any] | None = None
+    statistics: Mapping[str, Any] | None = field(default=None, compare=False)
 
 
 def execute(
@@ -132,7 +132,7 @@ def _advance(
             simulation.checkpoint(),
             writer.checkpoint(),
             folder,
-            writer.watermark,
+            writer.samples,
             time,
             fraction,
         )

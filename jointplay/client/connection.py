@@ -1,7 +1,7 @@
 """One HTTP exchange with the service: send, and turn every failure into a typed error."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 from urllib.parse import quote
 
@@ -46,14 +46,35 @@ class Connection:
         given = {name: value for name, value in (query or {}).items() if value is not None}
         return self._exchange("GET", path, params=given)
 
-    def post(self, path: str, document: object | None = None) -> httpx.Response:
+    def post(
+        self,
+        path: str,
+        document: object | None = None,
+        headers: Mapping[str, str] | None = None,
+    ) -> httpx.Response:
         """POST a JSON document, or nothing."""
         if document is None:
             return self._exchange("POST", path)
         body = json.dumps(document).encode()  # NaN passes here: the service says which field
-        return self._exchange(
-            "POST", path, content=body, headers={"Content-Type": "application/json"}
-        )
+        sent = {"Content-Type": "application/json", **(headers or {})}
+        return self._exchange("POST", path, content=body, headers=sent)
+
+    def delete(self, path: str) -> httpx.Response:
+        """DELETE ``path``."""
+        return self._exchange("DELETE", path)
+
+    def lines(self, path: str, silence: float) -> Iterator[str]:
+        """Yield the lines of a stream; `Unreachable` after so many seconds without one."""
+        timeout = httpx.Timeout(self._http.timeout.connect, read=silence)
+        headers = {"Accept": "text/event-stream"}
+        try:
+            with self._http.stream("GET", path, headers=headers, timeout=timeout) as response:
+                if not response.is_success:
+                    response.read()
+                    raise _error_from(response)
+                yield from response.iter_lines()
+        except httpx.TransportError as error:
+            raise Unreachable(_unreachable(self.url, error)) from error
 
     def _exchange(self, method: str, path: str, **arguments: Any) -> httpx.Response:
         try:

@@ -1,6 +1,6 @@
 """A job as the service describes it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
@@ -9,10 +9,14 @@ TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a job is: simulated ``time`` in s, and ``fraction`` of the whole from 0 to 1."""
+    """How far a job is: simulated ``time`` in s, and ``fraction`` of the whole from 0 to 1.
+
+    ``steps`` of the solver are known once it has told.
+    """
 
     time: float
     fraction: float
+    steps: int | None = None
 
 
 @dataclass(frozen=True)
@@ -30,7 +34,8 @@ class JobError:
 class Job:
     """One job; ``job`` is its document with every default filled in.
 
-    ``activity`` says what it is busy with before it advances, such as compiling.
+    ``activity`` says what it is busy with before it advances, such as compiling.  ``cached``: the
+    answer to a submission was a job that was there already.
     """
 
     id: str
@@ -44,10 +49,12 @@ class Job:
     created: datetime
     started: datetime | None
     finished: datetime | None
+    expires: datetime | None
     error: JobError | None
     links: dict[str, str]
     job: dict[str, Any]
     solver_version: str | None
+    cached: bool = field(default=False, compare=False)
 
     @property
     def is_finished(self) -> bool:
@@ -70,10 +77,12 @@ class Job:
             created=datetime.fromisoformat(document["created"]),
             started=_moment(document["started"]),
             finished=_moment(document["finished"]),
+            expires=_moment(document["expires"]),
             error=None if error is None else JobError(error["class"], error["detail"]),
             links=document["links"],
             job=document["job"],
             solver_version=document["solver_version"],
+            cached=document.get("cached", False),
         )
 
 

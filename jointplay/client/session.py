@@ -1,7 +1,9 @@
 """`Client`: the resources of the service as methods."""
 
 import math
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
 from functools import partial
 from types import TracebackType
 from typing import Any, Self
@@ -12,6 +14,7 @@ from jointplay.client import studies
 from jointplay.client.batches import Batch
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError
+from jointplay.client.events import follow
 from jointplay.client.jobs import Job
 from jointplay.client.results import History, Impacts, Peak, Section
 from jointplay.client.waiting import wait_for
@@ -59,9 +62,25 @@ class Client:
         """Close the connection."""
         self._connection.close()
 
-    def submit(self, document: Mapping[str, Any]) -> Job:
-        """Queue a job; `Refused` names every field that is wrong."""
-        return _job(self._connection.post("/v1/jobs", dict(document)))
+    def submit(self, document: Mapping[str, Any], *, key: str | None = None) -> Job:
+        """Queue a job; `Refused` names every field that is wrong.
+
+        A job that equals one that is queued, running or succeeded is not computed again: that one
+        is returned, and ``cached``, unless the document says ``"cache": False``.
+
+        Parameters
+        ----------
+        document
+            The job.
+        key
+            Idempotency key: sent again with the same job it finds what the first request made.
+        """
+        headers = {} if key is None else {"Idempotency-Key": key}
+        return _job(self._connection.post("/v1/jobs", dict(document), headers))
+
+    def delete(self, job_id: str) -> None:
+        """Delete a finished job and its results."""
+        self._connection.delete(f"/v1/jobs/{segment(job_id)}")
 
     def get(self, job_id: str) -> Job:
         """Return the job as it is now."""
@@ -71,14 +90,33 @@ class Client:
         """Ask for the job to be cancelled; asking again, or too late, changes nothing."""
         return _job(self._connection.post(f"/v1/jobs/{segment(job_id)}/cancel"))
 
-    def jobs(self) -> Iterator[Job]:
-        """Yield all jobs, newest first, fetching pages as they are needed."""
-        yield from self._job_pages("/v1/jobs")
+    def jobs(
+        self,
+        *,
+        state: str | None = None,
+        kind: str | None = None,
+        label: str | None = None,
+        scene: str | None = None,
+        since: datetime | None = None,
+        before: datetime | None = None,
+    ) -> Iterator[Job]:
+        """Yield jobs, newest first, fetching pages as they are needed.
 
-    def _job_pages(self, path: str) -> Iterator[Job]:
+        Parameters
+        ----------
+        state, kind, label, scene
+            Only jobs with these; a scene by the name of its preset or its own.
+        since, before
+            Only jobs submitted in this time, the end not included.
+        """
+        window = {"since": _text(since), "before": _text(before)}
+        chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
+        yield from self._job_pages("/v1/jobs", chosen | window)
+
+    def _job_pages(self, path: str, chosen: Mapping[str, str | None] = {}) -> Iterator[Job]:
         token: str | None = None
         while True:
-            page = self._connection.get(path, {"page_token": token}).json()
+            page = self._connection.get(path, {**chosen, "page_token": token}).json()
             for document in page["jobs"]:
                 yield Job.from_document(document)
             token = page["next_page_token"]
@@ -124,23 +162,33 @@ class Client:
         report: Callable[[Job], None] | None = None,
         timeout: float | None = None,
     ) -> Job:
-        """Ask until the job is finished, and return it, whether it succeeded or not.
+        """Follow the job until it is finished, and return it, whether it succeeded or not.
 
         Parameters
         ----------
         job_id
             The job.
         report
-            Called with the job after every question, for a progress bar.
+            Called with the job whenever it has changed, for a progress bar.
         timeout
             Longest wait, s; then `ClientError`.  The job goes on.
         """
-        return wait_for(
-            lambda: self.get(job_id),
-            report,
-            timeout,
-            lambda job: f"Job {job_id} is still {job.state}",
-        )
+        deadline = None if timeout is None else time.monotonic() + timeout
+        job = self.get(job_id)
+        if report is not None:
+            report(job)
+        if job.is_finished:
+            return job
+        for seen in follow(self._connection, job, deadline):
+            job = seen
+            if report is not None and not job.is_finished:
+                report(job)
+        if not job.is_finished:
+            raise ClientError(f"Job {job_id} is still {job.state} after {timeout} s.")
+        job = self.get(job_id)
+        if report is not None:
+            report(job)
+        return job
 
     def history(
         self,
@@ -271,6 +319,11 @@ class Client:
         path = f"/v1/jobs/{segment(job_id)}/{name}"
         document: dict[str, Any] = self._connection.get(path, query).json()
         return document
+
+
+def _text(moment: datetime | None) -> str | None:
+    """Return a moment as the service takes it; one without a zone is this machine's."""
+    return None if moment is None else moment.astimezone(UTC).isoformat()
 
 
 def _job(response: httpx.Response) -> Job:

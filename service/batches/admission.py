@@ -8,12 +8,13 @@ from service.batches.schemas import LONGEST_LABEL, MOST_JOBS
 from service.jobs.submission import checked
 from solver.errors import InvalidInput, LimitExceeded, Problem
 from storage.catalogue import NewJob
+from storage.settings import Settings
 
 _FIELDS = ("jobs", "label")
 _MOST_PROBLEMS = 100  # that are looked for: one problem document carries so many
 
 
-def admit_batch(document: object) -> tuple[list[NewJob], str]:
+def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str]:
     """Check a batch and return its jobs, filled in, and its label.
 
     Raises
@@ -29,7 +30,7 @@ def admit_batch(document: object) -> tuple[list[NewJob], str]:
     only_limits = True
     for index, one in enumerate(jobs):
         try:
-            admitted.append(checked(one))
+            admitted.append(checked(one, settings)[0])
         except InvalidInput as error:
             only_limits &= isinstance(error, LimitExceeded)
             problems += [

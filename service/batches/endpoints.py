@@ -8,7 +8,8 @@ from jointplay.job_id import is_job_id
 from service.batches.admission import admit_batch
 from service.batches.schemas import AcceptedBatch, BatchResource, address
 from service.body import JsonBatch
-from service.dependencies import NO_PARAMETERS, CatalogueDependency
+from service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
+from service.idempotency import RepeatableRequest
 from service.jobs.paging import PageQuery
 from service.jobs.schemas import JobPage, JobResource
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
@@ -50,18 +51,26 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
         kinds.NOT_JSON,
         kinds.INVALID_JOB,
         kinds.LIMIT_EXCEEDED,
+        kinds.KEY_REUSED,
+        kinds.KEY_IN_FLIGHT,
+        kinds.INVALID_REQUEST,
     ),
 )
 def submit_batch(
-    document: JsonBatch, catalogue: CatalogueDependency, response: Response
+    document: JsonBatch,
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    repeatable: RepeatableRequest,
+    response: Response,
 ) -> AcceptedBatch:
     """Queue up to 10 000 jobs, or none.
 
     All are checked first; if any cannot be run, nothing is queued and `errors` points at each
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
-    jobs, label = admit_batch(document)
-    submitted = catalogue.submit_batch(jobs, label=label or None)
+    with repeatable.key_for(document) as key:
+        jobs, label = admit_batch(document, settings)
+        submitted = catalogue.submit_batch(jobs, label=label or None, key=key)
     wake_relay()
     response.headers["Location"] = address(submitted.batch.id)
     return AcceptedBatch.of(submitted.batch, job_ids=list(submitted.jobs))

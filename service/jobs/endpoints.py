@@ -1,62 +1,99 @@
-"""``/v1/jobs``: submit, list, look at and cancel jobs."""
+"""``/v1/jobs``: submit, list, look at, cancel and delete jobs."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Response
+from fastapi.concurrency import run_in_threadpool
 
 from service.body import JsonDocument
-from service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
-from service.jobs.paging import PageQuery
-from service.jobs.schemas import JobPage, JobResource, address
+from service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from service.events.waiting import PatienceDependency, WaitQuery
+from service.idempotency import Repeatable, RepeatableRequest
+from service.jobs.listing import JobQuery
+from service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from service.jobs.submission import REQUEST_BODY, submit
 from service.problems import kinds, problems
+from storage.catalogue import Catalogue, Submitted
+from storage.settings import Settings
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+FOUND: dict[int | str, dict[str, Any]] = {
+    200: {
+        "model": SubmittedJob,
+        "description": "An identical job was there, or the job was waited for and is finished.",
+    }
+}
 
 
 @router.post(
     "",
     status_code=202,
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=problems(
+    responses=FOUND
+    | problems(
         kinds.MALFORMED_JSON,
         kinds.BODY_TOO_LARGE,
         kinds.NOT_JSON,
         kinds.INVALID_JOB,
         kinds.LIMIT_EXCEEDED,
+        kinds.KEY_REUSED,
+        kinds.KEY_IN_FLIGHT,
+        kinds.INVALID_REQUEST,
     ),
 )
-def submit_job(
-    document: JsonDocument, catalogue: CatalogueDependency, response: Response
-) -> JobResource:
-    """Queue a job.
+async def submit_job(
+    document: JsonDocument,
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    repeatable: RepeatableRequest,
+    patience: PatienceDependency,
+    response: Response,
+) -> SubmittedJob:
+    """Queue a job, or find the one that computes the same.
 
     The whole document is checked first: what is accepted here will not fail later for a reason
-    that could have been seen now.  The answer shows every default that was filled in.
+    that could have been seen now.  The answer shows every default that was filled in.  A job that
+    equals one that is queued, running or succeeded is not computed again: that one is the answer,
+    with 200 and `cached`, unless the document says `"cache": false`.
     """
-    job = submit(catalogue, document)
+    submitted = await run_in_threadpool(_submit, catalogue, settings, repeatable, document)
+    job = await patience.finished(submitted.job)
+    if submitted.cached or job.state.terminal:
+        response.status_code = 200
     response.headers["Location"] = address(job.id)
-    return JobResource.of(job)
+    return SubmittedJob.of(job, cached=submitted.cached)
+
+
+def _submit(
+    catalogue: Catalogue, settings: Settings, repeatable: Repeatable, document: object
+) -> Submitted:
+    with repeatable.key_for(document) as key:
+        return submit(catalogue, settings, document, key)
 
 
 @router.get("", responses=problems(kinds.INVALID_REQUEST))
-def list_jobs(catalogue: CatalogueDependency, query: Annotated[PageQuery, Query()]) -> JobPage:
-    """List the jobs, newest first; jobs that arrive in the meantime move no page."""
-    page = catalogue.jobs(limit=query.page_size, after=query.checked_token())
+def list_jobs(catalogue: CatalogueDependency, query: Annotated[JobQuery, Query()]) -> JobPage:
+    """List jobs, newest first; jobs that arrive in the meantime move no page."""
+    page = catalogue.jobs(limit=query.page_size, after=query.checked_token(), **query.wanted())
     return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
 
 
 @router.get(
     "/{job_id}",
-    dependencies=[NO_PARAMETERS],
-    responses=problems(kinds.UNKNOWN_JOB, kinds.INVALID_REQUEST),
+    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.INVALID_REQUEST),
 )
-def show_job(job: JobOfThePath) -> JobResource:
-    """Show one job as it is now."""
-    return JobResource.of(job)
+async def show_job(
+    job: JobOfThePath, patience: PatienceDependency, query: Annotated[WaitQuery, Query()]
+) -> JobResource:
+    """Show one job as it is now, or wait until it is finished."""
+    return JobResource.of(await patience.finished(job, query.wait))
 
 
-@router.post("/{job_id}/cancel", status_code=202, responses=problems(kinds.UNKNOWN_JOB))
+@router.post(
+    "/{job_id}/cancel",
+    status_code=202,
+    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB),
+)
 def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Ask for a job to be cancelled.
 
@@ -64,3 +101,12 @@ def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource
     readable.  Asking again, or for a finished job, changes nothing.
     """
     return JobResource.of(catalogue.request_cancel(job.id))
+
+
+@router.delete(
+    "/{job_id}",
+    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.NOT_FINISHED),
+)
+def delete_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
+    """Delete a finished job and its results; from then on its addresses answer 410."""
+    return JobResource.of(catalogue.delete(job.id))

@@ -16,6 +16,7 @@ class Progress(BaseModel):
 
     time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
     fraction: float = Field(ge=0, le=1, description="Part of the whole job, 0 to 1.")
+    steps: int | None = Field(description="Accepted steps of the solver, as far as they are known.")
 
 
 class JobError(BaseModel):
@@ -51,6 +52,9 @@ class JobResource(BaseModel):
     created: datetime
     started: datetime | None
     finished: datetime | None
+    expires: datetime | None = Field(
+        description="When the job and its results go; null: they are kept until they are deleted."
+    )
     error: JobError | None
     links: dict[str, str] = Field(description="Addresses of the job and of what it computed.")
     job: dict[str, Any] = Field(
@@ -59,7 +63,7 @@ class JobResource(BaseModel):
     solver_version: str
 
     @classmethod
-    def of(cls, job: Job) -> Self:
+    def of(cls, job: Job, **more: Any) -> Self:
         """Show the catalogue's record."""
         error = job.error
         return cls(
@@ -69,11 +73,14 @@ class JobResource(BaseModel):
             batch=job.batch,
             state=job.state,
             activity=job.activity,
-            progress=Progress(time=job.progress_time, fraction=job.progress_fraction),
+            progress=Progress(
+                time=job.progress_time, fraction=job.progress_fraction, steps=job.steps
+            ),
             attempt=job.attempt,
-            created=_moment(job.created),
-            started=None if job.started is None else _moment(job.started),
-            finished=None if job.finished is None else _moment(job.finished),
+            created=moment(job.created),
+            started=None if job.started is None else moment(job.started),
+            finished=None if job.finished is None else moment(job.finished),
+            expires=None if job.expires is None else moment(job.expires),
             error=error
             and JobError(
                 error_class=error.error_class,
@@ -84,7 +91,16 @@ class JobResource(BaseModel):
             links=_links(job),
             job=job.spec,
             solver_version=job.solver_version,
+            **more,
         )
+
+
+class SubmittedJob(JobResource):
+    """A job that was just asked for."""
+
+    cached: bool = Field(
+        description="Whether it is one that another request had submitted: both ask for the same."
+    )
 
 
 class JobPage(BaseModel):
@@ -103,11 +119,12 @@ def address(job_id: str) -> str:
 
 def _links(job: Job) -> dict[str, str]:
     base = address(job.id)
-    links = {"self": base, "cancel": f"{base}/cancel"}
+    links = {"self": base, "cancel": f"{base}/cancel", "events": f"{base}/events"}
     if job.batch is not None:
         links["batch"] = f"/v1/batches/{job.batch}"
     return links | {name: f"{base}/{name}" for name in RESULTS[job.kind]}
 
 
-def _moment(epoch_seconds: float) -> datetime:
+def moment(epoch_seconds: float) -> datetime:
+    """Return a time of the catalogue as it is shown."""
     return datetime.fromtimestamp(epoch_seconds, UTC)

@@ -1,10 +1,15 @@
 """From a document to a queued job."""
 
+import time
+from dataclasses import replace
 from typing import Any
 
+from service.jobs import request
 from solver.admission import Study, admit
+from solver.errors import InvalidInput
 from solver.version import SOLVER_VERSION
-from storage.catalogue import Catalogue, Job, NewJob
+from storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
+from storage.settings import Settings
 from worker.app import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
@@ -14,35 +19,57 @@ REQUEST_BODY: dict[str, Any] = {
 }
 
 
-def checked(document: object) -> NewJob:
-    """Check a job's document and return what the catalogue takes.
+def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
+    """Check a job's document; return what the catalogue takes, and whether to reuse a result.
 
     Raises
     ------
     InvalidInput
         With every field that is wrong.
     """
+    keep = None if settings.keep is None else time.time() + settings.keep
+    document, wishes, problems = request.take(document, keep)
+    try:
+        new = _admitted(document)
+    except InvalidInput as error:
+        if not problems:
+            raise
+        raise InvalidInput([*problems, *error.problems]) from None
+    if problems:
+        raise InvalidInput(problems)
+    return replace(new, expires=wishes.expires), wishes.cache
+
+
+def _admitted(document: object) -> NewJob:
     admission = admit(document)
     study = admission if isinstance(admission, Study) else None
+    scene = admission.job["scene"]
     return NewJob(
         kind=admission.job["kind"],
         label=admission.job["label"] or None,
         spec=admission.job,
         digest=admission.digest,
         solver_version=SOLVER_VERSION,
+        scene=scene.get("preset") or scene.get("name"),
         blocks=((0, 1),) if study is None else study.blocks,
         seal=study is not None,
     )
 
 
-def submit(catalogue: Catalogue, document: object) -> Job:
+def submit(
+    catalogue: Catalogue, settings: Settings, document: object, key: SubmissionKey | None = None
+) -> Submitted:
     """Check the document, record the job durably, and wake whoever publishes it.
 
     Raises
     ------
     InvalidInput
         With every field that is wrong; nothing was recorded.
+    KeyReused
+        The key came with another document before.
     """
-    submitted = catalogue.submit(checked(document))
-    wake_relay()
-    return submitted.job
+    new, reuse = checked(document, settings)
+    submitted = catalogue.submit(new, key, reuse=reuse)
+    if submitted.created:
+        wake_relay()
+    return submitted

@@ -19,6 +19,7 @@ from service.problems.document import (
     clipped,
 )
 from solver.errors import InvalidInput, LimitExceeded
+from storage.catalogue import JobNotFinished, KeyReused
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
@@ -33,6 +34,8 @@ def install(app: FastAPI) -> None:
         HTTPException,
         MalformedJson,
         InvalidInput,
+        KeyReused,
+        JobNotFinished,
         OperationalError,
         Exception,
     ):
@@ -110,6 +113,18 @@ def _(error: InvalidInput) -> RequestRefused:
 def _(error: OperationalError) -> RequestRefused:
     detail = "The catalogue does not answer; nothing was recorded."
     return RequestRefused(kinds.UNAVAILABLE, detail, headers={"Retry-After": "5"})
+
+
+@refusal.register
+def _(error: KeyReused) -> RequestRefused:
+    sentence = f"{str(error).capitalize()}."
+    errors = [ErrorDetail(parameter="Idempotency-Key", detail=clipped(sentence))]
+    return RequestRefused(kinds.KEY_REUSED, sentence, errors)
+
+
+@refusal.register
+def _(error: JobNotFinished) -> RequestRefused:
+    return RequestRefused(kinds.NOT_FINISHED, f"J{str(error)[1:]}.")
 
 
 def _sentence(message: str) -> str:

@@ -62,6 +62,30 @@ UNKNOWN_JOB = Kind(
     "There is no such job",
     "List the jobs with GET /v1/jobs.",
 )
+EXPIRED_JOB = Kind(
+    "expired-job",
+    410,
+    "The job has expired",
+    "It and its results were removed; submit its document again to compute it once more.",
+)
+NOT_FINISHED = Kind(
+    "not-finished",
+    409,
+    "The job is not finished",
+    "Cancel it with POST /v1/jobs/{id}/cancel and wait for its end first.",
+)
+KEY_REUSED = Kind(
+    "key-reused",
+    422,
+    "The Idempotency-Key belongs to another request",
+    "Send a new key with each new request, and the same key only with the same body.",
+)
+KEY_IN_FLIGHT = Kind(
+    "key-in-flight",
+    409,
+    "A request with this Idempotency-Key is being answered",
+    "Send the request again after the seconds that Retry-After gives.",
+)
 UNKNOWN_BATCH = Kind(
     "unknown-batch",
     404,
@@ -164,6 +188,10 @@ ALL = {
         UNKNOWN_CHANNEL,
         RESPONSE_TOO_LARGE,
         UNKNOWN_JOB,
+        EXPIRED_JOB,
+        NOT_FINISHED,
+        KEY_REUSED,
+        KEY_IN_FLIGHT,
         UNKNOWN_BATCH,
         WRONG_KIND,
         UNKNOWN_SCENE,

@@ -9,12 +9,13 @@ PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0
 
 
 def test_a_job_is_accepted_with_its_address_and_every_default_filled_in(http):
-    answer = http.post("/v1/jobs", json=PENDULUM | {"label": "first"})
+    answer = http.post("/v1/jobs", json=PENDULUM | {"label": "first", "cache": False})
     assert answer.status_code == 202
     job = answer.json()
+    assert job.pop("cached") is False
     assert answer.headers["Location"] == f"/v1/jobs/{job['id']}" == job["links"]["self"]
     assert (job["kind"], job["label"], job["state"]) == ("simulate", "first", "queued")
-    assert job["progress"] == {"time": 0.0, "fraction": 0.0}
+    assert job["progress"] == {"time": 0.0, "fraction": 0.0, "steps": None}
     assert (job["attempt"], job["started"], job["finished"], job["error"]) == (0, None, None, None)
     assert job["solver_version"] == SOLVER_VERSION
     assert job["job"]["tolerance"] == 1e-6
@@ -26,9 +27,12 @@ def test_a_job_is_accepted_with_its_address_and_every_default_filled_in(http):
 def test_the_filled_in_job_is_a_job(http):
     first = http.post("/v1/jobs", json=PENDULUM).json()
     again = http.post("/v1/jobs", json=first["job"])
-    assert again.status_code == 202
-    assert again.json()["job"] == first["job"]
-    assert again.json()["id"] != first["id"]
+    assert again.status_code == 200
+    assert (again.json()["id"], again.json()["cached"]) == (first["id"], True)
+    anew = http.post("/v1/jobs", json=first["job"] | {"cache": False})
+    assert anew.status_code == 202
+    assert anew.json()["job"] == first["job"]
+    assert anew.json()["id"] != first["id"]
 
 
 def test_every_link_of_a_job_leads_somewhere(http, finished_job):
@@ -39,13 +43,14 @@ def test_every_link_of_a_job_leads_somewhere(http, finished_job):
 
 def test_pages_hold_every_job_once_newest_first_while_jobs_arrive(fresh_service):
     with httpx.Client(base_url=fresh_service, trust_env=False) as http:
-        made = [http.post("/v1/jobs", json=PENDULUM).json()["id"] for _ in range(7)]
+        job = PENDULUM | {"cache": False}
+        made = [http.post("/v1/jobs", json=job).json()["id"] for _ in range(7)]
         listed, token = [], None
         while True:
             query = {"page_size": 3} | ({"page_token": token} if token else {})
             page = http.get("/v1/jobs", params=query).json()
             listed += [job["id"] for job in page["jobs"]]
-            http.post("/v1/jobs", json=PENDULUM)
+            http.post("/v1/jobs", json=job)
             token = page["next_page_token"]
             if token is None:
                 break
@@ -62,6 +67,12 @@ def test_pages_hold_every_job_once_newest_first_while_jobs_arrive(fresh_service)
         {"page_token": ""},
         {"page_token": "%00"},
         {"pagesize": 3},
+        {"state": "asleep"},
+        {"kind": "simulation"},
+        {"label": "x" * 201},
+        {"since": "yesterday"},
+        {"since": "2026-01-01T00:00:00"},  # of which time zone?
+        {"before": "2026-01-01T00:00:00Z", "since": "2026-01-02T00:00:00Z"},
     ],
 )
 def test_a_wrong_page_is_refused(http, query):

@@ -51,7 +51,7 @@ def test_a_fetched_scene_is_a_scene(http):
     for name in presets.names():
         scene = http.get(f"/v1/scenes/{name}").json()
         answer = http.post("/v1/jobs", json={"kind": "simulate", "scene": scene, "duration": 0.1})
-        assert answer.status_code == 202, answer.text
+        assert answer.status_code in {200, 202}, answer.text
 
 
 def test_an_unknown_scene_is_not_found_and_near_ones_are_named(http):

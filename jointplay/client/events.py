@@ -1,0 +1,92 @@
+"""The event stream of a job: how far it is, as soon as that changes, until it is finished."""
+
+import json
+import random
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from jointplay.client.connection import Connection, segment
+from jointplay.client.errors import ClientError, ServiceFailure, Unreachable
+from jointplay.client.jobs import TERMINAL_STATES, Job, Progress
+
+_SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
+_PATIENCE = 20.0  # s for which a lost service is looked for again
+_LONGEST_PAUSE = 2.0
+
+
+def follow(connection: Connection, job: Job, deadline: float | None) -> Iterator[Job]:
+    """Yield a job whenever it has changed, the last time when it is finished.
+
+    What the last one says beside state and progress is as old as ``job``: ask for it once more.
+
+    Parameters
+    ----------
+    connection
+        To the service.
+    job
+        As it was last seen.
+    deadline
+        Of `time.monotonic`, after which the iteration ends early; none: it does not.
+
+    Raises
+    ------
+    Unreachable
+        The service was lost and did not come back.
+    """
+    lost_since: float | None = None
+    pause = 0.1
+    while deadline is None or time.monotonic() < deadline:
+        try:
+            for snapshot in _snapshots(connection, job.id, deadline):
+                lost_since, pause = None, 0.1
+                changed = _updated(job, snapshot)
+                if changed != job:
+                    job = changed
+                    yield job
+                if job.state in TERMINAL_STATES:
+                    return
+        except (Unreachable, ServiceFailure):
+            now = time.monotonic()
+            lost_since = lost_since or now
+            if now - lost_since > _PATIENCE:
+                raise
+        # not all clients of a service that was lost come back in the same moment
+        time.sleep(pause * random.uniform(0.5, 1.0))  # noqa: S311
+        pause = min(2 * pause, _LONGEST_PAUSE)
+
+
+def _snapshots(
+    connection: Connection, job_id: str, deadline: float | None
+) -> Iterator[Mapping[str, Any]]:
+    """Yield the data of the progress events of one connection."""
+    silence = _SILENCE
+    if deadline is not None:
+        silence = min(silence, max(deadline - time.monotonic(), 0.01))
+    kind = ""
+    try:
+        for line in connection.lines(f"/v1/jobs/{segment(job_id)}/events", silence):
+            if deadline is not None and time.monotonic() > deadline:
+                return
+            name, _, value = line.partition(": ")
+            if name == "event":
+                kind = value
+            elif name == "data" and kind == "progress":
+                yield json.loads(value)
+    except Unreachable:
+        if deadline is None or time.monotonic() < deadline:
+            raise
+
+
+def _updated(job: Job, snapshot: Mapping[str, Any]) -> Job:
+    try:
+        return replace(
+            job,
+            state=snapshot["state"],
+            activity=snapshot["activity"],
+            attempt=snapshot["attempt"],
+            progress=Progress(**snapshot["progress"]),
+        )
+    except (KeyError, TypeError) as error:
+        raise ClientError(f"The service sent an event that is none: {snapshot}") from error

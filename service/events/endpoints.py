@@ -1,0 +1,91 @@
+"""``/v1/jobs/{id}/events``: what happens to a job, as server-sent events."""
+
+from collections.abc import AsyncIterator
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Header, Response
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import StreamingResponse
+
+from service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
+from service.events.schemas import JobEvent, JobProgress
+from service.events.waiting import WatcherDependency
+from service.events.watcher import Watcher
+from service.problems import kinds, problems
+from storage.catalogue import Catalogue, Event, Job
+
+MEDIA_TYPE = "text/event-stream"
+_PAGE = 1000
+_QUIET = 15.0
+"""Seconds after which a comment is sent: proxies cut connections that say nothing."""
+_COME_BACK = 1000  # ms after which a browser connects anew
+
+router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
+STREAM: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "Events until the job is finished.",
+        "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+    },
+    204: {"description": "The job is finished, and the client has all its events."},
+}
+
+
+@router.get(
+    "/{job_id}/events",
+    response_class=Response,
+    dependencies=[NO_PARAMETERS],
+    responses=STREAM | problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.INVALID_REQUEST),
+)
+async def show_events(
+    job: JobOfThePath,
+    catalogue: CatalogueDependency,
+    watcher: WatcherDependency,
+    last_event_id: Annotated[
+        int,
+        Header(
+            alias="Last-Event-ID",
+            ge=0,
+            le=2**31 - 1,
+            description="The number of the last event that was received.",
+        ),
+    ] = 0,
+) -> Response:
+    """Stream what happens to a job, and how far it is, until it is finished.
+
+    Events carry their number as `id`; whoever comes back with it as Last-Event-ID misses nothing.
+    Between them events of the type `progress`, without a number, say how far the job is.
+    """
+    if job.state.terminal:
+        left = await run_in_threadpool(catalogue.events, job.id, after=last_event_id, limit=1)
+        if last_event_id and not left:
+            return Response(status_code=204)  # which tells a browser not to come back
+    return StreamingResponse(
+        _stream(job, catalogue, watcher, last_event_id),
+        media_type=MEDIA_TYPE,
+        headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
+    )
+
+
+async def _stream(
+    job: Job, catalogue: Catalogue, watcher: Watcher, last: int
+) -> AsyncIterator[str]:
+    yield f"retry: {_COME_BACK}\n\n"
+    with watcher.watching(job.id) as watch:
+        async for glance in watch.changes(_QUIET):
+            if glance is None:
+                yield ": the job goes on\n\n"
+                continue
+            while last < glance.last_event:
+                page = await run_in_threadpool(catalogue.events, job.id, after=last, limit=_PAGE)
+                if not page:
+                    break
+                last = page[-1].seq
+                yield "".join(map(_of_history, page))
+            yield f"event: progress\ndata: {JobProgress.of(glance).model_dump_json()}\n\n"
+            if glance.state.terminal:
+                return
+
+
+def _of_history(event: Event) -> str:
+    text = JobEvent.of(event).model_dump_json()
+    return f"id: {event.seq}\nevent: {event.type}\ndata: {text}\n\n"

@@ -1,0 +1,116 @@
+"""One look at the catalogue, many times a second, for everybody who waits for a job."""
+
+import asyncio
+import logging
+from collections import defaultdict
+from collections.abc import AsyncIterator, Iterator
+from contextlib import contextmanager
+
+from fastapi.concurrency import run_in_threadpool
+from sqlalchemy.exc import SQLAlchemyError
+
+from storage.catalogue import Catalogue, Glance
+
+_PERIOD = 0.025
+"""Seconds between two looks while they find something new, or have not for long; growing to ..."""
+_LONGEST_PERIOD = 0.1
+_AT_ONCE = 500  # jobs in one question to the database
+_log = logging.getLogger(__name__)
+
+
+class Watch:
+    """What one client sees of one job; made by `Watcher.watching`."""
+
+    def __init__(self) -> None:
+        self.latest: Glance | None = None
+        self._changed = asyncio.Event()
+
+    def show(self, glance: Glance) -> None:
+        """Note what the job looks like now."""
+        self.latest = glance
+        self._changed.set()
+
+    async def changes(self, quiet: float) -> AsyncIterator[Glance | None]:
+        """Yield the job whenever it has changed, at first as it is, and none after `quiet` s."""
+        while True:
+            try:
+                await asyncio.wait_for(self._changed.wait(), quiet)
+            except TimeoutError:
+                yield None
+                continue
+            self._changed.clear()
+            yield self.latest
+
+
+class Watcher:
+    """Looks at all watched jobs together: a thousand waiting clients cost one question."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        self._catalogue = catalogue
+        self._watches: dict[str, set[Watch]] = defaultdict(set)
+        self._looking: asyncio.Task[None] | None = None
+        self._woken = asyncio.Event()
+
+    @contextmanager
+    def watching(self, job_id: str) -> Iterator[Watch]:
+        """Watch a job while the block runs."""
+        watch = Watch()
+        self._watches[job_id].add(watch)
+        self._woken.set()
+        if self._looking is None or self._looking.done():
+            self._looking = asyncio.create_task(self._look())
+        try:
+            yield watch
+        finally:
+            self._watches[job_id].discard(watch)
+            if not self._watches[job_id]:
+                del self._watches[job_id]
+
+    async def finished(self, job_id: str, seconds: float) -> bool:
+        """Return as soon as a job is finished, or after so many seconds; tell whether it is."""
+        try:
+            async with asyncio.timeout(seconds):
+                with self.watching(job_id) as watch:
+                    async for glance in watch.changes(seconds):
+                        if glance is not None and glance.state.terminal:
+                            return True
+        except TimeoutError:
+            pass
+        return False
+
+    async def _look(self) -> None:
+        """Look until nobody watches; what a database that does not answer hides is seen later."""
+        pause = _PERIOD
+        while self._watches:
+            self._woken.clear()
+            try:
+                changed = self._show(await self._glances(list(self._watches)))
+            except SQLAlchemyError as error:
+                _log.warning("the catalogue does not answer, looking again: %s", error)
+                changed = False
+            pause = _PERIOD if changed else min(1.2 * pause, _LONGEST_PERIOD)
+            try:
+                await asyncio.wait_for(self._woken.wait(), pause)
+                pause = _PERIOD
+            except TimeoutError:
+                pass
+
+    async def _glances(self, jobs: list[str]) -> list[Glance]:
+        found: list[Glance] = []
+        for some in _batched(jobs):
+            found += await run_in_threadpool(self._catalogue.glances, some)
+        return found
+
+    def _show(self, glances: list[Glance]) -> bool:
+        changed = False
+        for glance in glances:
+            for watch in self._watches.get(glance.job, ()):
+                if watch.latest != glance:
+                    watch.show(glance)
+                    changed = True
+        return changed
+
+
+def _batched(jobs: list[str]) -> Iterator[list[str]]:
+    for first in range(0, len(jobs), _AT_ONCE):
+        yield jobs[first : first + _AT_ONCE]

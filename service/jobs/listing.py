@@ -1,0 +1,58 @@
+"""Which jobs a list holds."""
+
+from datetime import UTC, datetime
+from typing import Any
+
+from pydantic import AwareDatetime, Field
+
+from service.jobs.paging import PageQuery
+from service.problems import ErrorDetail, RequestRefused, kinds
+from solver.jobs import KINDS
+from storage.catalogue import JobState
+
+
+class JobQuery(PageQuery):
+    """Which jobs, and which page of them."""
+
+    state: JobState | None = Field(default=None, description="Only jobs in this state.")
+    kind: str | None = Field(
+        default=None, description="Only jobs of this kind.", json_schema_extra={"enum": [*KINDS]}
+    )
+    label: str | None = Field(
+        default=None, max_length=200, description="Only jobs with exactly this label."
+    )
+    scene: str | None = Field(
+        default=None, max_length=200, description="Only jobs of this preset, or scene's name."
+    )
+    since: AwareDatetime | None = Field(
+        default=None, description="Only jobs submitted from this moment on, RFC 3339 with offset."
+    )
+    before: AwareDatetime | None = Field(
+        default=None, description="Only jobs submitted before this moment."
+    )
+
+    def wanted(self) -> dict[str, Any]:
+        """Return the filters as the catalogue takes them, or refuse what matches nothing."""
+        if self.kind is not None and self.kind not in KINDS:
+            _refuse("kind", f"There is no kind {self.kind!r}; there are {', '.join(KINDS)}.")
+        if self.since is not None and self.before is not None and self.since > self.before:
+            _refuse("before", "'before' is earlier than 'since'; swap them.")
+        return {
+            "state": self.state,
+            "kind": self.kind,
+            "label": self.label,
+            "scene": self.scene,
+            "since": _epoch(self.since),
+            "before": _epoch(self.before),
+        }
+
+
+def _refuse(parameter: str, sentence: str) -> None:
+    errors = [ErrorDetail(parameter=parameter, detail=sentence)]
+    raise RequestRefused(kinds.INVALID_REQUEST, sentence, errors)
+
+
+def _epoch(moment: datetime | None) -> float | None:
+    """Return epoch seconds; also of years that the clock of this machine does not reach."""
+    origin = datetime(1970, 1, 1, tzinfo=UTC)
+    return None if moment is None else (moment - origin).total_seconds()

@@ -1,0 +1,209 @@
+"""Jobs that are asked for again: identical ones, repeated requests, expired and deleted ones."""
+
+import threading
+from datetime import UTC, datetime, timedelta
+
+import httpx
+import pytest
+
+from service.app import create_app
+from storage.catalogue import BlockState, Catalogue, JobError
+from storage.settings import Settings
+from tests.service_in_thread import serving
+
+SCENE = {"preset": "slider-crank", "parameters": {"clearance": 1.25e-4}}
+JOB = {"kind": "simulate", "scene": SCENE, "duration": 0.125}
+
+
+@pytest.fixture
+def own(tmp_path):
+    """A service and a catalogue of its own."""
+    settings = Settings(data=tmp_path / "data")
+    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+        catalogue = Catalogue(settings.catalogue_url)
+        yield http, catalogue
+        catalogue.close()
+
+
+def test_an_identical_job_is_the_one_that_is_there(own):
+    http, _ = own
+    first = http.post("/v1/jobs", json=JOB | {"label": "first"})
+    assert (first.status_code, first.json()["cached"]) == (202, False)
+    same = [
+        JOB | {"label": "second"},
+        JOB | {"output_step": 0.125 / 2000, "tolerance": 1e-6},  # the defaults, written out
+        JOB | {"accuracy": "standard"},
+    ]
+    for job in same:
+        again = http.post("/v1/jobs", json=job)
+        assert (again.status_code, again.json()["cached"]) == (200, True)
+        assert (again.json()["id"], again.json()["label"]) == (first.json()["id"], "first")
+        assert again.headers["Location"] == first.headers["Location"]
+    for other in (JOB | {"cache": False}, JOB | {"tolerance": 1e-7}, JOB | {"channels": ["P.*"]}):
+        assert http.post("/v1/jobs", json=other).status_code == 202
+
+
+@pytest.mark.parametrize("ending", ["failed", "cancelled"])
+def test_a_job_that_ended_badly_is_computed_again(own, ending):
+    http, catalogue = own
+    first = http.post("/v1/jobs", json=JOB).json()["id"]
+    if ending == "cancelled":
+        http.post(f"/v1/jobs/{first}/cancel")
+    else:
+        catalogue.claim_block(f"{first}-0", "test", 60)
+        catalogue.finish(f"{first}-0", 1, BlockState.failed, JobError("platform", "x", "X."))
+    assert http.post("/v1/jobs", json=JOB).status_code == 202
+
+
+def test_a_repeated_request_finds_what_the_first_one_made(own):
+    http, _ = own
+    key = {"Idempotency-Key": "a-key"}
+    job = JOB | {"cache": False}
+    first, again = (http.post("/v1/jobs", json=job, headers=key) for _ in range(2))
+    assert (first.status_code, again.status_code) == (202, 202)
+    assert again.json() == first.json()
+    other = http.post("/v1/jobs", json=job | {"duration": 0.25}, headers=key)
+    assert (other.status_code, other.json()["type"]) == (422, "/problems/key-reused")
+    assert other.json()["errors"][0]["parameter"] == "Idempotency-Key"
+    assert len(http.get("/v1/jobs").json()["jobs"]) == 1
+    batch = http.post("/v1/batches", json={"jobs": [job]}, headers=key)
+    assert batch.json()["type"] == "/problems/key-reused"
+
+
+def test_a_repeated_batch_finds_the_first_one(own):
+    http, _ = own
+    key = {"Idempotency-Key": "k"}
+    first, again = (
+        http.post("/v1/batches", json={"jobs": [JOB, JOB]}, headers=key) for _ in range(2)
+    )
+    assert again.json() == first.json()
+    assert len(set(first.json()["job_ids"])) == 2
+
+
+def test_a_key_is_free_again_after_a_refused_request(own):
+    http, _ = own
+    key = {"Idempotency-Key": "k"}
+    assert http.post("/v1/jobs", json=JOB | {"duration": -1}, headers=key).status_code == 422
+    assert http.post("/v1/jobs", json=JOB, headers=key).status_code == 202
+
+
+def test_of_requests_at_the_same_time_with_one_key_one_makes_a_job(own):
+    http, _ = own
+    answers = []
+    study = {"kind": "bifurcation", "scene": {"preset": "slider-crank"}, "parameter": "clearance"}
+    study |= {"values": {"from": 1e-4, "to": 5e-4, "count": 500}, "cache": False}
+
+    def post():
+        answer = httpx.post(
+            f"{http.base_url}/v1/jobs",
+            json=study,
+            headers={"Idempotency-Key": "same"},
+            timeout=60,
+            trust_env=False,
+        )
+        answers.append((answer.status_code, answer.headers.get("Retry-After")))
+
+    threads = [threading.Thread(target=post) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert set(answers) <= {(202, None), (409, "1")}
+    assert (202, None) in answers
+    assert len(http.get("/v1/jobs").json()["jobs"]) == 1
+
+
+@pytest.mark.parametrize("key", ["", "x" * 256, "with a space", "tab\tbed"])
+def test_a_key_that_is_none_is_refused(http, key):
+    answer = http.post("/v1/jobs", json=JOB, headers={"Idempotency-Key": key})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["parameter"] == "Idempotency-Key"
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("cache", 1),
+        ("cache", "false"),
+        ("cache", None),
+        ("expires", "tomorrow"),
+        ("expires", 1e10),
+        ("expires", "2001-01-01T00:00:00Z"),
+        ("expires", "2101-01-01T00:00:00"),  # of which time zone?
+    ],
+)
+def test_wrong_wishes_are_refused_together_with_a_wrong_job(http, field, value):
+    answer = http.post("/v1/jobs", json=JOB | {field: value, "duration": -1.0})
+    assert answer.status_code == 422
+    assert {one["pointer"] for one in answer.json()["errors"]} == {f"/{field}", "/duration"}
+    assert http.post("/v1/jobs", json=JOB | {field: value}).status_code == 422
+
+
+def test_an_expired_job_is_gone(own):
+    http, catalogue = own
+    soon = (datetime.now(UTC) + timedelta(seconds=0.7)).isoformat()
+    job = http.post("/v1/jobs", json=JOB | {"expires": soon}).json()
+    assert datetime.fromisoformat(job["expires"]) == datetime.fromisoformat(soon)
+    assert "expires" not in job["job"]
+    address = f"/v1/jobs/{job['id']}"
+    catalogue.claim_block(f"{job['id']}-0", "test", 60)
+    assert http.get(address, params={"wait": 1}).json()["state"] == "running"
+    assert http.get(address).status_code == 200  # what is being computed does not expire
+    catalogue.finish(f"{job['id']}-0", 1, BlockState.done)
+    for path in ("", "/peaks", "/events", "/figures/orbit.png"):
+        answer = http.get(address + path)
+        assert (answer.status_code, answer.json()["type"]) == (410, "/problems/expired-job")
+    assert http.get("/v1/jobs").json()["jobs"] == []
+    assert http.post("/v1/jobs", json=JOB).status_code == 202
+
+
+def test_a_job_is_deleted_once_it_is_finished(own):
+    http, catalogue = own
+    job_id = http.post("/v1/jobs", json=JOB).json()["id"]
+    refused = http.delete(f"/v1/jobs/{job_id}")
+    assert (refused.status_code, refused.json()["type"]) == (409, "/problems/not-finished")
+    assert job_id in refused.json()["detail"]
+    catalogue.claim_block(f"{job_id}-0", "test", 60)
+    catalogue.finish(f"{job_id}-0", 1, BlockState.done)
+    assert http.delete(f"/v1/jobs/{job_id}").json()["expires"] is not None
+    assert http.delete(f"/v1/jobs/{job_id}").status_code == 410
+    assert http.get(f"/v1/jobs/{job_id}").status_code == 410
+    assert catalogue.removable(10) == (job_id,)
+    assert http.delete("/v1/jobs/nope").status_code == 404
+
+
+def test_jobs_expire_by_themselves_where_the_service_says_so(tmp_path):
+    settings = Settings(data=tmp_path / "data", keep=3600)
+    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+        job = http.post("/v1/jobs", json=JOB).json()
+        created, expires = (datetime.fromisoformat(job[name]) for name in ("created", "expires"))
+        assert abs((expires - created).total_seconds() - 3600) < 5
+        kept = http.post("/v1/jobs", json=JOB | {"expires": "2999-01-01T00:00:00Z"}).json()
+        assert (kept["id"], kept["expires"]) == (job["id"], "2999-01-01T00:00:00Z")
+
+
+def test_jobs_are_listed_by_what_they_are(own):
+    http, _ = own
+    made = {}
+    for name, job in (
+        ("slider", JOB | {"label": "a"}),
+        ("pendulum", {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}),
+        ("poincare", {"kind": "poincare", "scene": SCENE, "settle": 1, "record": 2, "label": "b"}),
+    ):
+        made[name] = http.post("/v1/jobs", json=job).json()
+    http.post(f"/v1/jobs/{made['pendulum']['id']}/cancel")
+
+    def listed(**query):
+        jobs = http.get("/v1/jobs", params=query).json()["jobs"]
+        return [next(name for name in made if made[name]["id"] == job["id"]) for job in jobs]
+
+    assert listed() == ["poincare", "pendulum", "slider"]
+    assert listed(state="cancelled") == ["pendulum"]
+    assert listed(kind="simulate") == ["pendulum", "slider"]
+    assert listed(scene="slider-crank") == ["poincare", "slider"]
+    assert listed(scene="slider-crank", label="b") == ["poincare"]
+    assert listed(label="c") == []
+    moment = made["pendulum"]["created"]
+    assert listed(since=moment) == ["poincare", "pendulum"]
+    assert listed(before=moment) == ["slider"]
+    assert listed(since="0001-01-01T00:00:00Z", before="9999-12-31T23:59:59Z") == listed()

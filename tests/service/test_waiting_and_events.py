@@ -1,0 +1,157 @@
+"""Waiting for a job: long polls, preferences, the stream of its events."""
+
+import json
+import threading
+import time
+
+import httpx
+import pytest
+
+from storage.catalogue import BlockState, JobError
+
+PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
+SOON = 1.0  # s in which an answer comes on a busy machine that looks every 25 to 100 ms
+
+
+def later(seconds, do, *arguments):
+    timer = threading.Timer(seconds, do, arguments)
+    timer.start()
+    return timer
+
+
+def parsed(text):
+    """Return (id, type, data) of each event."""
+    events = []
+    for block in text.split("\n\n"):
+        fields = dict(line.split(": ", 1) for line in block.splitlines() if line[:1] != ":")
+        if "data" in fields:
+            events.append((fields.get("id"), fields["event"], json.loads(fields["data"])))
+    return events
+
+
+@pytest.mark.parametrize("how", ["query", "header"])
+def test_waiting_ends_when_the_job_does(http, worker, how):
+    claim = worker.start(worker.submit())
+    ended = later(0.4, worker.finish, claim, BlockState.done)
+    began = time.monotonic()
+    asked = (
+        {"params": {"wait": 20}} if how == "query" else {"headers": {"Prefer": "wait=20, foo=bar"}}
+    )
+    answer = http.get(f"/v1/jobs/{claim.job.id}", **asked, timeout=30)
+    took = time.monotonic() - began
+    ended.join()
+    assert answer.json()["state"] == "succeeded"
+    assert 0.4 <= took < 0.4 + SOON
+    assert answer.headers.get("Preference-Applied") == ("wait=20" if how == "header" else None)
+
+
+def test_waiting_ends_after_its_time(http, worker):
+    job_id = worker.submit()
+    began = time.monotonic()
+    assert http.get(f"/v1/jobs/{job_id}", params={"wait": 0.3}).json()["state"] == "queued"
+    assert 0.3 <= time.monotonic() - began < 0.3 + SOON
+    assert http.get(f"/v1/jobs/{job_id}", params={"wait": 0}).json()["state"] == "queued"
+
+
+def test_a_submission_may_be_waited_for(http, worker, catalogue):
+    answer = http.post("/v1/jobs", json=PENDULUM, headers={"Prefer": "wait=1"})
+    assert (answer.status_code, answer.json()["state"]) == (202, "queued")
+    assert answer.headers["Preference-Applied"] == "wait=1"
+
+    def compute_it():
+        job = catalogue.jobs(limit=1, label="waited for").jobs[0]
+        worker.finish(worker.start(job.id), BlockState.done)
+
+    ended = later(0.4, compute_it)
+    job = PENDULUM | {"label": "waited for"}
+    answer = http.post("/v1/jobs", json=job, headers={"Prefer": "wait=20"}, timeout=30)
+    ended.join()
+    assert (answer.status_code, answer.json()["state"]) == (200, "succeeded")
+    assert answer.json()["cached"] is False
+
+
+def test_many_may_wait_at_once(http, service_url, worker):
+    """More than there are threads: waiting holds none."""
+    claim = worker.start(worker.submit())
+    states = []
+
+    def wait():
+        answer = httpx.get(
+            f"{service_url}/v1/jobs/{claim.job.id}?wait=30", timeout=60, trust_env=False
+        )
+        states.append(answer.json()["state"])
+
+    threads = [threading.Thread(target=wait) for _ in range(60)]
+    for thread in threads:
+        thread.start()
+    time.sleep(0.5)
+    assert http.get("/healthz").is_success
+    worker.finish(claim, BlockState.done)
+    for thread in threads:
+        thread.join()
+    assert states == ["succeeded"] * 60
+
+
+@pytest.mark.parametrize("wait", ["-1", "61", "nan", "inf", "long", ""])
+def test_a_wrong_wait_is_refused(http, worker, wait):
+    answer = http.get(f"/v1/jobs/{worker.submit()}", params={"wait": wait})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["parameter"] == "wait"
+
+
+def test_a_preference_that_is_none_is_ignored(http, worker):
+    for prefer in ("wait", "wait=", "wait=soon", "respond-async", "await=5", "wait=0"):
+        answer = http.get(f"/v1/jobs/{worker.submit()}", headers={"Prefer": prefer})
+        assert answer.status_code == 200
+
+
+def test_the_stream_tells_what_happens_and_ends_with_the_job(http, catalogue, worker):
+    job_id = worker.submit()
+    seen = []
+    with http.stream("GET", f"/v1/jobs/{job_id}/events", timeout=30) as stream:
+        assert stream.headers["Content-Type"].startswith("text/event-stream")
+        assert stream.headers["Cache-Control"] == "no-store"
+        claim = None
+        for line in stream.iter_lines():
+            if not line.startswith("data: "):
+                continue
+            data = json.loads(line.removeprefix("data: "))
+            seen.append(data)
+            if "progress" not in data:
+                continue
+            if data["state"] == "queued":
+                claim = worker.start(job_id)
+            elif data["state"] == "running" and data["progress"]["fraction"] == 0:
+                catalogue.record_progress(
+                    claim.block.id, 1, 60.0, time=1.0, fraction=0.5, steps=1234
+                )
+            elif data["state"] == "running":
+                error = JobError("solver", "step-size-underflow", "No step.", 1.5)
+                worker.finish(claim, BlockState.failed, error)
+    history = [event for event in seen if "seq" in event]
+    assert [event["seq"] for event in history] == [1, 2, 3, 4]
+    assert [event["type"] for event in history] == ["queued", "running", "claimed", "failed"]
+    assert history[-1]["data"]["error"]["code"] == "step-size-underflow"
+    progress = [event["progress"] for event in seen if "progress" in event]
+    assert {"time": 1.0, "fraction": 0.5, "steps": 1234} in progress
+    assert seen[-1]["state"] == "failed"
+
+
+def test_a_stream_goes_on_after_the_last_event_that_was_received(http, worker):
+    job_id = worker.finished()
+    address = f"/v1/jobs/{job_id}/events"
+    whole = [event for event in parsed(http.get(address).text) if event[0]]
+    assert [event[0] for event in whole] == ["1", "2", "3", "4"]
+    for last in (1, 3):
+        rest = parsed(http.get(address, headers={"Last-Event-ID": str(last)}).text)
+        assert [event for event in rest if event[0]] == whole[last:]
+        assert rest[-1][1] == "progress"
+    assert http.get(address, headers={"Last-Event-ID": "4"}).status_code == 204
+    for wrong in ("x", "-1", str(2**31), "1.5"):
+        answer = http.get(address, headers={"Last-Event-ID": wrong})
+        assert answer.status_code == 422
+        assert answer.json()["errors"][0]["parameter"] == "Last-Event-ID"
+
+
+def test_there_are_no_events_of_a_job_that_is_none(http):
+    assert http.get("/v1/jobs/nope/events").status_code == 404
