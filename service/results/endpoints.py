@@ -1,4 +1,4 @@
-"""``/v1/jobs/{id}/history`` and its siblings: numbers that a finished job computed."""
+"""``/v1/jobs/{id}/history`` and its siblings: numbers that a job has computed."""
 
 from typing import Annotated
 
@@ -6,7 +6,12 @@ import numpy as np
 from fastapi import APIRouter, Query, Response
 from numpy.typing import NDArray
 
-from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
+from service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+)
 from service.jobs.results_of_kinds import insist, is_study
 from service.problems import kinds, problems
 from service.results import schemas
@@ -54,7 +59,10 @@ def show_history(store: StoreOfThePath, selection: Annotated[Selection, Query()]
 
 @router.get("/poincare", response_model=schemas.Poincare | Sections)
 def show_poincare(
-    job: JobOfThePath, settings: SettingsDependency, query: Annotated[PoincareQuery, Query()]
+    job: JobOfThePath,
+    settings: SettingsDependency,
+    catalogue: CatalogueDependency,
+    query: Annotated[PoincareQuery, Query()],
 ) -> Response:
     """Return channels at the Poincare sections.
 
@@ -65,7 +73,7 @@ def show_poincare(
     if is_study(job):
         study = open_study(job, settings)
         return as_json(sections(study, query.range_of_points(), query.channels))
-    return as_json(_poincare(open_store(job, settings), query.window_of_time()))
+    return as_json(_poincare(open_store(job, settings, catalogue), query.window_of_time()))
 
 
 @router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])

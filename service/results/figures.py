@@ -6,7 +6,12 @@ from fastapi import APIRouter, Path, Query, Response
 from pydantic import Field
 
 from jointplay import figures
-from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
+from service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+)
 from service.jobs.results_of_kinds import insist, is_study
 from service.jobs.schemas import address
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
@@ -15,7 +20,7 @@ from service.results.queries import Selection, chosen_channels
 from service.results.schemas import FigureLink, Figures
 from service.results.stores import open_store, open_study
 from service.studies.queries import whole_point
-from storage.catalogue import Job
+from storage.catalogue import Catalogue, Job
 from storage.results import ResultReader
 from storage.settings import Settings
 from storage.studies import StudyReader
@@ -67,8 +72,10 @@ class FigureSelection(Selection):
 
 
 @router.get("", dependencies=[NO_PARAMETERS])
-def list_figures(job: JobOfThePath, settings: SettingsDependency) -> Figures:
-    """List the figures that can be drawn of what the job stored, of a study also as it runs."""
+def list_figures(
+    job: JobOfThePath, settings: SettingsDependency, catalogue: CatalogueDependency
+) -> Figures:
+    """List the figures that can be drawn of what the job has stored, also as it runs."""
     base = f"{address(job.id)}/figures"
     return Figures(
         figures=[
@@ -78,7 +85,7 @@ def list_figures(job: JobOfThePath, settings: SettingsDependency) -> Figures:
                 png=f"{base}/{one.name}.png",
                 svg=f"{base}/{one.name}.svg",
             )
-            for one in figures.available(_results(job, settings))
+            for one in figures.available(_results(job, settings, catalogue))
         ]
     )
 
@@ -91,15 +98,16 @@ def list_figures(job: JobOfThePath, settings: SettingsDependency) -> Figures:
 def draw_figure(
     job: JobOfThePath,
     settings: SettingsDependency,
+    catalogue: CatalogueDependency,
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
     form: Annotated[str, Path(description="File type: png or svg.")],
     selection: Annotated[FigureSelection, Query()],
 ) -> Response:
-    """Draw a figure of the job's results; of a study also as it runs."""
+    """Draw a figure of the job's results, also as it runs."""
     if form not in _MEDIA_TYPES:
         sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
         raise _refused(kinds.UNKNOWN_FIGURE, "form", sentence)
-    store = _results(job, settings)
+    store = _results(job, settings, catalogue)
     chosen = _selection(store, selection)
     try:
         picture = figures.render(store, name, cast("figures.Form", form), chosen)
@@ -111,9 +119,9 @@ def draw_figure(
     return Response(picture, media_type=_MEDIA_TYPES[form])
 
 
-def _results(job: Job, settings: Settings) -> ResultReader | StudyReader:
+def _results(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader | StudyReader:
     insist(job, "figures")
-    return open_study(job, settings) if is_study(job) else open_store(job, settings)
+    return open_study(job, settings) if is_study(job) else open_store(job, settings, catalogue)
 
 
 def _selection(store: ResultReader | StudyReader, asked: FigureSelection) -> figures.Selection:

@@ -18,7 +18,9 @@ class Series(BaseModel):
 class History(BaseModel):
     """Channels on the output grid."""
 
-    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
     time: Series
     channels: dict[str, Series]
 
@@ -42,7 +44,9 @@ class Peak(BaseModel):
 class Peaks(BaseModel):
     """Extremes by channel."""
 
-    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
     peaks: dict[str, Peak]
 
 
@@ -64,7 +68,9 @@ class Impact(BaseModel):
 class Impacts(BaseModel):
     """Contacts in order of release."""
 
-    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
     impacts: list[Impact]
 
 
@@ -83,7 +89,9 @@ class EnergyLedger(BaseModel):
 class Statistics(BaseModel):
     """What a run cost, and its energy ledger; null where there is none."""
 
-    complete: bool = Field(description="False: the job failed or was cancelled on the way.")
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
     steps: int | None = Field(default=None, description="Accepted steps of the integrator.")
     rejections: int | None = Field(default=None, description="Steps that were tried again.")
     onsets: int | None = Field(default=None, description="Contacts that began.")

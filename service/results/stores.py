@@ -1,6 +1,6 @@
 """From a job to its results store, or to the problem that says why there is none to read.
 
-A study's store is read as it grows; a simulation's when it is finished.
+Stores can be read as they grow: what a job has committed, and nothing else.
 """
 
 from functools import lru_cache
@@ -9,10 +9,10 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 
-from service.dependencies import JobOfThePath, SettingsDependency
+from service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
 from service.jobs.results_of_kinds import insist
 from service.problems import RequestRefused, kinds
-from storage.catalogue import Job
+from storage.catalogue import Catalogue, Job
 from storage.results import NotAStore, ResultReader
 from storage.settings import Settings
 from storage.studies import StudyReader
@@ -21,22 +21,39 @@ _OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
 _OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study
 
 
-def open_store(job: Job, settings: Settings) -> ResultReader:
-    """Return the reader of a finished simulation's results; what ended early keeps its own.
+def open_store(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader:
+    """Return the reader of a simulation's results as they are now.
 
     Raises
     ------
     RequestRefused
-        409 while the job is not finished, 404 if it ended before anything was computed.
+        409 before the job has begun, 404 if it ended before anything was computed.
     """
-    if not job.state.terminal:
-        raise _not_ready(job, "its results can be read when it is finished")
     if job.attempt > 0:
         try:
             return _sealed(settings.result_folder(job.id, job.attempt))
         except NotAStore:
             pass
-    raise _nothing(job)
+        folder, samples = committed_so_far(job, catalogue, settings)
+        try:
+            return ResultReader(folder, samples)
+        except NotAStore:
+            pass
+    if job.state.terminal:
+        raise _nothing(job)
+    raise _not_ready(job, "its results can be read once it has begun")
+
+
+def committed_so_far(job: Job, catalogue: Catalogue, settings: Settings) -> tuple[Path, int]:
+    """Return the folder of a growing store, and how many samples are committed there.
+
+    Until an attempt has a restart point of its own, what counts is that of the one before.
+    """
+    (block, *_) = catalogue.blocks(job.id)
+    attempt = job.attempt
+    if block.checkpoint is not None:
+        attempt = int(block.checkpoint.rpartition("-a")[2])
+    return settings.result_folder(job.id, attempt), block.watermark
 
 
 def open_study(job: Job, settings: Settings) -> StudyReader:
@@ -93,10 +110,13 @@ def _sealed_study(folder: Path) -> StudyReader:
 
 
 def _store_of_the_path(
-    request: Request, job: JobOfThePath, settings: SettingsDependency
+    request: Request,
+    job: JobOfThePath,
+    settings: SettingsDependency,
+    catalogue: CatalogueDependency,
 ) -> ResultReader:
     insist(job, request.url.path.rpartition("/")[2])
-    return open_store(job, settings)
+    return open_store(job, settings, catalogue)
 
 
 StoreOfThePath = Annotated[ResultReader, Depends(_store_of_the_path)]

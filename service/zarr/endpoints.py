@@ -17,7 +17,7 @@ from service.problems.document import clipped
 from service.zarr import ranges
 from service.zarr.content import Content
 from service.zarr.keys import is_key
-from service.zarr.views import content_of
+from service.zarr.views import content_of, former_content
 from storage.catalogue import Job
 
 router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
@@ -85,7 +85,15 @@ def show_stored(
     if content is None:
         raise _nothing_at(job, key)
     try:
-        return _answer(request, job, key, content)
+        try:
+            return _answer(request, job, key, content)
+        except ranges.Unsatisfiable:
+            former = former_content(job, key, content, catalogue, settings)
+            if former is None:
+                raise
+            return _answer(request, job, key, former)
+    except ranges.Unsatisfiable:
+        raise _not_satisfiable(request, key, content.size) from None
     finally:
         content.close()
 
@@ -108,15 +116,7 @@ def _answer(request: Request, job: Job, key: str, content: Content) -> Response:
     if ranges.names(request.headers.get("if-none-match"), content.tag):
         return Response(status_code=304, headers=headers)
     condition = request.headers.get("if-range")
-    try:
-        part = ranges.window(asked if condition in (None, content.tag) else None, content.size)
-    except ranges.Unsatisfiable:
-        raise RequestRefused(
-            kinds.RANGE_NOT_SATISFIABLE,
-            f"{clipped(key)} has {content.size} bytes, and none of them is in the range "
-            f"{clipped(asked or '')!r}.",
-            headers={"Content-Range": f"bytes */{content.size}", "Accept-Ranges": "bytes"},
-        ) from None
+    part = ranges.window(asked if condition in (None, content.tag) else None, content.size)
     start, stop = part or (0, content.size)
     if part is not None:
         headers["Content-Range"] = f"bytes {start}-{stop - 1}/{content.size}"
@@ -131,6 +131,15 @@ def _takes_gzip(accepted: str) -> bool:
         if coding in ("gzip", "*"):
             return quality.strip("0.") != "" or quality == ""
     return False
+
+
+def _not_satisfiable(request: Request, key: str, size: int) -> RequestRefused:
+    asked = clipped(request.headers.get("range", ""))
+    return RequestRefused(
+        kinds.RANGE_NOT_SATISFIABLE,
+        f"{key} has {size} bytes, and none of them is in the range {asked!r}.",
+        headers={"Content-Range": f"bytes */{size}", "Accept-Ranges": "bytes"},
+    )
 
 
 def _nothing_at(job: Job, key: str) -> RequestRefused:

@@ -6,6 +6,7 @@ committed. The last shard, which is not full yet, is made of the rows that wait 
 
 import copy
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
@@ -45,7 +46,7 @@ class LiveStore:
         except (FileNotFoundError, ValueError, KeyError) as error:
             raise NotAStore(f"{folder} holds no results store") from error
         self._columns = columns_of(self._attributes)
-        self._waiting = committed(folder, samples, self._attributes)
+        self._waiting = committed(folder, samples, self._attributes, self._in_shards)
 
     def document(self, key: str) -> bytes | None:
         """Give a zarr.json, or None where there is no group or array."""
@@ -95,16 +96,16 @@ class LiveStore:
         chunks = [rows[i : i + chunk_rows] for i in range(0, shard_rows, chunk_rows)]
         return shards.loose(chunks, chunk_rows, fill)
 
-    def loosened(self, key: str, content: bytes) -> bytes | None:
-        """Give a finished shard as `chunk` gave it before, for a client that is still at it."""
-        return loosened(self._members.get(key.rpartition("/c/")[0]), content)
+    def _in_shards(self, key: str) -> int:
+        array = self._members[key]
+        return rows_in_shards(self.folder, key, shape_of(array)[0], int(array["shape"][0]))
 
     def _shown(self, name: str) -> Document:
         document = self._members[name]
         group, _, column = name.rpartition("/")
         if document["node_type"] == "array" and column in self._columns.get(group, ()):
             document = copy.copy(document)
-            document["shape"] = [min(self._waiting[group].rows, _most(document, group))]
+            document["shape"] = [self._waiting[group].rows]
         return document
 
 
@@ -136,19 +137,31 @@ def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     return {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
 
 
-def committed(folder: Path, samples: int, attributes: dict[str, Any]) -> dict[str, Waiting]:
+def rows_in_shards(folder: Path, key: str, shard_rows: int, most: int) -> int:
+    """Count the rows of a growing array whose shards are on the disk."""
+    found = 0
+    while (folder / key / "c" / str(found)).exists():
+        found += 1
+    return min(found * shard_rows, most)
+
+
+def committed(
+    folder: Path, samples: int, attributes: dict[str, Any], in_shards: Callable[[str], int]
+) -> dict[str, Waiting]:
     """Find how far each table was when that many samples were committed, by group.
 
-    Without the journal of that moment only whole shards count.
+    Without the journal of that moment only whole shards count, which `in_shards` counts by the
+    key of an array.
     """
     columns = columns_of(attributes)
     sampled = [_DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
     found = waiting_rows(folder, samples, dtypes)
-    if found is None:
-        return {group: Waiting(samples if not group else 0, ()) for group in columns}
-    return dict(zip(columns, found, strict=True))
-
-
-def _most(document: Document, group: str) -> int:
-    return int(document["shape"][0]) if group == "" else 2**62
+    if found is not None:
+        return dict(zip(columns, found, strict=True))
+    alone = {}
+    for group, names in columns.items():
+        last = f"{group}/{names[-1]}".lstrip("/")
+        rows = in_shards(last)
+        alone[group] = Waiting(rows if group else min(rows, samples), ())
+    return alone

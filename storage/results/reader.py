@@ -19,7 +19,7 @@ from storage.results.layout import (
     ArraySpec,
     Peak,
 )
-from storage.results.live import columns_of, committed
+from storage.results.live import columns_of, committed, rows_in_shards
 from storage.results.waiting import Waiting
 
 Floats = NDArray[np.float64]
@@ -63,8 +63,8 @@ class ResultReader:
         """Names that the `joint` of an impact points to."""
         self._waiting: dict[str, Waiting] = {}
         if watermark is not None and not self.sealed:
-            self._waiting = committed(self.path, watermark, self.attributes)
-        self.samples = self._rows("", watermark)
+            self._waiting = committed(self.path, watermark, self.attributes, self._in_shards)
+        self.samples = self._rows("")
         """Samples that can be read."""
 
     @cached_property
@@ -118,11 +118,11 @@ class ResultReader:
 
     def sections(self, channels: Sequence[str] | None = None) -> tuple[Floats, dict[str, Floats]]:
         """Read the Poincare sections: (m,) times [s] and by channel (m,) values."""
-        return self._read("poincare", channels, 0, self._rows("poincare", None))
+        return self._read("poincare", channels, 0, self._rows("poincare"))
 
     def impacts(self, start: int = 0, stop: int | None = None) -> NDArray[Any]:
         """Read impacts, in order of release, as (j,) structured array of dtype `IMPACT`."""
-        total = self._rows("impacts", None)
+        total = self._rows("impacts")
         first, last, _ = slice(start, stop).indices(total)
         columns = {
             name: self._column("impacts", name, first, max(first, last))
@@ -155,23 +155,20 @@ class ResultReader:
         """
         manifest.verify(self.path)
 
-    def _rows(self, group: str, watermark: int | None) -> int:
+    def _rows(self, group: str) -> int:
         """Rows of a table that are there: all once sealed, else those committed or in shards."""
-        last = list(columns_of(self.attributes)[group])[-1]
-        time = self._array(f"{group}/{last}" if group else last)
-        rows = int(time.shape[0])
-        if self.sealed:
-            return rows
-        if group in self._waiting and self._waiting[group].columns:
+        if group in self._waiting:
             return self._waiting[group].rows
-        if watermark is None:
-            shard_rows = (time.shards or time.chunks)[0]
-            folder = self.path / group / last / "c"
-            shards = 0
-            while (folder / str(shards)).exists():
-                shards += 1
-            watermark = shards * shard_rows
-        return min(watermark, rows)
+        last = columns_of(self.attributes)[group][-1]
+        key = f"{group}/{last}" if group else last
+        if self.sealed:
+            return int(self._array(key).shape[0])
+        return self._in_shards(key)
+
+    def _in_shards(self, key: str) -> int:
+        array = self._array(key)
+        shard_rows = (array.shards or array.chunks)[0]
+        return rows_in_shards(self.path, key, shard_rows, array.shape[0])
 
     def _window(self, start: int, stop: int | None) -> tuple[int, int]:
         stop = self.samples if stop is None else min(stop, self.samples)
