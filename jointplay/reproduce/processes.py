@@ -49,6 +49,7 @@ class Processes:
         """
         fractions = self._shared.fractions
         fractions[:] = [0.0] * len(fractions)
+        self._shared.leave.value = 0
         order = sorted(range(len(calls)), key=lambda index: -calls[index].weight)
         futures: dict[Future[Any], int] = {}
         for index in order:

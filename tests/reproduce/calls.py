@@ -1,0 +1,21 @@
+"""Functions for other processes; a module, because they import it."""
+
+import time
+from collections.abc import Callable
+
+Advance = Callable[[float], bool]
+
+
+def doubled(number: int, advance: Advance) -> int:
+    advance(0.5)
+    return 2 * number
+
+
+def refused(reason: str, advance: Advance) -> None:
+    raise ValueError(reason)
+
+
+def endless(advance: Advance) -> str:
+    while advance(0.25):
+        time.sleep(0.01)
+    return "left"
