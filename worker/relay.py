@@ -19,6 +19,7 @@ from storage.catalogue import Catalogue
 from storage.settings import Settings
 from worker.app import RUN_BLOCK, make_app
 from worker.bell import Doorman
+from worker.removal import remove_expired
 
 _DUTY = "relay"
 _DUTY_SECONDS = 5.0
@@ -50,6 +51,7 @@ class Relay:
                 _log.warning("block %s lost its worker and is queued again", block)
             for job in reaped.ended:
                 _log.error("job %s lost too many workers", job)
+            remove_expired(self._catalogue, self._settings)
         self.publish()
 
     def publish(self) -> None:

@@ -1,6 +1,6 @@
 """A job as the service describes it."""
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
@@ -60,6 +60,13 @@ class Job:
     def is_finished(self) -> bool:
         """Whether the state will not change any more."""
         return self.state in TERMINAL_STATES
+
+    def to_document(self) -> dict[str, Any]:
+        """Return the job as JSON takes it."""
+        return {
+            name: value.isoformat() if isinstance(value, datetime) else value
+            for name, value in asdict(self).items()
+        }
 
     @classmethod
     def from_document(cls, document: dict[str, Any]) -> Self:

@@ -7,6 +7,7 @@ import typer
 from jointplay.command_line import (
     batch,
     cancel,
+    delete,
     demo,
     export,
     ls,
@@ -38,6 +39,7 @@ application.command()(batch.batch)
 application.command()(ls.ls)
 application.command()(show.show)
 application.command()(cancel.cancel)
+application.command()(delete.delete)
 application.command()(export.export)
 application.command()(plot.plot)
 application.add_typer(scene.application, name="scene")

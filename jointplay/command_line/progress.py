@@ -5,6 +5,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from jointplay.command_line.pace import Pace, duration
+
 _QUIET = 5.0  # s between two plain lines: a log stays readable
 
 
@@ -44,11 +46,15 @@ def _bar(title: str) -> Iterator[Callable[[float, str], None]]:
 def _lines(title: str) -> Iterator[Callable[[float, str], None]]:
     last = time.monotonic()
     told = ""
+    pace = Pace()
 
     def report(fraction: float, note: str) -> None:
         nonlocal last, told
         now = time.monotonic()
+        pace.saw(fraction)
+        left = pace.seconds_left(fraction) if fraction < 1 else None
         line = f"{title}: {fraction:4.0%} {note}".rstrip()
+        line += "" if left is None else f", {duration(left)} left"
         finished = fraction >= 1 and line != told
         if finished or now - last >= _QUIET:
             sys.stderr.write(line + "\n")

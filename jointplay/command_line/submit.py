@@ -29,10 +29,13 @@ def submit(
     indicators: study_options.INDICATORS = None,
     continuation: study_options.CONTINUATION = None,
     chains: study_options.CHAINS = None,
+    anew: Annotated[
+        bool, typer.Option("--anew", help="Compute it even if an identical job is there.")
+    ] = False,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
-    """Queue a job at a service and print its id.
+    """Queue a job at a service and print its id; an identical one is not computed again.
 
     With --wait the exit code tells how the job ended: 0 succeeded, 3 failed, 4 cancelled.
 
@@ -66,6 +69,8 @@ def submit(
             chains=chains,
         ),
     )
+    if anew:
+        job["cache"] = False
     with connection.connect(url) as client:
         queued = client.submit(job)
         typer.echo(queued.id)

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.pace import Pace
 from jointplay.command_line.progress import progress
 
 if TYPE_CHECKING:
@@ -11,17 +12,25 @@ if TYPE_CHECKING:
 
 def wait_for(client: "Client", job_id: str, title: str) -> "Job":
     """Return the finished job; Ctrl-C stops the waiting, not the job."""
+    pace = Pace()
+
+    def show(job: "Job") -> None:
+        pace.saw(job.progress.fraction, job.progress.steps)
+        report(job.progress.fraction, job.activity or _note(job, pace))
+
     with progress(title) as report:
         try:
-            return client.wait(
-                job_id,
-                lambda job: report(
-                    job.progress.fraction, job.activity or f"{done_so_far(job)}, {job.state}"
-                ),
-            )
+            return client.wait(job_id, show)
         except KeyboardInterrupt:
             line = f"stopped waiting; the job goes on: jointplay show --wait {job_id}"
             raise Stopped(Exit.INTERRUPTED, line) from None
+
+
+def _note(job: "Job", pace: Pace) -> str:
+    parts = [done_so_far(job), job.state]
+    if not job.is_finished and pace.steps_per_second is not None:
+        parts.append(f"{pace.steps_per_second:.3g} steps/s")
+    return ", ".join(parts)
 
 
 def done_so_far(job: "Job") -> str:

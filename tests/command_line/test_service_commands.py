@@ -16,7 +16,8 @@ def at(service_url):
 
 
 def test_a_submitted_job_is_listed_shown_and_cancelled(jointplay, at):
-    submitted = jointplay("submit", "pendulum", "--duration", "1", "--label", "typed", *at)
+    typed = ["--duration", "1", "--label", "typed", "--anew"]
+    submitted = jointplay("submit", "pendulum", *typed, *at)
     assert submitted.code == 0
     job_id = submitted.out.strip()
     first = jointplay("ls", "-n", "1", *at).out
@@ -28,6 +29,30 @@ def test_a_submitted_job_is_listed_shown_and_cancelled(jointplay, at):
     assert (document["duration"], document["tolerance"]) == (1.0, 1e-6)
     for _ in range(2):
         assert jointplay("cancel", job_id, *at) == (0, f"{job_id}  cancelled\n", "")
+
+
+def test_jobs_are_listed_by_what_they_are_and_deleted(jointplay, at, worker):
+    job_id = worker.finished(label="to be found")
+    chosen = ["--state", "succeeded", "--kind", "simulate", "--scene", "seven-bar-press"]
+    chosen += ["--label", "to be found", "--since", "2020-01-01"]
+    listed = jointplay("ls", *chosen, "--json", *at)
+    job = json.loads(listed.out)
+    assert (job["id"], job["state"], job["progress"]["fraction"]) == (job_id, "succeeded", 1.0)
+    assert jointplay("ls", *chosen, "--before", "2020-01-01", *at).out == ""
+    wrong = jointplay("ls", "--state", "asleep", *at)
+    assert wrong.code == 2
+    assert "state" in wrong.line()
+    assert jointplay("delete", job_id, *at) == (0, f"{job_id}  deleted\n", "")
+    again = jointplay("delete", job_id, *at)
+    assert again.code == 2
+    assert "expired or was deleted" in again.line()
+
+
+def test_an_identical_job_is_computed_again_only_if_that_is_asked_for(jointplay, at):
+    job = ["submit", "pendulum", "--duration", "0.8125", *at]
+    first = jointplay(*job).out
+    assert jointplay(*job).out == first
+    assert jointplay(*job, "--anew").out != first
 
 
 def test_a_finished_job_is_shown_with_its_peaks(jointplay, at, finished_job):

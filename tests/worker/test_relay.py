@@ -122,3 +122,18 @@ def test_without_redis_a_wait_is_just_a_wait() -> None:
         doorman.wait(0.2)
     Bell("unix:///nowhere.sock").ring()
     assert 0.2 <= time.monotonic() - began < 10
+
+
+def test_the_results_of_deleted_jobs_are_removed(
+    relay: Relay, catalogue: Catalogue, settings: Settings
+) -> None:
+    deleted, kept = (catalogue.submit(NEW).job.id for _ in range(2))
+    for job in (deleted, kept):
+        catalogue.request_cancel(job)
+        settings.result_folder(job, 1).mkdir(parents=True)
+    catalogue.delete(deleted)
+    relay.turn()
+    assert not settings.job_folder(deleted).exists()
+    assert settings.result_folder(kept, 1).exists()
+    assert catalogue.get(deleted).removed is not None
+    assert catalogue.removable(10) == ()

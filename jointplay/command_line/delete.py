@@ -1,0 +1,21 @@
+"""``jointplay delete``: remove a finished job of a service."""
+
+from typing import Annotated
+
+import typer
+
+from jointplay.command_line import connection
+
+
+def delete(
+    job_ids: Annotated[list[str], typer.Argument(metavar="ID...", help="Ids of finished jobs.")],
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Delete finished jobs and their results; there is no way back.
+
+    Example: `jointplay delete 01M7YCD368E9VM5RM0B9JY3SGA`
+    """
+    with connection.connect(url) as client:
+        for job_id in job_ids:
+            client.delete(job_id)
+            typer.echo(f"{job_id}  deleted")

@@ -1,0 +1,27 @@
+"""Removing what expired or deleted jobs have computed."""
+
+import logging
+import shutil
+
+from storage.catalogue import Catalogue
+from storage.settings import Settings
+
+_AT_ONCE = 50
+_log = logging.getLogger(__name__)
+
+
+def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
+    """Remove the folders of some expired jobs; what cannot be removed is tried again."""
+    removed = []
+    for job in catalogue.removable(_AT_ONCE):
+        try:
+            shutil.rmtree(settings.job_folder(job))
+        except FileNotFoundError:
+            pass  # it ended before it computed anything
+        except OSError as error:
+            _log.warning("the results of job %s cannot be removed: %s", job, error)
+            continue
+        removed.append(job)
+    if removed:
+        catalogue.mark_removed(removed)
+        _log.info("removed the results of %s expired jobs", len(removed))
