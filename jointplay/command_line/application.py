@@ -6,6 +6,7 @@ import typer
 
 from jointplay.command_line import (
     batch,
+    calibrate,
     cancel,
     delete,
     demo,
@@ -31,6 +32,7 @@ application = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 application.command("run")(run_locally.run)
+application.command()(calibrate.calibrate)
 application.command()(demo.demo)
 application.command()(reproduce.reproduce)
 application.command()(serve.serve)

@@ -1,0 +1,132 @@
+"""``jointplay calibrate``: parameters of a scene that give the numbers somebody measured."""
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jointplay.command_line import job_document
+from jointplay.command_line.calibration_options import calibration_document
+from jointplay.command_line.exits import Exit, Stopped
+
+if TYPE_CHECKING:
+    from solver.calibration.outcome import Outcome
+    from solver.calibration.problem import Calibration
+
+
+def calibrate(
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE.json|SCENE.json|PRESET",
+            help="A calibration, or what one left (it is repeated); a scene with options.",
+        ),
+    ],
+    settings: job_document.SET = None,
+    fit: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=MIN:MAX[:log]", help="A parameter that may move; repeat it for others."
+        ),
+    ] = None,
+    target: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CHANNEL[:STATISTIC][@FROM:TO]=VALUE",
+            help="What a channel shall give, by default its maximum; else what the scene reports.",
+        ),
+    ] = None,
+    duration: Annotated[
+        float | None, typer.Option(metavar="SECONDS", help="End of windows that are left open.")
+    ] = None,
+    tolerance: job_document.TOLERANCE = None,
+    population: Annotated[int | None, typer.Option(help="Candidates a parameter.")] = None,
+    generations: Annotated[int | None, typer.Option(help="Most generations of the search.")] = None,
+    seed: Annotated[int | None, typer.Option(help="The same seed finds the same.")] = None,
+    factor: Annotated[
+        float | None, typer.Option(help="How many times the best cost is equally good.")
+    ] = None,
+    processes: Annotated[
+        int | None, typer.Option(min=1, max=1024, help="Default one for each core.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the JSON there.")
+    ] = None,
+    preset_out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the scene with what was found as defaults."),
+    ] = None,
+) -> None:
+    """Fit parameters of a scene to peaks, times and ranges that are known of it.
+
+    Finds what fits best and, since impacts make that a rough question, the spread of what fits
+    equally well.  The tables show targets beside what was fitted, and how far each parameter is
+    known.  The same document and seed give the same, whatever the processes.
+
+    Examples: `jointplay calibrate calibration.json -o found.json --preset-out fitted.json`,
+    `jointplay calibrate seven-bar-press --fit stiffness=1e8:1e11:log --set clearance=5e-4
+    --target A.normal_force@0:0.012=1020`
+    """
+    from solver.calibration.problem import admit_calibration
+
+    calibration = admit_calibration(
+        calibration_document(
+            source,
+            settings=settings or (),
+            fits=fit or (),
+            targets=target or (),
+            duration=duration,
+            search={"population": population, "generations": generations, "seed": seed},
+            spread={"factor": factor},
+            tolerance=tolerance,
+        )
+    )
+    outcome = _compute(calibration, processes)
+    _write(outcome, output, preset_out)
+    if as_json:
+        typer.echo(_json(outcome.document()))
+        return
+    from jointplay.command_line.calibration_table import lines
+
+    for line in lines(outcome):
+        typer.echo(line)
+
+
+def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
+    from concurrent.futures.process import BrokenProcessPool
+
+    from jointplay.command_line.progress import progress
+
+    with progress("calibrate") as report:
+        report(0.0, "preparing the kernels")
+        from solver.calibration import calibrate as search
+        from solver.calibration.processes import cores, measures
+
+        try:
+            with measures(calibration, processes or cores()) as (fitted, every):
+                outcome = search.calibrate(calibration, fitted, every, report)
+        except search.NothingFits as nothing:
+            raise Stopped(Exit.FAILED, str(nothing)) from None
+        except BrokenProcessPool:
+            line = "a process that computed candidates died; nothing was found"
+            raise Stopped(Exit.FAILED, line) from None
+        report(1.0, f"{len(outcome.found.costs) + outcome.good.tried} candidates")
+    return outcome
+
+
+def _write(outcome: "Outcome", output: Path | None, preset_out: Path | None) -> None:
+    if output is not None:
+        output.write_text(_json(outcome.document()) + "\n")
+    if preset_out is not None:
+        from solver.calibration.fitted_scene import fitted_scene
+
+        name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
+        preset_out.write_text(_json(fitted_scene(outcome, name)) + "\n")
+
+
+def _json(document: dict[str, Any]) -> str:
+    import json
+
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)

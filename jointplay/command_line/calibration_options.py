@@ -1,0 +1,138 @@
+"""A calibration's document from what was typed: a file, or a scene and options."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from jointplay.command_line import job_document
+from jointplay.command_line.exits import Exit, Stopped
+
+_STATISTICS = ("maximum", "minimum", "range", "maximum_time", "minimum_time")
+
+
+def calibration_document(
+    source: str,
+    *,
+    settings: Sequence[str],
+    fits: Sequence[str],
+    targets: Sequence[str],
+    duration: float | None,
+    search: dict[str, Any],
+    spread: dict[str, Any],
+    tolerance: float | None,
+) -> dict[str, Any]:
+    """Return the calibration that ``source`` and the options describe; nothing is checked yet.
+
+    Parameters
+    ----------
+    source
+        Path of a calibration, of what one left (it is repeated), or of a scene; or a preset.
+    settings
+        ``name=value`` for parameters of the scene.
+    fits
+        ``name=min:max`` or ``name=min:max:log``.
+    targets
+        ``channel=value``, ``channel:statistic@from:to=value``; none: what the scene's source
+        reports.
+    duration
+        End of the windows that targets leave open, s.
+    search, spread
+        Fields of the document's parts of the same name; those that are None are left as they are.
+    """
+    free = dict(map(_fit, fits))
+    whole = _whole(source)
+    given = job_document.job_document(source, settings=settings, options={})
+    if whole:
+        document = given.get("calibration", given)
+        if settings and document is not given:
+            line = f"{source} is what a calibration left; --set would make another one of it."
+            raise Stopped(Exit.BAD_INPUT, line)
+        if targets:
+            line = f"{source} has its targets already; --target makes them for a scene or a preset."
+            raise Stopped(Exit.BAD_INPUT, line)
+    else:
+        document = {"kind": "calibration", "scene": given["scene"], "parameters": {}}
+        document["cases"] = _cases(given["scene"], targets, duration)
+    if not isinstance(document, dict):
+        raise Stopped(Exit.BAD_INPUT, f"{source}: 'calibration' is a JSON object.")
+    if free:
+        parameters = document.get("parameters")
+        document["parameters"] = {
+            **(parameters if isinstance(parameters, dict) else {}),
+            **free,
+        }
+    if not document.get("parameters"):
+        line = "Nothing may move: give --fit NAME=MIN:MAX, such as stiffness=1e8:1e11:log."
+        raise Stopped(Exit.BAD_INPUT, line)
+    for part, fields in (("search", search), ("spread", spread)):
+        changed = {name: value for name, value in fields.items() if value is not None}
+        before = document.get(part, {})
+        if changed and isinstance(before, dict):
+            document[part] = before | changed
+    if tolerance is not None:
+        document.pop("accuracy", None)
+        document["tolerance"] = tolerance
+    return document
+
+
+def _whole(source: str) -> bool:
+    """Tell whether ``source`` is a document that is no scene."""
+    return Path(source).is_file() and not job_document.is_scene_file(source)
+
+
+def _cases(
+    scene: dict[str, Any], targets: Sequence[str], duration: float | None
+) -> list[dict[str, Any]]:
+    from solver import presets
+    from solver.calibration.reported import reported_cases
+
+    if targets:
+        return [{"targets": [_target(text, duration) for text in targets]}]
+    written = presets.document(scene["preset"]) if "preset" in scene else scene
+    cases = reported_cases(written)
+    if not cases:
+        line = "The scene reports no numbers: give --target, such as A.normal_force@0:0.01=500."
+        raise Stopped(Exit.BAD_INPUT, line)
+    return cases
+
+
+def _fit(text: str) -> tuple[str, dict[str, object]]:
+    name, equals, bounds = text.partition("=")
+    parts = bounds.split(":")
+    if not (name and equals) or len(parts) not in (2, 3) or parts[2:] not in ([], ["log"]):
+        line = f"--fit {text}: write NAME=MIN:MAX, and :log after it for equal ratios."
+        raise Stopped(Exit.BAD_INPUT, line)
+    low, high = (_number("--fit", part) for part in parts[:2])
+    spacing = {"spacing": "log"} if parts[2:] else {}
+    return name, {"minimum": low, "maximum": high, **spacing}
+
+
+def _target(text: str, duration: float | None) -> dict[str, object]:
+    """Return the target of ``channel[:statistic][@from:to]=value``."""
+    place, equals, value = text.partition("=")
+    place, at, window = place.partition("@")
+    channel, colon, statistic = place.partition(":")
+    start, _, stop = window.partition(":") if at else ("", "", "")
+    if not (channel and equals and value) or (colon and statistic not in _STATISTICS):
+        line = (
+            f"--target {text}: write CHANNEL=VALUE, such as A.normal_force@0:0.01=500; after the"
+            f" channel may come :{', :'.join(_STATISTICS[1:])}."
+        )
+        raise Stopped(Exit.BAD_INPUT, line)
+    if not stop and duration is None:
+        line = f"--target {text}: give the window as CHANNEL@FROM:TO=VALUE, or a --duration."
+        raise Stopped(Exit.BAD_INPUT, line)
+    return {
+        "channel": channel,
+        "statistic": statistic or "maximum",
+        "from": _number("--target", start) if start else 0.0,
+        "to": _number("--target", stop) if stop else duration,
+        "value": _number("--target", value),
+    }
+
+
+def _number(option: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise Stopped(Exit.BAD_INPUT, f"{option}: {text!r} is not a number.") from None

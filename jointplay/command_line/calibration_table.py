@@ -1,0 +1,118 @@
+"""What a calibration found, as tables and sentences."""
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from solver.calibration.outcome import Outcome
+
+ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a fit
+TOGETHER = 0.8  # correlation from which parameters are said to make up for one another
+
+
+def lines(outcome: "Outcome") -> Iterator[str]:
+    """Yield the targets beside what was fitted, the parameters with their spread, and notes."""
+    document = outcome.document()
+    targets, parameters = document["targets"], document["parameters"]
+    yield from aligned([_TARGET_HEAD, *map(_target_row, targets)])
+    yield ""
+    yield from aligned([_PARAMETER_HEAD, *map(_parameter_row, parameters)])
+    yield ""
+    yield from _notes(document)
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the rows with their cells below one another."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
+
+
+_TARGET_HEAD = (
+    "case",
+    "target",
+    "window [s]",
+    "wanted",
+    "fitted",
+    "miss",
+    "equally good",
+    "rough",
+    "",
+)
+
+
+def _target_row(target: dict[str, Any]) -> tuple[str, ...]:
+    wanted = target["between"]
+    shown = (
+        f"{target['value']:g}"
+        if wanted is None
+        else " to ".join("..." if value is None else f"{value:g}" for value in wanted)
+    )
+    rough = target["roughness"]
+    return (
+        target["case"],
+        f"{target['statistic'].replace('_', ' ')} of {target['channel']} [{target['unit']}]",
+        f"{target['from']:g} to {target['to']:g}",
+        shown,
+        _number(target["fitted"]),
+        "none" if target["miss"] is None else f"{target['miss']:+.2f}",
+        f"{_number(target['lowest'])} to {_number(target['highest'])}",
+        "none" if rough is None else f"{rough:.2f}" + ("!" if rough > ROUGH else ""),
+        "" if target["weight"] > 0 else "not fitted",
+    )
+
+
+_PARAMETER_HEAD = ("parameter", "fitted", "unit", "5 % to 95 %", "lowest to highest", "")
+
+
+def _parameter_row(parameter: dict[str, Any]) -> tuple[str, ...]:
+    quantiles = parameter["quantiles"]
+    ends = " and ".join(parameter["open_ends"])
+    return (
+        parameter["name"],
+        f"{parameter['best']:g}",
+        parameter["unit"],
+        f"{quantiles['0.05']:.3g} to {quantiles['0.95']:.3g}",
+        f"{parameter['lowest']:.3g} to {parameter['highest']:.3g}",
+        f"reaches its {ends}: the targets set no end there" if ends else "",
+    )
+
+
+def _notes(document: dict[str, Any]) -> Iterator[str]:
+    search, limit = document["search"], document["equally_good_cost"]
+    factor = document["calibration"]["spread"]["factor"]
+    yield (
+        f"cost {document['cost']:.3g}: the root mean square of the misses, in tolerances; up to"
+        f" {limit:.3g} ({factor:g} times the best, or 1) fits equally well"
+    )
+    yield from _pairs(document["correlation"])
+    rough = [t for t in document["targets"] if (t["roughness"] or 0.0) > ROUGH]
+    if rough:
+        yield (
+            f"impacts make {len(rough)} of the targets rough (!): they change by more than"
+            f" {ROUGH:g} tolerances between parameters that differ by a ten-thousandth of their"
+            " range, so no fit can be sharper than that"
+        )
+    if not search["settled"]:
+        yield (
+            f"the search ended after {search['generations']} generations, before its candidates"
+            " had become alike; more generations may find better"
+        )
+    if search["failed"]:
+        yield f"{search['failed']} of {search['candidates']} candidates could not be computed"
+
+
+def _pairs(correlation: dict[str, Any]) -> Iterator[str]:
+    names, matrix = correlation["parameters"], correlation["matrix"]
+    for i, first in enumerate(names):
+        for j in range(i):
+            if abs(matrix[i][j]) >= TOGETHER:
+                yield (
+                    f"{names[j]} and {first} make up for one another (correlation"
+                    f" {matrix[i][j]:.2f}): the targets fix one combination of them, not each"
+                )
+
+
+def _number(value: float | None) -> str:
+    return "none" if value is None else f"{value:.5g}"

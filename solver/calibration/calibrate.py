@@ -1,0 +1,100 @@
+"""The whole of a calibration: search, spread, and a close look at the best."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.calibration.measure import Measure
+from solver.calibration.outcome import Outcome
+from solver.calibration.problem import Calibration
+from solver.calibration.search import Found, Report, search
+from solver.calibration.spread import CHAINS, EquallyGood, spread
+
+Floats = NDArray[np.float64]
+
+NEIGHBOURS, NEAR = 16, 1e-4
+"""Candidates around the best, and how far they are, in ranges of the parameters."""
+COARSER = 1.01
+"""Times the cost that rounding the best may make of it."""
+
+
+class NothingFits(Exception):
+    """No candidate of the search could be computed."""
+
+
+def calibrate(calibration: Calibration, fitted: Measure, every: Measure, report: Report) -> Outcome:
+    """Find the parameters that fit, and the spread of what fits equally well.
+
+    Parameters
+    ----------
+    fitted, every
+        Measure the targets that are fitted, and all of them.
+    report
+        Called with the fraction that is done, and a few words.
+
+    Raises
+    ------
+    NothingFits
+        Every run of the search failed.
+    """
+    job, space, goals = calibration.job, calibration.space, calibration.goals
+
+    def cost(unit: Floats) -> Floats:
+        return goals.costs(fitted(space.values(unit)))
+
+    bred = job.search.generations * job.search.population * len(space.names)
+    share = bred / (bred + CHAINS * job.spread.generations)
+
+    found = search(
+        cost, len(space.names), job.search, lambda done, note: report(share * done, note)
+    )
+    if not np.isfinite(found.cost):
+        raise NothingFits(
+            "No candidate could be computed: every run failed. Narrow the bounds of the"
+            " parameters, or ask for a larger tolerance."
+        )
+    good = spread(
+        cost,
+        found,
+        equally_good(calibration, found.cost),
+        job.spread.generations,
+        calibration.seed,
+        lambda done, note: report(share + (1.0 - share) * done, note),
+    )
+    return _outcome(calibration, found, good, every)
+
+
+def equally_good(calibration: Calibration, best: float) -> float:
+    """Return the highest cost that is as good as the best: a factor of it, or the tolerances."""
+    return max(calibration.job.spread.factor * best, 1.0)
+
+
+def _outcome(calibration: Calibration, found: Found, good: EquallyGood, every: Measure) -> Outcome:
+    space, goals = calibration.space, calibration.goals
+    lowest = int(good.costs.argmin())
+    unit, cost = found.best, found.cost
+    if good.costs[lowest] < cost:
+        unit, cost = good.members[lowest], float(good.costs[lowest])
+        good = good.within(equally_good(calibration, cost))
+    generator = np.random.default_rng([calibration.seed, 2])
+    chosen = np.sort(generator.choice(len(good.members), min(CHAINS, len(good.members)), False))
+    around = unit + NEAR * generator.uniform(-1.0, 1.0, (NEIGHBOURS, len(unit)))
+    exact = space.values(unit)
+    members = space.values(good.members[chosen])
+    values = every(np.concatenate([[exact, space.rounded(exact)], space.values(around), members]))
+    costs = goals.costs(values)
+    row = 1 if costs[1] <= COARSER * costs[0] else 0
+    near, far = values[2 : 2 + NEIGHBOURS], values[2 + NEIGHBOURS :]
+    return Outcome(
+        calibration,
+        found,
+        good,
+        space.rounded(exact) if row else exact,
+        float(costs[row]),
+        values[row],
+        far.min(axis=0),
+        far.max(axis=0),
+        (near.max(axis=0) - near.min(axis=0)) / goals.tolerance,
+        members,
+    )

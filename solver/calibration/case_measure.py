@@ -1,0 +1,198 @@
+"""What candidates give in one case: each is a run, eight of them to a kernel.
+
+Lanes do not touch each other, so what a candidate gives depends on nothing but the candidate.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.assembly import assemble
+from solver.calibration.problem import Calibration, CheckedCase
+from solver.calibration.windows import Windows
+from solver.compile_loop import ready_kernel
+from solver.compiler.kernel import Kernel
+from solver.compiler.layout import LANES
+from solver.errors import Problem
+from solver.lanes.account import peaks_of
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem, LaneStart
+from solver.lanes.start import start_state
+from solver.lanes.state import Counter, Status
+from solver.results import Peak
+from solver.scene.document import Scene
+from solver.study.fields import geometry_columns, structure_columns
+from solver.study.scenes import PointScenes
+
+Floats = NDArray[np.float64]
+
+BUDGET = 20_000
+"""Attempted steps between two looks at the lanes."""
+MOVING = ("/drivers/", "/start/")
+"""Parts of a scene, beside its geometry, that decide how it starts."""
+
+
+@dataclass(eq=False)
+class _Run:
+    """A candidate in a case, in its lane."""
+
+    row: int
+    scene: Scene
+    columns: NDArray[np.int64]
+    """Rows of the kernel's channel block that are read off the grid."""
+    stops: int = 0
+    """That it has come to."""
+    legs: list[dict[str, Peak]] = field(default_factory=list)
+    samples: list[Floats] = field(default_factory=list)
+
+
+class CaseMeasure:
+    """Measures candidates in one case."""
+
+    def __init__(self, calibration: Calibration, case: CheckedCase, chosen: list[int]) -> None:
+        """Look only at the chosen targets, by their index in the case."""
+        self.case = case
+        self.chosen = chosen
+        self.windows = Windows([case.targets[index] for index in chosen])
+        self.tolerance = calibration.tolerance
+        self.most_steps = calibration.job.search.most_steps
+        self.formulation = str(calibration.document["formulation"])
+        self.scenes = case.study.scenes
+        self.same_start = not list(geometry_columns(self.scenes)) and not any(
+            leaf.path.startswith(MOVING) for leaf in self.scenes.leaves
+        )
+        """Whether all candidates start alike."""
+        self._bundles: dict[tuple[int, ...], Bundle] = {}
+        self._starts: dict[tuple[int, ...], LaneStart] = {}
+
+    def prepare(self) -> list[Problem]:
+        """Compile what the first candidates need; return targets that cannot be measured."""
+        scene = self.case.study.point_scene(0)
+        rows = self._kernel(_forms(self.scenes)[0], scene).rows
+        return [
+            Problem(
+                f"/targets/{index}/channel",
+                f"'{target.channel}' follows from the drivers alone: no extreme of it is sought"
+                " in a window of time. Choose a channel that the motion decides.",
+            )
+            for index, target in zip(self.chosen, self.windows.targets, strict=True)
+            if target.channel not in rows.watched and target.channel not in rows.multiples
+        ]
+
+    def __call__(self, candidates: Floats) -> Floats:
+        """Return the values of the chosen targets (n, chosen); not numbers where a run failed."""
+        out = np.full((len(candidates), len(self.chosen)), np.nan)
+        scenes = PointScenes(self.scenes.base, self.scenes.leaves, candidates)
+        groups: dict[tuple[int, ...], list[int]] = {}
+        for row, form in enumerate(_forms(scenes)):
+            groups.setdefault(form, []).append(row)
+        for form, rows in groups.items():
+            kernel = self._kernel(form, scenes.scene(rows[0]))
+            columns = np.array([kernel.rows.index(n) for n in self.windows.read], np.int64)
+            runs = (_Run(row, scenes.scene(row), columns) for row in rows)
+            for run in self._computed(self._bundles[form], form, runs):
+                out[run.row] = self.windows.values(run.legs, _stacked(run, len(columns)))
+        return out
+
+    def _kernel(self, form: tuple[int, ...], scene: Scene) -> Kernel:
+        if form not in self._bundles:
+            kernel = ready_kernel(scene, self.formulation)
+            self._bundles[form] = Bundle(kernel, watch=bool(self.windows.watched))
+        return self._bundles[form].kernel
+
+    def _computed(
+        self, bundle: Bundle, form: tuple[int, ...], runs: Iterable[_Run]
+    ) -> Iterator[_Run]:
+        """Yield the runs that came to their end, in the order in which they did."""
+        waiting = deque(runs)
+        lanes: list[_Run | None] = [None] * LANES
+        while waiting or any(lanes):
+            for lane in range(LANES):
+                if lanes[lane] is None and waiting:
+                    begun = lanes[lane] = waiting.popleft()
+                    bundle.load(lane, self._problem(bundle.kernel, form, begun.scene))
+            bundle.advance(BUDGET)
+            for lane, run in enumerate(lanes):
+                if run is None:
+                    continue
+                self._read(bundle, lane, run)
+                status = Status(bundle.counters[Counter.STATUS, lane])
+                costly = self._steps(bundle, lane) > self.most_steps
+                if status == Status.RUNNING:
+                    if not costly:
+                        continue
+                    _abandon(bundle, lane)
+                elif status == Status.DONE and not costly:
+                    if self._goes_on(bundle, lane, run):
+                        continue
+                    yield run
+                lanes[lane] = None
+
+    def _goes_on(self, bundle: Bundle, lane: int, run: _Run) -> bool:
+        """Take what a leg gave, at its end; whether there was a next stop to go to."""
+        run.stops += 1
+        ended = run.stops % 2 == 0
+        if ended:
+            run.legs.append(peaks_of(bundle, lane, self.windows.watched))
+        if run.stops == len(self.windows.stops):
+            return False
+        bundle.extend(lane, self.windows.stops[run.stops], 0, forget=ended)
+        return True
+
+    @staticmethod
+    def _steps(bundle: Bundle, lane: int) -> int:
+        """Return the attempts of a lane: its own, whatever the other lanes do."""
+        return int(bundle.table("steps")[0, lane] + bundle.counters[Counter.REJECTIONS, lane])
+
+    def _problem(self, kernel: Kernel, form: tuple[int, ...], scene: Scene) -> LaneProblem:
+        windows = self.windows
+        return LaneProblem(
+            scene,
+            windows.stops[0],
+            self.tolerance,
+            windows.step or windows.legs[-1],
+            windows.samples,
+            0,
+            0.0,
+            start=self._start(kernel, form, scene),
+        )
+
+    def _start(self, kernel: Kernel, form: tuple[int, ...], scene: Scene) -> LaneStart:
+        """Return the scene's own start, from the same assembly as long as geometry stays."""
+        if form in self._starts:
+            return self._starts[form]
+        assembly = assemble(scene)
+        state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+        start = LaneStart(np.concatenate(state))
+        if self.same_start:
+            self._starts[form] = start
+        return start
+
+    def _read(self, bundle: Bundle, lane: int, run: _Run) -> None:
+        """Observe the samples that a lane has handed out."""
+        rows = bundle.sample_rows[lane, : bundle.counters[Counter.SAMPLE_ROWS, lane]]
+        if len(rows) and len(run.columns):
+            run.samples.append(bundle.observe(lane, rows, run.columns))
+
+
+def _abandon(bundle: Bundle, lane: int) -> None:
+    """Take a lane out of the running, as the driving loop does at its own limit of steps."""
+    bundle.counters[Counter.STATUS, lane] = Status.STEP_LIMIT
+    bundle.table("active")[0, lane] = bundle.table("accept")[0, lane] = 0.0
+
+
+def _forms(scenes: PointScenes) -> list[tuple[int, ...]]:
+    """Return what tells the structure of each candidate within its case."""
+    columns = list(structure_columns(scenes))
+    if not columns:
+        return [()] * len(scenes.values)
+    return [tuple(row) for row in np.stack(columns, axis=1).tolist()]
+
+
+def _stacked(run: _Run, columns: int) -> Floats:
+    return np.concatenate(run.samples) if run.samples else np.empty((0, columns))

@@ -1,0 +1,130 @@
+"""The calibration document: which parameters may move, and which numbers they shall give."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from solver.jobs.job import Job
+from solver.jobs.values import UNIT
+from solver.scene.quantities import Name, Strict
+
+Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
+SECONDS = {"unit": "s"}
+CHANNEL_UNIT = {"unit": "the channel's unit, or s of a time"}
+
+
+class FreeParameter(Strict):
+    """A declared parameter that may move between two bounds."""
+
+    minimum: Annotated[float, Field(json_schema_extra=UNIT)]
+    maximum: Annotated[float, Field(json_schema_extra=UNIT)]
+    spacing: Annotated[
+        Literal["linear", "log"],
+        Field(description="log: equal ratios count the same, for bounds above zero"),
+    ] = "linear"
+
+
+class CalibrationTarget(Strict):
+    """One number that a channel shall give in a window of time; one of `value` and `between`."""
+
+    channel: Annotated[str, Field(min_length=1, max_length=80)]
+    statistic: Annotated[
+        Statistic, Field(description="range: maximum less minimum; a time counts from the start")
+    ] = "maximum"
+    start: Annotated[float, Field(alias="from", ge=0.0, le=1e12, json_schema_extra=SECONDS)] = 0.0
+    stop: Annotated[float, Field(alias="to", gt=0.0, le=1e12, json_schema_extra=SECONDS)]
+    value: Annotated[float | None, Field(json_schema_extra=CHANNEL_UNIT)] = None
+    between: Annotated[
+        list[float | None] | None,
+        Field(
+            min_length=2,
+            max_length=2,
+            description="lowest and highest value that are as good as any; null: no limit there",
+            json_schema_extra=CHANNEL_UNIT,
+        ),
+    ] = None
+    sampled: Annotated[
+        float | None,
+        Field(
+            gt=0.0,
+            description="the source read the channel only at multiples of this; so do we, then",
+            json_schema_extra=SECONDS,
+        ),
+    ] = None
+    relative_tolerance: Annotated[
+        float | None,
+        Field(
+            gt=0.0,
+            le=10.0,
+            description="what counts as a miss of one, as a share of the value; default 0.05",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = None
+    absolute_tolerance: Annotated[
+        float | None,
+        Field(gt=0.0, description="the same in its unit", json_schema_extra=CHANNEL_UNIT),
+    ] = None
+    weight: Annotated[
+        float,
+        Field(
+            ge=0.0,
+            le=1e6,
+            description="0: shown beside what the fit gives, but not fitted",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = 1.0
+    note: Annotated[str, Field(max_length=300)] = ""
+
+
+class CalibrationCase(Strict):
+    """One setting of the scene's parameters under which numbers are known."""
+
+    name: Annotated[str, Field(max_length=80)] = ""
+    parameters: Annotated[dict[Name, float | str | None], Field(max_length=64)] = {}
+    targets: Annotated[list[CalibrationTarget], Field(min_length=1, max_length=256)]
+
+
+class Search(Strict):
+    """How long is searched: differential evolution, from a Latin hypercube."""
+
+    population: Annotated[
+        int,
+        Field(ge=2, le=1000, description="candidates a parameter", json_schema_extra={"unit": "1"}),
+    ] = 15
+    generations: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "1"})] = 60
+    seed: Annotated[int, Field(ge=0, lt=2**63, json_schema_extra={"unit": "1"})] = 0
+    most_steps: Annotated[
+        int,
+        Field(
+            ge=100,
+            le=10**9,
+            description="of a run: one that needs more counts as failed, so that none holds up all",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = 200_000
+
+
+class Spread(Strict):
+    """What counts as fitting equally well, and how long is looked for more of it."""
+
+    factor: Annotated[
+        float,
+        Field(
+            ge=1.0,
+            le=100.0,
+            description="a cost up to this times the best, or up to 1 (the tolerances), is as good",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = 1.2
+    generations: Annotated[int, Field(ge=2, le=10_000, json_schema_extra={"unit": "1"})] = 60
+
+
+class CalibrationJob(Job):
+    """Parameters to be found, so that the cases give their targets."""
+
+    kind: Literal["calibration"]
+    description: Annotated[str, Field(max_length=2000)] = ""
+    parameters: Annotated[dict[Name, FreeParameter], Field(min_length=1, max_length=6)]
+    cases: Annotated[list[CalibrationCase], Field(min_length=1, max_length=64)]
+    search: Search = Search()
+    spread: Spread = Spread()

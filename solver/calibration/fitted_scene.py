@@ -1,0 +1,64 @@
+"""The scene with what was found as its defaults, each marked as inferred, with its spread."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from pydantic import ValidationError
+
+from solver.calibration.outcome import Outcome
+from solver.errors import InvalidInput
+from solver.jobs import PresetScene
+from solver.scene.document import Scene
+from solver.scene.sentences import schema_problems
+
+LONGEST_HELP = 300
+LONGEST_DESCRIPTION = 2000
+
+
+def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
+    """Return the scene document of that name.
+
+    What the calibration set in its scene becomes a default, too, since the fit holds with it.
+
+    Raises
+    ------
+    InvalidInput
+        The name is none that a scene may have.
+    """
+    calibration = outcome.calibration
+    document = copy.deepcopy(calibration.scene_document)
+    document["name"] = name
+    given = (
+        calibration.job.scene.parameters if isinstance(calibration.job.scene, PresetScene) else {}
+    )
+    for parameter, value in given.items():
+        document["parameters"][parameter]["default"] = value
+    quantiles = outcome.quantiles()
+    for k, parameter in enumerate(calibration.space.names):
+        declared = document["parameters"][parameter]
+        told = f" Fitted; 90 % of what fits equally well: {quantiles[0, k]:.3g} to "
+        told += f"{quantiles[-1, k]:.3g}."
+        declared["help"] = declared["help"][: LONGEST_HELP - len(told)] + told
+        declared["default"] = float(outcome.best[k])
+        declared["inferred"] = True
+    told = f" {', '.join(calibration.space.names)}: inferred, by a fit to {_targets(outcome)}"
+    told += f" (root mean square of the misses {outcome.cost:.2g} tolerances)."
+    if calibration.job.description:
+        told += f" {calibration.job.description}"
+    said = document.get("description", "")
+    document["description"] = (said + told)[:LONGEST_DESCRIPTION]
+    try:
+        Scene.model_validate(document)
+    except ValidationError as error:
+        raise InvalidInput(schema_problems(error, Scene)) from None
+    return document
+
+
+def _targets(outcome: Outcome) -> str:
+    fitted = [
+        target for case in outcome.calibration.cases for target in case.targets if target.weight > 0
+    ]
+    channels = ", ".join(dict.fromkeys(target.channel for target in fitted))
+    return f"{len(fitted)} number{'s' if len(fitted) > 1 else ''} of {channels}"

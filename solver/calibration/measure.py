@@ -1,0 +1,60 @@
+"""What candidates give in all cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.calibration.case_measure import CaseMeasure
+from solver.calibration.problem import Calibration
+from solver.errors import InvalidInput, Problem
+
+Floats = NDArray[np.float64]
+Measure = Callable[[Floats], Floats]
+"""Takes candidates (n, parameters), returns the values of all targets (n, targets)."""
+
+
+class Measurement:
+    """Measures candidates in all cases."""
+
+    def __init__(self, calibration: Calibration, *, every: bool) -> None:
+        """Look at every target, or only at those that are fitted."""
+        self.cases: list[CaseMeasure] = []
+        self.columns: list[list[int]] = []
+        """Of each case: where its values stand among all targets."""
+        self.indices: list[int] = []
+        self.count = 0
+        for index, case in enumerate(calibration.cases):
+            chosen = [i for i, target in enumerate(case.targets) if every or target.weight > 0.0]
+            if chosen:
+                self.cases.append(CaseMeasure(calibration, case, chosen))
+                self.columns.append([self.count + number for number in chosen])
+                self.indices.append(index)
+            self.count += len(case.targets)
+
+    def prepare(self) -> None:
+        """Compile what the first candidates need, and refuse what cannot be measured.
+
+        Raises
+        ------
+        InvalidInput
+            A channel that drivers prescribe.
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
+        problems = [
+            Problem(f"/cases/{index}{problem.pointer}", problem.detail)
+            for index, case in zip(self.indices, self.cases, strict=True)
+            for problem in case.prepare()
+        ]
+        if problems:
+            raise InvalidInput(problems)
+
+    def __call__(self, candidates: Floats) -> Floats:
+        """Return (n, targets): not numbers where a run failed or a target is not looked at."""
+        out = np.full((len(candidates), self.count), np.nan)
+        for case, columns in zip(self.cases, self.columns, strict=True):
+            out[:, columns] = case(candidates)
+        return out

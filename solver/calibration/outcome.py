@@ -1,0 +1,160 @@
+"""What a calibration found: the best candidate, the spread around it, and every target's value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.calibration.problem import Calibration
+from solver.calibration.search import Found
+from solver.calibration.spread import EquallyGood
+from solver.version import SOLVER_VERSION
+
+Floats = NDArray[np.float64]
+
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+AT_BOUND = 0.02
+"""Share of a parameter's range: a spread that comes so close to a bound has no end there."""
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What fits best, and what fits equally well.
+
+    Attributes
+    ----------
+    best : (parameters,) float
+        In the unit of each, rounded to a few digits.
+    cost : float
+        Of the best as rounded: root mean square of the misses in tolerances.
+    values : (targets,) float
+        What the best gives; every target, fitted or only shown.
+    lowest, highest : (targets,) float
+        Of what fits equally well; not numbers where a target is only shown and its run failed.
+    roughness : (targets,) float
+        How far values change, in tolerances, when parameters move by a ten-thousandth of their
+        range: what cannot be fitted, since neighbours differ by it.
+    members : (n, parameters) float
+        What fits equally well, in the unit of each parameter; a sample, evenly spread.
+    """
+
+    calibration: Calibration
+    found: Found
+    good: EquallyGood
+    best: Floats
+    cost: float
+    values: Floats
+    lowest: Floats
+    highest: Floats
+    roughness: Floats
+    members: Floats
+
+    @property
+    def misses(self) -> Floats:
+        """How far each target is missed, in tolerances, (targets,)."""
+        return self.calibration.goals.misses(self.values)
+
+    def quantiles(self) -> Floats:
+        """Return (quantiles, parameters) of what fits equally well."""
+        space = self.calibration.space
+        return space.values(np.quantile(self.good.members, QUANTILES, axis=0))
+
+    def correlation(self) -> Floats:
+        """Return (parameters, parameters): which parameters make up for one another."""
+        members = self.good.members
+        spans = members.std(axis=0)
+        if len(members) < 2 or not (spans > 0.0).all():
+            return np.eye(members.shape[1])
+        return np.atleast_2d(np.corrcoef(members, rowvar=False))
+
+    def open_ends(self, parameter: int) -> list[str]:
+        """Return the bounds that the spread of a parameter runs into."""
+        column = self.good.members[:, parameter]
+        ends = {"minimum": column.min() <= AT_BOUND, "maximum": column.max() >= 1.0 - AT_BOUND}
+        return [end for end, reached in ends.items() if reached]
+
+    def document(self) -> dict[str, Any]:
+        """Return everything as JSON; the same calibration gives the same."""
+        calibration = self.calibration
+        return {
+            "calibration": calibration.document,
+            "digest": calibration.digest,
+            "solver": SOLVER_VERSION,
+            "cost": self.cost,
+            "equally_good_cost": self.good.limit,
+            "parameters": self._parameters(),
+            "correlation": {
+                "parameters": list(calibration.space.names),
+                "matrix": np.round(self.correlation(), 3).tolist(),
+            },
+            "targets": self._targets(),
+            "members": {
+                "parameters": list(calibration.space.names),
+                "values": self.members.tolist(),
+            },
+            "search": {
+                "generations": self.found.generations,
+                "settled": self.found.settled,
+                "candidates": len(self.found.costs),
+                "failed": int(np.isinf(self.found.costs).sum()),
+                "spread_candidates": self.good.tried,
+                "spread_accepted": round(self.good.accepted, 4),
+            },
+        }
+
+    def _parameters(self) -> list[dict[str, Any]]:
+        space = self.calibration.space
+        quantiles = self.quantiles()
+        ends = space.values(
+            np.stack([self.good.members.min(axis=0), self.good.members.max(axis=0)])
+        )
+        return [
+            {
+                "name": name,
+                "unit": self.calibration.scene.parameters[name].unit,
+                "best": float(self.best[k]),
+                "quantiles": {
+                    f"{q:g}": float(at) for q, at in zip(QUANTILES, quantiles[:, k], strict=True)
+                },
+                "lowest": float(ends[0, k]),
+                "highest": float(ends[1, k]),
+                "open_ends": self.open_ends(k),
+            }
+            for k, name in enumerate(space.names)
+        ]
+
+    def _targets(self) -> list[dict[str, Any]]:
+        goals, misses = self.calibration.goals, self.misses
+        rows: list[dict[str, Any]] = []
+        for case in self.calibration.cases:
+            for target, channel in zip(case.targets, case.channels, strict=True):
+                k = len(rows)
+                time = target.statistic.endswith("_time")
+                rows.append(
+                    {
+                        "case": case.name,
+                        "channel": target.channel,
+                        "statistic": target.statistic,
+                        "from": target.start,
+                        "to": target.stop,
+                        "unit": "s" if time else channel.unit,
+                        "value": target.value,
+                        "between": target.between,
+                        "tolerance": float(goals.tolerance[k]),
+                        "weight": target.weight,
+                        "fitted": _number(self.values[k]),
+                        "miss": _number(misses[k]),
+                        "lowest": _number(self.lowest[k]),
+                        "highest": _number(self.highest[k]),
+                        "roughness": _number(self.roughness[k]),
+                    }
+                )
+        return rows
+
+
+def _number(value: np.float64) -> float | None:
+    """JSON has no word for what is not a number."""
+    return float(value) if np.isfinite(value) else None

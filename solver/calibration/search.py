@@ -1,0 +1,101 @@
+"""The search for what fits best: differential evolution, a generation at a time.
+
+Storn and Price 1997, as scipy.optimize has it (best1bin, from a Latin hypercube).  It compares
+costs and takes no derivatives: where impacts follow one another, the cost of neighbours differs
+by more than a derivative could say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import Bounds, OptimizeResult, differential_evolution
+
+from solver.calibration.document import Search
+
+Floats = NDArray[np.float64]
+Cost = Callable[[Floats], Floats]
+"""Takes coordinates (n, parameters) from 0 to 1, returns costs (n,)."""
+Report = Callable[[float, str], None]
+"""Takes the fraction of the whole that is done, and a few words."""
+
+ALIKE, NOTHING = 0.01, 1e-3
+"""The search ends when the costs of a generation spread by no more than this share of their mean,
+or by this (in tolerances)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a search came to.
+
+    Attributes
+    ----------
+    best : (parameters,) float
+        Coordinates from 0 to 1.
+    cost : float
+        Of the best.
+    tried : (n, parameters) float
+        Every candidate, in the order of trying.
+    costs : (n,) float
+        Of each; infinite where a run failed.
+    generations : int
+        That were bred.
+    settled : bool
+        Whether it ended because all candidates had become alike.
+    """
+
+    best: Floats
+    cost: float
+    tried: Floats
+    costs: Floats
+    generations: int
+    settled: bool
+
+
+def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Found:
+    """Search the unit cube; the same seed finds the same.
+
+    `report` is called after every generation.
+    """
+    tried: list[Floats] = []
+    costs: list[Floats] = []
+
+    def vectorised(columns: Floats) -> Floats:
+        candidates = np.ascontiguousarray(columns.reshape(parameters, -1).T)
+        found = cost(candidates)
+        tried.append(candidates)
+        costs.append(found)
+        return found
+
+    def told(intermediate_result: OptimizeResult) -> None:
+        best = min(float(found.min()) for found in costs)
+        done = (len(costs) - 1) / settings.generations
+        report(min(done, 1.0), f"best cost {best:.4g}")
+
+    result = differential_evolution(
+        vectorised,  # type: ignore[arg-type]  # the stubs know no vectorized=True
+        Bounds(np.zeros(parameters), np.ones(parameters)),
+        maxiter=settings.generations,
+        popsize=settings.population,
+        tol=ALIKE,
+        atol=NOTHING,
+        rng=np.random.default_rng(settings.seed),
+        callback=told,
+        polish=False,
+        init="latinhypercube",
+        updating="deferred",
+        vectorized=True,
+    )
+    all_tried, all_costs = np.concatenate(tried), np.concatenate(costs)
+    best = int(all_costs.argmin())
+    return Found(
+        all_tried[best],
+        float(all_costs[best]),
+        all_tried,
+        all_costs,
+        int(result.nit),
+        bool(result.success),
+    )

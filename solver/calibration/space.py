@@ -1,0 +1,119 @@
+"""Where parameters may move: bounds, and coordinates from 0 to 1 in which all count alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.calibration.document import FreeParameter
+from solver.errors import Problem
+from solver.scene.document import Parameter, Scene
+from solver.scene.near import unknown
+from solver.scene.parameters import allowed_range
+
+Floats = NDArray[np.float64]
+
+SIGNIFICANT = 4
+"""Digits of a parameter that is handed out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """The box of the parameters that move.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the parameters.
+    minimum, maximum : (parameters,) float
+        In the unit of each.
+    logarithmic : (parameters,) bool
+        Whether equal ratios count the same.
+    """
+
+    names: tuple[str, ...]
+    minimum: Floats
+    maximum: Floats
+    logarithmic: NDArray[np.bool_]
+
+    def values(self, unit: Floats) -> Floats:
+        """Return parameters (n, parameters) at coordinates from 0 to 1; the ends are exact."""
+        share = np.clip(unit, 0.0, 1.0)
+        linear = self.minimum + share * (self.maximum - self.minimum)
+        ratio = np.where(self.logarithmic, self.maximum, 1.0)
+        ratio = ratio / np.where(self.logarithmic, self.minimum, 1.0)
+        found = np.where(self.logarithmic, self.minimum * ratio**share, linear)
+        found = np.where(share == 1.0, self.maximum, found)
+        return np.asarray(np.clip(found, self.minimum, self.maximum), np.float64)
+
+    def coordinates(self, values: Floats) -> Floats:
+        """Return coordinates from 0 to 1 of parameters (n, parameters)."""
+        low, high, at = self.minimum, self.maximum, np.asarray(values, np.float64)
+        one = np.ones_like(low)
+        low, high, at = (
+            np.where(self.logarithmic, np.log(np.where(self.logarithmic, x, one)), x)
+            for x in (low, high, at)
+        )
+        return np.asarray((at - low) / (high - low), np.float64)
+
+    def rounded(self, values: Floats) -> Floats:
+        """Return parameters (parameters,) with few digits, still inside the bounds."""
+        short = np.array([float(f"{value:.{SIGNIFICANT}g}") for value in values])
+        return np.asarray(np.clip(short, self.minimum, self.maximum), np.float64)
+
+    def corners(self) -> list[dict[str, float]]:
+        """Return the parameters at every corner of the box."""
+        ends = zip(self.minimum.tolist(), self.maximum.tolist(), strict=True)
+        return [dict(zip(self.names, corner, strict=True)) for corner in product(*ends)]
+
+
+def space_of(parameters: Mapping[str, FreeParameter]) -> Space:
+    """Return the box that a document describes."""
+    bounds = np.array([[free.minimum, free.maximum] for free in parameters.values()])
+    logarithmic = np.array([free.spacing == "log" for free in parameters.values()])
+    return Space(tuple(parameters), bounds[:, 0], bounds[:, 1], logarithmic)
+
+
+def space_problems(parameters: Mapping[str, FreeParameter], scene: Scene) -> list[Problem]:
+    """Return what is wrong with the parameters that are to move."""
+    problems = []
+    for name, free in parameters.items():
+        place = f"/parameters/{name}"
+        declared = scene.parameters.get(name)
+        if declared is None:
+            problems.append(Problem(place, unknown("parameter", name, scene.parameters)))
+        elif declared.choices is not None:
+            sentence = (
+                f"'{name}' is one of {', '.join(declared.choices)}; only a parameter whose values"
+                " are numbers can move. Set it in the scene or in the cases instead."
+            )
+            problems.append(Problem(place, sentence))
+        else:
+            problems += _bounds_problems(place, name, free, declared)
+    return problems
+
+
+def _bounds_problems(
+    place: str, name: str, free: FreeParameter, declared: Parameter
+) -> list[Problem]:
+    if not free.minimum < free.maximum:
+        sentence = (
+            f"The minimum {free.minimum:g} is not below the maximum {free.maximum:g}; a parameter"
+            " that shall not move belongs in the scene's parameters."
+        )
+        return [Problem(f"{place}/minimum", sentence)]
+    low = -np.inf if declared.minimum is None else declared.minimum
+    high = np.inf if declared.maximum is None else declared.maximum
+    problems = [
+        Problem(f"{place}/{end}", f"'{name}' is {value:g} here; it {allowed_range(declared)}.")
+        for end, value in (("minimum", free.minimum), ("maximum", free.maximum))
+        if not low <= value <= high
+    ]
+    if free.spacing == "log" and not free.minimum > 0.0:
+        sentence = f"Equal ratios do not begin at {free.minimum:g}; with 'log' give one above zero."
+        problems.append(Problem(f"{place}/spacing", sentence))
+    return problems

@@ -1,0 +1,122 @@
+"""How far numbers are from the targets, in units of each target's tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.calibration.document import CalibrationTarget
+from solver.errors import Problem
+
+Floats = NDArray[np.float64]
+
+DEFAULT_TOLERANCE = 0.05
+"""Relative: peaks of impacts are hardly known better."""
+MOST_SAMPLES = 100_000
+"""Instants of a grid that a target is read off."""
+
+
+@dataclass(frozen=True, eq=False)
+class Goals:
+    """The targets of all cases as columns.
+
+    Attributes
+    ----------
+    low, high : (targets,) float
+        Between which every value is as good as any; equal for a single value.
+    tolerance : (targets,) float
+        What counts as a miss of one, in the unit of each.
+    weight : (targets,) float
+        Of the squared misses; zero where a target is only shown.
+    """
+
+    low: Floats
+    high: Floats
+    tolerance: Floats
+    weight: Floats
+
+    def misses(self, values: Floats) -> Floats:
+        """Return (n, targets): how far values are off, in tolerances, with their sign."""
+        below = np.minimum(values - self.low, 0.0)
+        above = np.maximum(values - self.high, 0.0)
+        return np.asarray((below + above) / self.tolerance, np.float64)
+
+    def costs(self, values: Floats) -> Floats:
+        """Return (n,): weighted root mean square of the misses; infinite where a run failed."""
+        fitted = self.weight > 0.0
+        squares = self.weight[fitted] * self.misses(values)[:, fitted] ** 2
+        cost = np.sqrt(squares.sum(axis=1) / self.weight.sum())
+        return np.where(np.isnan(cost), np.inf, cost)
+
+
+def goals_of(targets: Sequence[CalibrationTarget]) -> Goals:
+    """Return the columns of checked targets."""
+    low, high, tolerance = [], [], []
+    for target in targets:
+        bottom, top = _limits(target)
+        low.append(bottom)
+        high.append(top)
+        tolerance.append(tolerance_of(target))
+    weight = [target.weight for target in targets]
+    return Goals(np.array(low), np.array(high), np.array(tolerance), np.array(weight))
+
+
+def tolerance_of(target: CalibrationTarget) -> float:
+    """Return what counts as a miss of one, in the target's unit; zero if it cannot be told."""
+    if target.absolute_tolerance is not None:
+        return target.absolute_tolerance
+    given = [target.value] if target.between is None else target.between
+    size = max((abs(value) for value in given if value is not None), default=0.0)
+    return size * (target.relative_tolerance or DEFAULT_TOLERANCE)
+
+
+def target_problems(target: CalibrationTarget, place: str) -> Iterator[Problem]:
+    """Yield what is wrong with a target, whatever the scene."""
+    if (target.value is None) == (target.between is None):
+        both = ", not both." if target.between is not None else "."
+        yield Problem(f"{place}/value", f"Give one of 'value' and 'between'{both}")
+        return
+    low, high = _limits(target)
+    if not (low <= high and (np.isfinite(low) or np.isfinite(high))):
+        sentence = "'between' is [lowest, highest], in that order; one of them may be null."
+        yield Problem(f"{place}/between", sentence)
+    elif target.relative_tolerance is not None and target.absolute_tolerance is not None:
+        sentence = "Give a relative tolerance or an absolute one, not both."
+        yield Problem(f"{place}/absolute_tolerance", sentence)
+    elif not tolerance_of(target) > 0.0:
+        sentence = "A share of zero is zero; give an 'absolute_tolerance'."
+        yield Problem(f"{place}/absolute_tolerance", sentence)
+    if not target.start < target.stop:
+        sentence = f"The window ends at {target.stop:g} s, before it begins ({target.start:g} s)."
+        yield Problem(f"{place}/to", sentence)
+    elif target.sampled is not None:
+        yield from _grid_problems(target, target.sampled, place)
+
+
+def _grid_problems(target: CalibrationTarget, step: float, place: str) -> Iterator[Problem]:
+    count = len(grid_indices(target.start, target.stop, step))
+    if count > MOST_SAMPLES:
+        sentence = f"These are {count} instants; read off at most {MOST_SAMPLES}."
+        yield Problem(f"{place}/sampled", sentence)
+    elif count < (2 if target.statistic == "range" else 1):
+        sentence = (
+            f"The window has {count or 'no'} multiple of {step:g} s in it; give a longer one."
+        )
+        yield Problem(f"{place}/sampled", sentence)
+
+
+def grid_indices(start: float, stop: float, step: float) -> range:
+    """Return k of the instants k * step in a window; its ends count, but for rounding."""
+    first, last = start / step, stop / step
+    return range(int(np.ceil(first * (1.0 - 1e-12))), int(np.floor(last * (1.0 + 1e-12))) + 1)
+
+
+def _limits(target: CalibrationTarget) -> tuple[float, float]:
+    if target.between is None:
+        value = 0.0 if target.value is None else target.value
+        return value, value
+    low, high = target.between
+    return (-np.inf if low is None else low), (np.inf if high is None else high)

@@ -1,0 +1,85 @@
+"""Search and spread on costs whose valleys are known, without any mechanism."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from solver.calibration.document import Search
+from solver.calibration.search import search
+from solver.calibration.spread import spread
+
+CENTRE = np.array([0.4, 0.6])
+TURN = np.array([[np.cos(0.7), np.sin(0.7)], [-np.sin(0.7), np.cos(0.7)]])
+WIDTHS = np.array([0.2, 0.01])
+"""Half axes of the ellipse {cost <= 1}: a narrow valley across both coordinates."""
+
+
+def ellipse(unit: np.ndarray) -> np.ndarray:
+    return np.linalg.norm((unit - CENTRE) @ TURN.T / WIDTHS, axis=1)
+
+
+def quiet(done: float, note: str) -> None:
+    assert 0.0 <= done <= 1.0
+
+
+def test_the_search_finds_the_bottom_of_a_narrow_valley_and_counts_what_it_tried():
+    found = search(ellipse, 2, Search(population=15, generations=80, seed=3), quiet)
+    np.testing.assert_allclose(found.best, CENTRE, rtol=0, atol=1e-2)
+    assert found.cost == ellipse(found.best[None, :])[0] == found.costs.min()
+    assert len(found.tried) == 30 * (found.generations + 1)
+    np.testing.assert_array_equal(found.costs, ellipse(found.tried))
+
+
+def test_what_fits_equally_well_is_spread_evenly_over_the_whole_valley():
+    found = search(ellipse, 2, Search(seed=3), quiet)
+    good = spread(ellipse, found, 1.0, 200, 3, quiet)
+    assert good.costs.max() <= 1.0
+    inside = (good.members - CENTRE) @ TURN.T / WIDTHS
+    radius = np.linalg.norm(inside, axis=1)
+    # evenly over an ellipse the squared radius is evenly distributed over 0..1, and each axis has
+    # the standard deviation 1/2; some 200 independent points among 64 * 150 that are correlated
+    np.testing.assert_allclose(
+        np.quantile(radius**2, [0.25, 0.5, 0.75]), [0.25, 0.5, 0.75], atol=0.1
+    )
+    np.testing.assert_allclose(inside.std(axis=0), 0.5, rtol=0.15)
+    np.testing.assert_allclose(inside.mean(axis=0), 0.0, atol=0.1)
+
+
+def test_a_spread_ends_at_the_bounds():
+    found = search(lambda unit: unit[:, 0], 1, Search(), quiet)
+    good = spread(lambda unit: unit[:, 0], found, 0.3, 100, 0, quiet)
+    assert good.members.min() >= 0.0
+    np.testing.assert_allclose(good.members.max(), 0.3, atol=0.02)  # 64 chains fill 0..0.3
+
+
+def test_islands_are_both_found_if_the_search_came_across_both():
+    def islands(unit: np.ndarray) -> np.ndarray:
+        return np.minimum(abs(unit[:, 0] - 0.2), abs(unit[:, 0] - 0.8))
+
+    found = search(islands, 1, Search(population=40), quiet)
+    good = spread(islands, found, 0.05, 60, 0, quiet)
+    share = (good.members[:, 0] < 0.5).mean()
+    assert 0.1 < share < 0.9
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_the_seed_alone_decides(seed):
+    runs = []
+    for _ in range(2):
+        found = search(ellipse, 2, Search(population=5, generations=6, seed=seed), quiet)
+        good = spread(ellipse, found, max(1.0, 1.2 * found.cost), 4, seed, quiet)
+        runs.append((found.tried, good.members))
+    np.testing.assert_array_equal(runs[0][0], runs[1][0])
+    np.testing.assert_array_equal(runs[0][1], runs[1][1])
+    other = search(ellipse, 2, Search(population=5, generations=6, seed=seed + 1), quiet)
+    assert not np.array_equal(other.tried[:10], runs[0][0][:10])
+
+
+def test_candidates_that_fail_are_avoided():
+    def half_fails(unit: np.ndarray) -> np.ndarray:
+        return np.where(unit[:, 0] < 0.5, np.inf, abs(unit[:, 0] - 0.4))
+
+    found = search(half_fails, 1, Search(population=10, generations=30), quiet)
+    assert found.cost == pytest.approx(0.1, abs=1e-3)  # at the edge of what can be computed
+    assert np.isinf(found.costs).any()
