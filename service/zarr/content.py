@@ -18,6 +18,8 @@ class Content:
     """Strong entity tag, in its quotes."""
     _memory: bytes | None = None
     _descriptor: int | None = None
+    final: bool = False
+    """The key will never hold anything else."""
 
     @classmethod
     def of_file(cls, folder: Path, key: str) -> Self | None:

@@ -86,22 +86,22 @@ def show_stored(
         raise _nothing_at(job, key)
     try:
         try:
-            return _answer(request, job, key, content)
+            return _answer(request, key, content)
         except ranges.Unsatisfiable:
             former = former_content(job, key, content, catalogue, settings)
             if former is None:
                 raise
-            return _answer(request, job, key, former)
+            return _answer(request, key, former)
     except ranges.Unsatisfiable:
         raise _not_satisfiable(request, key, content.size) from None
     finally:
         content.close()
 
 
-def _answer(request: Request, job: Job, key: str, content: Content) -> Response:
+def _answer(request: Request, key: str, content: Content) -> Response:
     headers = {
         "Accept-Ranges": "bytes",
-        "Cache-Control": _FOREVER if job.state.terminal else "no-cache",
+        "Cache-Control": _FOREVER if content.final else "no-cache",
     }
     media_type = "application/octet-stream"
     asked = request.headers.get("range")

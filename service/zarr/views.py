@@ -2,38 +2,61 @@
 
 import json
 import time
+from functools import lru_cache
+from pathlib import Path
 from typing import Final
 
 from service.jobs.results_of_kinds import is_study
 from service.results.stores import committed_so_far
 from service.zarr.content import Content
+from solver.study.meanings import INDICATORS, STATISTICS
 from storage.catalogue import Catalogue, Job
-from storage.results import NotAStore
+from storage.results import ArraySpec, NotAStore
 from storage.results.layout import MANIFEST
 from storage.results.live import LiveStore, loosened
 from storage.results.metadata import FILE
 from storage.settings import Settings
+from storage.studies.live import LiveStudy
 
+_FRESH: Final = 0.5
+"""Seconds for which the parts of a running study are not read again."""
+_MEANINGS: Final = {
+    name: ArraySpec(name, *meaning) for name, meaning in (STATISTICS | INDICATORS).items()
+}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
 
 
 def content_of(job: Job, key: str, catalogue: Catalogue, settings: Settings) -> Content | None:
     """Return what a key of the job's store holds, or None."""
-    if is_study(job):
-        return Content.of_file(settings.study_folder(job.id), key)
-    sealed = settings.result_folder(job.id, job.attempt)
-    if (sealed / MANIFEST).exists():
-        return Content.of_file(sealed, key)
-    folder, samples = committed_so_far(job, catalogue, settings)
+    study = is_study(job)
+    folder = settings.study_folder(job.id) if study else settings.result_folder(job.id, job.attempt)
+    if (folder / MANIFEST).exists():
+        content = Content.of_file(folder, key)
+        if content is not None:
+            content.final = job.state.terminal
+        return content
+    samples = 0
+    if not study:
+        folder, samples = committed_so_far(job, catalogue, settings)
     if not key.endswith(FILE) and (stored := Content.of_file(folder, key)):
         return stored
     try:
-        store = LiveStore(folder, samples)
+        store = _live_study(folder) if study else LiveStore(folder, samples)
     except NotAStore:
         return None
     made = store.document(key) if key.endswith(FILE) else store.chunk(key)
     return None if made is None else Content.of_bytes(made)
+
+
+def _live_study(folder: Path) -> LiveStudy:
+    """Return what is known of a study: as of at most `_FRESH` seconds ago, for many requests."""
+    return _study_at(folder, time.monotonic() // _FRESH)
+
+
+@lru_cache(maxsize=4)
+def _study_at(folder: Path, moment: float) -> LiveStudy:
+    return LiveStudy(folder, _MEANINGS)
 
 
 def former_content(

@@ -10,6 +10,7 @@ import zarr
 from solver.admission import Admission, admit
 from storage.catalogue import BlockState, Claim, JobError
 from storage.results import IMPACT, ArraySpec, Partition, ResultLayout, ResultWriter
+from tests.service_in_thread import BIFURCATION, SWEEP, known_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 SMALL = Partition(chunk_rows=64, shard_chunks=4, buffer_bytes=2**24)  # 256 samples a file
@@ -188,3 +189,44 @@ def test_the_next_attempt_shows_what_was_committed_before_it_commits(http, start
     running.append(100)
     running.commit()
     assert len(history_of(http, running)["time"]["values"]) == 400
+
+
+def test_a_running_study_shows_finished_values_with_their_status(http, service_url, worker):
+    job = worker.submit(**BIFURCATION, label="growing")
+    claim = worker.start(job)
+    worker.compute(claim, failing=(1,), points=4, sections=2)
+    url = f"{service_url}/v1/jobs/{job}/zarr"
+    points = xarray.open_zarr(url)
+    assert points["status"].to_numpy().tolist() == [2, 3, 2, 1] + [0] * 16
+    assert points["count"].to_numpy().tolist() == [6, 3, 6, 2] + [0] * 16
+    assert points.attrs["failures"][int(points["failure"][1])] == "step-size-underflow"
+    assert points["failure_time"][1] == 0.7
+    sections = xarray.open_zarr(url, group="sections")
+    column = [name for name, *_ in points.attrs["observables"]]
+    name = column[2]
+    expected = np.full((20, 6), np.nan)
+    for point, count in enumerate([6, 3, 6, 2]):
+        expected[point, :count] = known_section(point, 2, np.arange(count))
+    np.testing.assert_array_equal(sections[name].to_numpy(), expected)
+    assert sections[name].attrs["units"]
+    exponents = xarray.open_zarr(url, group="indicators")["lyapunov"]
+    np.testing.assert_array_equal(exponents.to_numpy()[:4], [0.0, np.nan, 0.2, np.nan])
+    assert exponents.attrs["units"] == "1/s"
+    values = xarray.open_zarr(url, group="values")["clearance"]
+    np.testing.assert_allclose(values.to_numpy(), np.linspace(1e-4, 1e-3, 20))
+    for key in ("zarr.json", "status/c/0"):
+        assert http.get(f"/v1/jobs/{job}/zarr/{key}").headers["Cache-Control"] == "no-cache"
+    for key in ("status/c/1", "status/c/0/0", "nothing/c/0", "sections/c/0", "status/zarr.json/c"):
+        assert http.get(f"/v1/jobs/{job}/zarr/{key}").status_code == 404
+
+
+def test_a_running_sweep_shows_the_peaks_of_finished_points(service_url, worker):
+    job = worker.submit(**SWEEP, label="growing")
+    worker.compute(worker.start(job), points=2)
+    url = f"{service_url}/v1/jobs/{job}/zarr"
+    peaks = xarray.open_zarr(url, group="peaks")
+    channels = len(peaks.attrs["channels"])
+    assert peaks.sizes == {"point": 6, "channel": channels}
+    maxima = peaks["maximum"].to_numpy()
+    np.testing.assert_array_equal(maxima[:2], [[1.0] * channels, [2.0] * channels])
+    assert np.isnan(maxima[2:]).all()

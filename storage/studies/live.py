@@ -1,0 +1,115 @@
+"""A study's store as stock Zarr clients may see it while it is being filled.
+
+Finished chunks are served as they are; here is made what only the sealed store has: the documents
+of all arrays, and the chunks of what is still in the parts of blocks.
+"""
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results import shards
+from storage.results.layout import TIME, ArraySpec
+from storage.results.metadata import FILE, serialise
+from storage.studies import documents
+from storage.studies.layout import StudyLayout
+from storage.studies.reader import StudyReader
+
+_NUMBERS: Final = ("statistics", "indicators")
+
+
+class LiveStudy:
+    """What is known of a study at one moment.
+
+    Parameters
+    ----------
+    folder
+        Of the store.
+    meanings
+        Units and long names of statistics and indicators.
+
+    Raises
+    ------
+    NotAStore
+        There is no store of a study.
+    """
+
+    def __init__(self, folder: Path, meanings: Mapping[str, ArraySpec]) -> None:
+        self._reader = reader = StudyReader(folder)
+        self._layout = StudyLayout(
+            parameters=reader.parameters,
+            values=reader.values,
+            observables=reader.observables,
+            record=reader.record,
+            channels=reader.channels,
+            blocks=tuple((int(first), int(count)) for first, count in reader.attributes["blocks"]),
+            meanings=meanings,
+        )
+        self._codes = sorted({failure.code for failure in reader.failures.values()})
+        names = {group: sorted(getattr(reader, group)) for group in _NUMBERS}
+        self._documents = documents.sealed(self._layout, names, {})
+        attributes = {**reader.attributes, "failures": ["", *self._codes]}
+        self._documents[FILE] = {**self._documents[FILE], "attributes": attributes}
+
+    def document(self, key: str) -> bytes | None:
+        """Give a zarr.json, or None where there is no group or array."""
+        found = self._documents.get(key)
+        return None if found is None else serialise(found)
+
+    def chunk(self, key: str) -> bytes | None:
+        """Make the file of a chunk, or None if no array has it."""
+        path, _, place = key.rpartition("/c/")
+        array = self._documents.get(f"{path}/{FILE}")
+        if array is None or array["node_type"] != "array" or not place:
+            return None
+        position = [int(one) for one in place.split("/")]
+        shape: list[int] = array["shape"]
+        chunk: list[int] = array["chunk_grid"]["configuration"]["chunk_shape"]
+        if len(position) != len(shape):
+            return None
+        begin = [index * size for index, size in zip(position, chunk, strict=True)]
+        if any(first >= size for first, size in zip(begin, shape, strict=True)):
+            return None
+        dtype = np.dtype(array["data_type"])
+        points = slice(begin[0], min(begin[0] + chunk[0], shape[0]))
+        rows = self._rows(path, points)
+        if len(shape) == 2:
+            rows = rows[:, begin[1] : begin[1] + chunk[1]]
+        whole = np.full(chunk, shards.fill(dtype), dtype)
+        whole[tuple(slice(0, size) for size in rows.shape)] = rows
+        return shards.compress(whole)
+
+    def _rows(self, path: str, points: slice) -> NDArray[Any]:
+        """Values of an array at a range of points."""
+        group, _, name = path.rpartition("/")
+        reader = self._reader
+        if group == "sections":
+            of_times = name == TIME
+            found = reader.section_times if of_times else partial(reader.sections, name)
+            return found(points.start, points.stop)
+        return self._column(group, name)[points]
+
+    def _column(self, group: str, name: str) -> NDArray[Any]:
+        """Values at every point of an array without sections."""
+        reader = self._reader
+        if group == "values":
+            return reader.values[:, [spec.name for spec in reader.parameters].index(name)]
+        if group == "peaks":
+            return np.stack([getattr(reader.peaks(c.name), name) for c in reader.channels], axis=1)
+        if group in _NUMBERS:
+            numbers: Mapping[str, NDArray[Any]] = getattr(reader, group)
+            return numbers[name]
+        if name in ("status", "count"):
+            return reader.status if name == "status" else reader.counts
+        return self._failures(name)
+
+    def _failures(self, name: str) -> NDArray[Any]:
+        found = np.full(self._reader.points, 0.0 if name == "failure" else np.nan)
+        for point, failure in self._reader.failures.items():
+            code = 1 + self._codes.index(failure.code)
+            found[point] = code if name == "failure" else failure.time
+        return found
