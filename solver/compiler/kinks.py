@@ -20,6 +20,8 @@ Kinks = tuple[tuple[Expression, Expression], ...]
 
 MEMORY = 3
 """Of a kink at the end of a step, for the next one: argument, value, slope."""
+ROUNDING = 1e-9
+"""Share of a value by which it may leave a straight line without having passed a kink."""
 
 
 def kinks_of(equations: Equations) -> Kinks:
@@ -50,12 +52,11 @@ def kink_function(kinks: Kinks, layout: Layout, fixed: FixedNodes) -> str:
         memory = range(MEMORY * q, MEMORY * (q + 1))
         end = (argument, value, _slope(value, argument))
         start, first, slope = (recorder.variable(f"kink_start{i}") for i in memory)
-        one, none = recorder.constant(1.0), recorder.constant(0.0)
-        turned = argument.select_positive(
-            start.select_positive(none, one), start.select_positive(one, none)
-        )
+        bent = abs(value - first - slope * (argument - start))
+        rounding = ROUNDING * (abs(value) + abs(first))
+        jumped = (bent - rounding).select_positive(bent, 0.0)
         outputs += [(f"kink_end{i}", part) for i, part in zip(memory, end, strict=True)]
-        outputs.append((f"kink_passed{q}", abs(end[2] - slope) + turned))
+        outputs.append((f"kink_passed{q}", abs(end[2] - slope) + jumped))
         outputs.append((f"kink_mean{q}", (value - first) / (argument - start)))
     return lane_function("kinks", outputs, layout, fixed)
 

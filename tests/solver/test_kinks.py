@@ -1,0 +1,77 @@
+"""Kinks inside steps: when a step passes one, and what slope a tangent takes then."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from solver.compiler import kinks
+from solver.compiler.cache import load
+from solver.compiler.derivative import Derivative
+from solver.compiler.emit import HEADER, FixedNodes, lane_function
+from solver.compiler.layout import LANES, Layout
+from solver.compiler.recorder import Recorder
+from solver.friction.modified_coulomb import friction_force
+
+
+def slopes_over_steps(
+    static: float, dynamic: float, steps: list[tuple[float, float]]
+) -> list[float]:
+    """Return the slope of friction that a tangent takes at the end of each step, a step a lane.
+
+    The normal force and the coefficient are 1; a step is its slip velocities at both ends.
+    """
+    recorder = Recorder()
+    slip, along = recorder.variable("slip"), recorder.variable("along")
+    law = SimpleNamespace(coefficient=1.0, static_velocity=static, dynamic_velocity=dynamic)
+    force = friction_force(law, recorder.variable("normal_force"), slip)
+    bends = tuple(recorder.kinks.items())
+    derivative = Derivative({"slip": along})
+    kinks.bend(derivative, bends)
+    layout = Layout()
+    layout.add("slip", "along", "normal_force", "slope")
+    kinks.allocate(layout, len(bends))
+    fixed = FixedNodes(layout)
+    source = "\n\n".join(
+        [
+            HEADER,
+            kinks.kink_function(bends, layout, fixed),
+            lane_function("follow", [("slope", derivative(force))], layout, fixed),
+        ]
+    )
+    module = load(source)
+    work = np.zeros(layout.size * LANES)
+    lanes = work.reshape(-1, LANES)
+    lanes[layout["along"]] = lanes[layout["normal_force"]] = 1.0
+    for end in range(2):
+        lanes[layout["slip"], : len(steps)] = [step[end] for step in steps]
+        start, memory = layout["kink_start0"], layout["kink_end0"]
+        module.kinks(work)
+        if end == 0:
+            lanes[start : start + kinks.MEMORY] = lanes[memory : memory + kinks.MEMORY]
+    module.follow(work)
+    return [float(x) for x in lanes[layout["slope"], : len(steps)]]
+
+
+def test_a_step_that_passes_no_kink_has_the_slope_where_it_is() -> None:
+    steps = [(0.15, 0.25), (-0.2, -0.12), (0.5, 0.9), (-0.9, -0.4), (0.05, 0.02)]
+    assert slopes_over_steps(0.1, 0.3, steps) == pytest.approx([-5.0, -5.0, 0.0, 0.0, 0.0])
+
+
+def test_a_step_that_passes_kinks_has_the_mean_slope() -> None:
+    steps = [(0.2, 0.4), (0.4, 0.2), (0.05, 0.2), (-0.5, 0.5), (-0.05, 0.05), (0.2, -0.2)]
+    means = [-0.5 / 0.2, -0.5 / 0.2, -0.5 / 0.15, -2.0 / 1.0, 0.0, -1.0 / 0.4]
+    assert slopes_over_steps(0.1, 0.3, steps) == pytest.approx(means)
+
+
+def test_a_slip_that_goes_on_through_a_jump_of_friction_has_the_slope_of_the_chord() -> None:
+    steps = [(0.05, 0.15), (0.15, -0.15), (0.15, 0.2), (-0.05, 0.05)]
+    assert slopes_over_steps(0.1, 0.1, steps) == pytest.approx([-1.0 / 0.1, -2.0 / 0.3, 0.0, 0.0])
+
+
+def test_a_step_on_which_nothing_slips_divides_by_nothing() -> None:
+    assert slopes_over_steps(0.1, 0.3, [(0.0, 0.0), (0.2, 0.2), (0.5, 0.5)]) == pytest.approx(
+        [0.0, -5.0, 0.0]
+    )

@@ -1,0 +1,308 @@
+"""Tangent vectors of runs: against neighbours, closed forms, and programs without derivatives."""
+
+from __future__ import annotations
+
+import math
+from itertools import cycle
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from solver import presets
+from solver.compiler.kernel import compile_kernel
+from solver.compiler.layout import LANES
+from solver.compiler.tangents import Tangents, compile_tangents
+from solver.integrators import TSITOURAS5
+from solver.lanes.bundle import Bundle, LaneProblem
+from solver.lanes.state import Counter
+from solver.mechanics.tree import spanning_tree
+from solver.scene.document import Scene
+from tests.solver.companion import companion_growth
+from tests.solver.completed_runs import CASE_3
+from tests.solver.readable_mechanics import preset, scene_of
+from tests.solver.shaken_disc import PERIOD, Point, shaken_disc
+from tests.solver.test_determinism import PROBLEMS, finish
+
+Floats = NDArray[np.float64]
+
+
+def problem(scene: Scene, duration: float, tolerance: float) -> LaneProblem:
+    return LaneProblem(scene, duration, tolerance, duration, 0, 0, 0.0)
+
+
+def tangents_of(scene: Scene) -> Tangents:
+    return compile_tangents(compile_kernel(scene, spanning_tree(scene), "reduced", TSITOURAS5))
+
+
+def bundle_of(problems: list[LaneProblem], *, carried: bool = True) -> Bundle:
+    scene = problems[0].scene
+    kernel = compile_kernel(scene, spanning_tree(scene), "reduced", TSITOURAS5)
+    return Bundle(kernel, problems, tangents=compile_tangents(kernel) if carried else None)
+
+
+def growth(bundle: Bundle, lane: int = 0) -> Floats:
+    """Return the growth rows that a lane has handed out in the last call."""
+    return bundle.growth_rows[lane, : bundle.counters[Counter.GROWTH_ROWS, lane]].copy()
+
+
+def grown(scene: Scene, duration: float, tolerance: float) -> Floats:
+    """Run a scene; (periods, 2) end of time and logarithm of growth."""
+    bundle = bundle_of([problem(scene, duration, tolerance)])
+    bundle.advance(10**8)
+    return growth(bundle)
+
+
+# what a run with tangents leaves alone
+
+
+def test_tangents_change_no_bit_of_a_run() -> None:
+    plain = finish(bundle_of(PROBLEMS, carried=False), cycle([10**7]))
+    assert finish(bundle_of(PROBLEMS), cycle([10**7])) == plain
+
+
+def test_growth_does_not_depend_on_company_slices_or_who_had_the_lane_before() -> None:
+    chosen = [PROBLEMS[0], PROBLEMS[2], PROBLEMS[7]]
+
+    def all_growth(bundle: Bundle, lane: int, budget: int) -> bytes:
+        rows = []
+        while bundle.advance(budget):
+            rows.append(growth(bundle, lane))
+        return np.concatenate([*rows, growth(bundle, lane)]).tobytes()
+
+    alone = [all_growth(bundle_of([p]), 0, 10**7) for p in chosen]
+    assert len(set(alone)) == 3
+    for lane, budget in ((0, 7), (1, 33), (2, 10**7)):
+        assert all_growth(bundle_of(chosen), lane, budget) == alone[lane]
+    used = bundle_of([PROBLEMS[5], PROBLEMS[6]])
+    while used.advance(100) == 2:
+        pass
+    free = int(np.argmin(used.table("active")[0, :2]))
+    used.load(free, chosen[1])
+    assert all_growth(used, free, 50) == alone[1]
+
+
+def test_a_checkpoint_keeps_the_tangent() -> None:
+    whole, first, second = (bundle_of([PROBLEMS[2]]) for _ in range(3))
+    first.advance(40)
+    second.restore(first.state())
+    whole.advance(10**7)
+    second.advance(10**7)
+    assert growth(second).tobytes() == growth(whole).tobytes()
+
+
+# neighbours over the same smooth steps
+
+STEPS = 20
+NEAR = 1e-6
+"""Distance of neighbours in the scene's scales: 5e-10 m on a clearance of 0.5 mm. The press has a
+coordinate of 2 m, rounded to 4e-16 m at every step; the slope of a contact 1e-6 m deep is that
+between the neighbours within (5e-10 / 1e-6)^2."""
+AGREEMENT = 5e-6
+
+
+def contact_of(bundle: Bundle) -> bool:
+    """Whether a joint of lane 0 has closed by half a micrometre and goes on closing."""
+    return any(
+        bundle.table(f"mode{j}")[0, 0] > 0.0
+        and bundle.table(f"gap{j}")[0, 0] > 5e-7
+        and bundle.table(f"gap_rate{j}")[0, 0] > 0.0
+        for j in range(len(bundle.kernel.play))
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "contact", "longest"),
+    [
+        ("seven-bar-press", CASE_3, True, 1e-6),
+        ("seven-bar-press", CASE_3, False, 1e-4),
+        ("slider-crank", {}, True, 1e-7),
+        ("bouncing-journal", {"velocity_x": 0.1, "spin": 3.0}, True, 1e-6),
+        ("pendulum", {}, False, 1e-2),
+    ],
+)
+def test_a_tangent_is_the_difference_of_neighbours_that_take_the_same_steps(
+    name: str, parameters: dict[str, float], contact: bool, longest: float
+) -> None:
+    base = bundle_of([problem(preset(name, **parameters), 1.0, 1e-8)])
+    while not contact_of(base) if contact else base.time(0) < 3e-3:
+        base.advance(1)
+    kernel, states, joints = base.kernel, base.kernel.states, len(base.kernel.play)
+    random = np.random.default_rng(5)
+    # eight directions, one a lane; lengths and rates by the scene's scales
+    scales = 1e-8 / base.table("weight0", states)[:, :1] / 1e-8
+    directions = random.uniform(-1.0, 1.0, (states, LANES)) * scales
+    directions /= np.linalg.norm(directions / scales, axis=0)
+    rates = random.uniform(-1e-10, 1e-10, (joints, LANES))
+
+    def displaced(by: float) -> Bundle:
+        bundle = bundle_of([base_problem] * LANES)
+        bundle.work.reshape(-1, LANES)[:] = base.work.reshape(-1, LANES)[:, :1]
+        for limit in ("largest_step", "end"):
+            bundle.table(limit)[:] = math.inf
+        bundle.table("y0", states)[:] += by * directions
+        if joints:
+            bundle.table("impact_rate0", joints)[:] += by * rates
+        bundle.table("stage0", states)[:] = bundle.table("y0", states)
+        bundle.table("stage_time")[:] = bundle.table("time")
+        kernel.module.right_hand_side(bundle.work)
+        bundle.table("k1_0", states)[:] = bundle.table("slope0", states)
+        return bundle
+
+    base_problem = problem(preset(name, **parameters), 1.0, 1e-8)
+    middle, ahead, behind = displaced(0.0), displaced(NEAR / 1e-8), displaced(-NEAR / 1e-8)
+    tangents = middle.tangents
+    assert tangents is not None
+    middle.table("tangent0", states)[:] = directions
+    if joints:
+        middle.table("tangent_impact_rate0", joints)[:] = rates
+    for _ in range(STEPS):
+        for bundle in (middle, ahead, behind):
+            bundle.table("step")[:] = longest
+            kernel.module.attempt(bundle.work)
+            bundle.table("accept")[:] = 1.0
+        tangents.module.tangent_step(middle.work)
+        for bundle in (middle, ahead, behind):
+            kernel.module.take(bundle.work)
+    difference = ahead.table("y0", states) - behind.table("y0", states)
+    expected = difference / (2.0 * NEAR / 1e-8)
+    carried = middle.table("tangent0", states)
+    error = np.abs((carried - expected) / scales).max(axis=0)
+    assert (error < AGREEMENT * np.abs(carried / scales).max(axis=0)).all()
+    assert (np.abs((carried - directions) / scales).max(axis=0) > 100.0 * AGREEMENT).all()
+
+
+# across contacts
+
+
+def test_speed_after_bounces_is_proportional_to_the_speed_before() -> None:
+    # without gravity nothing but the impact sets a scale: K δ^n (1 + h δ̇ / δ̇⁻) returns the same
+    # share of any speed, so dv / dv0 = v / v0 however often the journal has bounced; a latched
+    # rate that did not follow the speed would change the share
+    scene = preset("bouncing-journal", gravity_y=0.0, restitution=0.7, velocity_y=-0.1)
+    bundle = bundle_of([problem(scene, 0.2, 1e-10)])
+    begin = np.zeros(bundle.kernel.states)
+    begin[4] = 1.0
+    bundle.table("tangent0", 6)[:, 0] = begin
+    while bundle.counters[Counter.ONSETS, 0] < 4 or bundle.table("mode0")[0, 0] > 0.0:
+        assert bundle.advance(1)
+    speed, along = bundle.table("y4")[0, 0], bundle.table("tangent4")[0, 0]
+    assert 0.1 < speed / -0.1 < 0.9
+    # during an impact the tangent is mostly a shift in time by t dv / v, here 100 times dv, and
+    # this is what its steps, about 80 a bounce, are accurate to
+    assert along == pytest.approx(speed / -0.1, rel=1e-3)
+
+
+def test_a_floored_impact_rate_does_not_follow_the_tangent() -> None:
+    slow = preset("bouncing-journal", gravity_y=0.0, velocity_y=-0.05, impact_rate_floor=0.1)
+    fast = preset("bouncing-journal", gravity_y=0.0, velocity_y=-0.2, impact_rate_floor=0.1)
+    latched = []
+    for scene in (slow, fast):
+        bundle = bundle_of([problem(scene, 0.2, 1e-8)])
+        while bundle.counters[Counter.ONSETS, 0] < 1:
+            assert bundle.advance(1)
+        latched.append(float(bundle.table("tangent_impact_rate0")[0, 0]))
+    assert latched[0] == 0.0
+    assert latched[1] != 0.0
+
+
+@pytest.mark.parametrize("slip", ["material", "as-published"])
+def test_tangents_are_finite_from_a_journal_in_the_middle_of_its_bearing(slip: str) -> None:
+    # there the normal turns infinitely fast, and the slip velocity as published changes by 1e300²
+    document = presets.document("bouncing-journal")
+    document["joints"]["bearing"]["clearance"]["friction"]["slip_velocity"] = slip
+    document["start"]["velocities"]["journal"] = [0.1, 0.0]
+    scene = scene_of(document | {"parameters": {}})
+    rows = grown(scene, 0.05, 1e-6)
+    assert np.isfinite(rows).all()
+    assert rows[-1, 0] == 0.05
+
+
+# exponents
+
+
+def test_a_pendulum_on_its_head_falls_with_the_exponent_of_its_linear_equation() -> None:
+    scene = preset("pendulum", angle=math.pi / 2.0)
+    rows = grown(scene, 5.0, 1e-10)
+    exponent = math.sqrt(9.81 * 0.5 / (1.0 / 12.0 + 0.25))
+    # after 3 s the falling direction has won by e^(2 λ t) = 1e10; two half steps of order three
+    # with λ h / 2 = 0.03 are off by (λ h / 2)³ / 24 = 1e-6 of the exponent
+    late = rows[rows[:, 0] > 3.0]
+    rate = late[1:, 1].sum() / (late[-1, 0] - late[0, 0])
+    assert rate == pytest.approx(exponent, rel=4e-6)
+
+
+def test_a_swinging_pendulum_has_no_exponent() -> None:
+    rows = grown(preset("pendulum"), 200.0, 1e-8)
+    # its period depends on its swing, so neighbours part in proportion to time, not faster
+    total = np.cumsum(rows[:, 1])
+    assert total[-1] < math.log(rows[-1, 0] / rows[0, 0]) + total[0] + 1.0
+    assert total[-1] / rows[-1, 0] < 0.05
+
+
+def test_an_impact_oscillator_grows_as_in_a_program_of_its_own() -> None:
+    periods, tolerance, near = 8, 1e-10, 1e-8
+    bundle = bundle_of([problem(shaken_disc(), periods * PERIOD, tolerance)])
+    start, tangent, weight = (
+        bundle.table(f"{name}0", 6)[:, 0].copy() for name in ("y", "tangent", "weight")
+    )
+    bundle.advance(10**8)
+    assert bundle.counters[Counter.ONSETS, 0] > 20
+    centre = [0, 1, 3, 4]
+    base, companion = (
+        Point(start[centre]),
+        Point(start[centre] + near / tolerance * tangent[centre]),
+    )
+    for point in (base, companion):
+        point.run(periods * PERIOD)
+    away = np.zeros(6)
+    away[centre] = companion.state - base.state
+    away[[2, 5]] = near / tolerance * (tangent[[2, 5]] + [tangent[5] * periods * PERIOD, 0.0])
+    expected = math.log(float(np.linalg.norm(away * weight)) * tolerance / near)
+    assert expected > 5.0
+    # a growth of e^7 of 1e-8 is 1e-5 of the clearance: what neighbours so far apart do not have
+    # in common; 27 impacts at 1e-10, each of 50 steps
+    assert growth(bundle)[:, 1].sum() == pytest.approx(expected, abs=5e-3)
+
+
+def test_the_press_grows_as_its_companion_does() -> None:
+    scene = preset("seven-bar-press", **CASE_3)
+    tolerance, near = 1e-8, 1e-8
+
+    def bundle() -> Bundle:
+        return bundle_of([problem(scene, 6.0, tolerance)])
+
+    whole = bundle()
+    whole.advance(10**8)
+    found = np.array(companion_growth(bundle(), near / tolerance, 30.0))
+    # the first revolution begins with journals in the middle, where a companion's normal is not
+    # the base's; then what the base's own method does to contact oscillations remains, whose
+    # phase at 1e-8 is off by 1e-3 a revolution
+    assert growth(whole)[1:, 1] == pytest.approx(found[1:, 1], abs=0.02)
+
+
+def test_exponents_hardly_depend_on_the_tolerance() -> None:
+    # a chaotic press whose friction holds in 1e-3 m/s: at 1e-6 its steps are at the limit of
+    # stability, and the derivative of the base's own steps would give twice the exponent
+    scene = preset(
+        "seven-bar-press",
+        **CASE_3
+        | {"bearing_radius": 0.005, "restitution": 0.9, "speed": 7.854, "speed_crank4": -7.854}
+        | {"static_velocity": 1e-4, "dynamic_velocity": 1e-3},
+    )
+
+    def exponents(tolerance: float) -> Floats:
+        lanes = [problem(scene, 64.0, tolerance * (1.0 + 0.01 * lane)) for lane in range(LANES)]
+        bundle = bundle_of(lanes)
+        rows: list[list[Floats]] = [[] for _ in lanes]
+        while bundle.advance(10**6) + 1:
+            for lane in range(LANES):
+                rows[lane].append(growth(bundle, lane))
+            if not bundle.table("active").any():
+                break
+        whole = [np.concatenate(parts)[10:] for parts in rows]
+        return np.array([g[1:, 1].sum() / (g[-1, 0] - g[0, 0]) for g in whole])
+
+    coarse, fine = exponents(1e-6), exponents(1e-8)
+    assert fine.mean() == pytest.approx(4.0, abs=0.5)
+    assert coarse.mean() == pytest.approx(fine.mean(), rel=0.35)
