@@ -1,6 +1,6 @@
 """Rows of one table on their way to the disk: buffered until a whole shard of them is there."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -103,13 +103,20 @@ class GrowingTable:
         ]
 
     def _write_shard(self) -> None:
-        index = self.durable // self._shard_rows
-        keys = self.shard_keys(index, index + 1)
-        for key, column, rows in zip(keys, self.table.columns, self.pending(), strict=True):
+        keys = self.shard_keys(*self._next_shard())
+        for key, content in zip(keys, self._contents(), strict=True):
             if key == keys[-1]:
                 # readers take the last column's shard for the sign that all others are there
                 self._folder.commit()
-            content = shards.encode(rows, self.table.chunk_rows, self._shard_rows, column.fill)
             self._folder.write(key, content)
         self._folder.commit()
         self.durable = self.rows
+
+    def _next_shard(self) -> tuple[int, int]:
+        index = self.durable // self._shard_rows
+        return index, index + 1
+
+    def _contents(self) -> Iterator[bytes]:
+        """Encode the waiting rows as the files of the next shard, in the order of `shard_keys`."""
+        for column, rows in zip(self.table.columns, self.pending(), strict=True):
+            yield shards.encode(rows, self.table.chunk_rows, self._shard_rows, column.fill)

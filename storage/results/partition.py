@@ -16,11 +16,20 @@ class Partition:
         Most chunks in one file.
     buffer_bytes
         Most bytes of one table that wait in memory for their shard to fill.
+    pyramid_above
+        A history of more samples gets a pyramid of extremes.
+    bucket
+        Samples of the finest extremes.
+    level_rows
+        Extremes of a level in one file, a multiple of 16.
     """
 
     chunk_rows: int = 16_384
     shard_chunks: int = 32
     buffer_bytes: int = 32 * 2**20
+    pyramid_above: int = 16_384
+    bucket: int = 64
+    level_rows: int = 1024
 
     def cut(self, capacity: int | None, row_bytes: int) -> tuple[int, int]:
         """Give rows of a chunk and of a shard; a shard is a whole number of chunks.
@@ -36,6 +45,8 @@ class Partition:
             return max(capacity, 1), max(capacity, 1)
         fitting = self.buffer_bytes // row_bytes
         if fitting < self.chunk_rows:
+            if fitting > self.bucket:
+                fitting -= fitting % self.bucket
             return max(fitting, 1), max(fitting, 1)
         chunks = min(fitting // self.chunk_rows, self.shard_chunks)
         if capacity is not None:

@@ -13,6 +13,7 @@ from storage.results.errors import InvalidAppend, StoreExists, StoreSealed
 from storage.results.growing_table import GrowingTable
 from storage.results.journal import Checkpoint, Journal
 from storage.results.layout import IMPACT, Peak, ResultLayout
+from storage.results.pyramid import Pyramid
 from storage.results.tables import tables
 
 _NO_PEAK: Final = Peak(*[float("nan")] * 4)
@@ -33,6 +34,7 @@ class ResultWriter:
         self._journal = Journal(path, layout.digest)
         self._tables = [GrowingTable(table, self._folder) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
+        self._pyramid = Pyramid(layout, self._history, self._folder)
         self._sealed = False
 
     @classmethod
@@ -51,6 +53,8 @@ class ResultWriter:
             raise StoreExists(f"{path} holds results already; choose another folder")
         path.mkdir(parents=True, exist_ok=True)
         writer = cls(path, layout)
+        for key, document in writer._pyramid.documents().items():
+            writer._folder.draft(key, metadata.serialise(document))
         writer._show()
         return writer
 
@@ -94,9 +98,9 @@ class ResultWriter:
         taken_over_from = Path(taken_over_from)
         state = Checkpoint(checkpoint, layout.digest)
         writer = cls.create(path, layout)
-        for table, durable in zip(writer._tables, state.durable, strict=True):
+        for table, durable in zip(writer._growing, state.durable, strict=True):
             table.take_over(taken_over_from, durable)
-        state.replay(taken_over_from, writer._tables)
+        state.replay(taken_over_from, writer._growing)
         if writer._impacts.durable:
             writer._show()
         return writer
@@ -164,6 +168,7 @@ class ResultWriter:
             raise InvalidAppend(f"impacts need the fields {IMPACT.names}")
         self._history.check_capacity(len(sample_time))
         self._sections.check_capacity(len(section_time))
+        self._pyramid.append([*samples.T, sample_time])
         self._history.append([*samples.T, sample_time])
         self._sections.append([*sections.T, section_time])
         if impacts.size:
@@ -180,7 +185,7 @@ class ResultWriter:
         been made, so store one before asking for the next.
         """
         self._refuse_when_sealed()
-        return self._journal.checkpoint(self._tables)
+        return self._journal.checkpoint(self._growing)
 
     def seal(
         self,
@@ -237,16 +242,23 @@ class ResultWriter:
         self._sealed = True
         rows = np.array([peaks.get(name, _NO_PEAK) for name in names]).reshape(-1, 4)
         self._peaks.append(list(rows.T))
-        for table in self._tables:
+        self._pyramid.close()
+        for table in self._growing:
             table.finish()
         for litter in self._path.rglob(f"*{PARTIAL}"):
             litter.unlink()
         shown = [table.rows for table in self._tables]
-        for key, document in metadata.documents(self._layout, shown, attributes).items():
+        documents = metadata.documents(self._layout, shown, attributes)
+        for key, document in (self._pyramid.documents() | documents).items():
             self._folder.write(key, metadata.serialise(document))
         self._folder.commit()
         manifest.seal(self._folder)
         self._journal.remove()
+
+    @property
+    def _growing(self) -> list[GrowingTable]:
+        """Everything that is written shard by shard, in the order of the journal."""
+        return [*self._tables, *self._pyramid.levels]
 
     def _show(self) -> None:
         """Let readers of the growing store see all samples to come and the impacts so far.

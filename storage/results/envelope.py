@@ -1,0 +1,169 @@
+"""Extremes of a history over bins of samples: from its pyramid, at the ends from samples."""
+
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from storage.results import shards
+from storage.results.metadata import FILE
+from storage.results.pyramid import FOLDER
+
+Floats = NDArray[np.float64]
+Column = Callable[[int, int], Floats]
+"""Samples [first, last) of one column."""
+
+_LEAST: Final = 4
+"""Buckets of a bin: with fewer, bins that begin with a bucket would be much too wide."""
+_DOUBLE: Final = np.dtype("<f8")
+
+
+class StoredLevel:
+    """One level of the pyramid on the disk.
+
+    Parameters
+    ----------
+    folder
+        Of the level's array.
+    samples
+        Of the history; none while it grows.
+    """
+
+    def __init__(self, folder: Path, samples: int | None) -> None:
+        self.size = int(folder.name)
+        self._folder = folder
+        document = json.loads((folder / FILE).read_bytes())
+        self._rows, self._width = document["chunk_grid"]["configuration"]["chunk_shape"]
+        self._samples = samples
+        self._indices: dict[int, list[tuple[int, int]]] = {}
+
+    @property
+    def buckets(self) -> int:
+        """Buckets that can be read."""
+        if self._samples is not None:
+            return -(-self._samples // self.size)
+        files = 0
+        while (self._folder / f"c/{files}/0").exists():
+            files += 1
+        return files * int(self._rows)
+
+    def read(self, column: int, first: int, last: int) -> Floats:
+        """Read (last - first, 2) minima and maxima of a column in buckets [first, last)."""
+        pieces = []
+        for file in range(first // self._rows, -(-last // self._rows)):
+            begin = file * self._rows
+            low, high = max(first - begin, 0), min(last - begin, self._rows)
+            pieces.append(self._chunk(file, column)[low:high])
+        return np.concatenate(pieces) if pieces else np.empty((0, 2))
+
+    def _chunk(self, file: int, column: int) -> Floats:
+        descriptor = os.open(f"{self._folder}/c/{file}/0", os.O_RDONLY)
+        try:
+            index = self._indices.get(file)
+            if index is None:
+                length = shards.index_bytes(self._width // 2)
+                end = os.fstat(descriptor).st_size
+                index = shards.unpack_index(os.pread(descriptor, length, end - length))
+                self._indices[file] = index
+            offset, length = index[column]
+            content = os.pread(descriptor, length, offset)
+        finally:
+            os.close(descriptor)
+        return shards.decompress(content, _DOUBLE).reshape(-1, 2)
+
+
+class Envelope:
+    """Extremes of one store's history.
+
+    Parameters
+    ----------
+    root
+        Folder of the store.
+    samples
+        Of the history; none while it grows.
+    """
+
+    def __init__(self, root: Path, samples: int | None) -> None:
+        found = [path for path in (root / FOLDER).glob("*") if (path / FILE).exists()]
+        levels = [StoredLevel(path, samples) for path in found]
+        self.levels = sorted(levels, key=lambda level: level.size)
+
+    def bins(self, first: int, last: int, points: int) -> "Bins":
+        """Cut samples [first, last) into at most `points` bins, which begin with buckets."""
+        count = last - first
+        width = -(-count // max(points - 1, 1)) if points > 1 else 2 * last
+        position = -1
+        for candidate, level in enumerate(self.levels):
+            if level.size * _LEAST <= width and level.size * 2 <= count:
+                position = candidate
+        step = self.levels[position].size if position >= 0 else 1
+        width = max(-(-width // step) * step, 1)
+        inner = np.arange((first // width + 1) * width, last, width)
+        return Bins(self, position, step, first, last, np.array([first, *inner]))
+
+    def buckets(self, position: int, column: int, samples: Column, first: int, last: int) -> Floats:
+        """Read buckets [first, last) of a level; what it lacks comes from the level below."""
+        if position < 0:
+            values = samples(first, last)
+            return np.column_stack([values, values])
+        level = self.levels[position]
+        known = min(max(level.buckets, first), last)
+        stored = level.read(column, first, known)
+        if known == last:
+            return stored
+        below = self.levels[position - 1].size if position else 1
+        factor = level.size // below
+        rest = self.buckets(position - 1, column, samples, known * factor, last * factor)
+        return np.concatenate([stored, _extremes(rest, np.arange(0, len(rest), factor))])
+
+
+class Bins:
+    """Consecutive bins of samples; make them with `Envelope.bins`."""
+
+    def __init__(
+        self,
+        envelope: Envelope,
+        position: int,
+        step: int,
+        first: int,
+        last: int,
+        begins: NDArray[np.int64],
+    ) -> None:
+        self._envelope, self._position, self._step = envelope, position, step
+        self._first, self._last = first, last
+        self.begins = begins
+        """(k,) first sample of each bin."""
+
+    def extremes(self, column: int, samples: Column) -> Floats:
+        """Give (k, 2) minima and maxima of a column, by its position in the store."""
+        step = self._step
+        low = min(-(-self._first // step) * step, self._last)
+        high = max(self._last // step * step, low)
+        pieces = [
+            self._ends(samples, self._first, low),
+            self._envelope.buckets(self._position, column, samples, low // step, high // step)
+            if high > low
+            else np.empty((0, 2)),
+            self._ends(samples, high, self._last),
+        ]
+        inside = (self.begins - low) // step + len(pieces[0])
+        inside[0] = 0
+        return _extremes(np.concatenate(pieces), inside)
+
+    @staticmethod
+    def _ends(samples: Column, first: int, last: int) -> Floats:
+        if first >= last:
+            return np.empty((0, 2))
+        values = samples(first, last)
+        return np.array([[np.fmin.reduce(values), np.fmax.reduce(values)]])
+
+
+def _extremes(pairs: Floats, begins: NDArray[Any]) -> Floats:
+    """Fold rows of minima and maxima from each of `begins` to the next."""
+    return np.column_stack(
+        [np.fmin.reduceat(pairs[:, 0], begins), np.fmax.reduceat(pairs[:, 1], begins)]
+    )
