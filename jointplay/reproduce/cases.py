@@ -187,9 +187,13 @@ def _motions(variant: Variant, size: Size) -> Iterator[Run]:
         }
         yield Run(approach(case, variant), before | sections, 0.006 * size.settle)
         after = {"settle": size.settle, "record": size.record, "members": size.members}
-        judged = {"kind": "ensemble", "indicators": list(INDICATORS)}
+        judged = {
+            "kind": "ensemble",
+            "indicators": list(INDICATORS),
+            "tolerance": size.tolerance,
+        }
         total = size.settle + size.record
-        yield Run(settled(case, variant), judged | after | sections, 0.01 * total)
+        yield Run(settled(case, variant), judged | after | sections, 0.02 * total)
 
 
 def _diagrams(variant: Variant, size: Size) -> Iterator[Run]:

@@ -50,6 +50,13 @@ def milliseconds(time: float) -> str:
     return f"{1e3 * time:.4g} ms"
 
 
+def small(value: float, bound: float, digits: str = ".2g") -> str:
+    """Return a number, or 0 if its magnitude is below a bound that nobody would notice."""
+    if abs(value) < bound:
+        return "0"
+    return signed(value, digits)
+
+
 def signed(value: float, digits: str) -> str:
     """Return a number with a minus sign as wide as a digit, that no line is broken after."""
     return format(value, digits).replace("-", "−")

@@ -5,15 +5,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from jointplay.reproduce import cases, reported
-from jointplay.reproduce.comparison import Cell, Row
+from jointplay.reproduce.comparison import Cell, Row, small
 from jointplay.reproduce.motions import UNKNOWN, in_words, mean_exponent, tally
 from jointplay.reproduce.variants import Variant
 from jointplay.source import Floats
+from solver.nonlinear.estimate import SIGNIFICANT
 from storage.studies import StudyReader
 
 _QUANTILES = (0.1, 0.5, 0.9)
+_NEAR = 5
 
 
 def spread(study: StudyReader, joint: str, axes: str) -> Floats:
@@ -40,25 +43,60 @@ def rows(folder: Path, which: int, variants: Sequence[Variant]) -> Iterator[Row]
             f"{words['joint']}, {' and '.join(words['axes'])}",
             words["words"],
             tuple(_cell(study, entry, words) for study in studies),
-            ("system", "window"),
+            ("system", "window", "tolerance"),
         )
 
 
 def _cell(study: StudyReader, entry: Mapping[str, Any], words: Mapping[str, Any]) -> Cell:
-    low, high = (reported.si(entry["parameter"], edge) for edge in words["interval"])
-    values = study.values[:, 0]
-    inside = (values >= low * (1.0 - 1e-9)) & (values <= high * (1.0 + 1e-9))
+    inside = _inside(study, entry["parameter"], words)
     if not inside.any():
         return Cell("no value computed")
-    exponents = study.indicators.get("lyapunov")
     details = [UNKNOWN]
-    if exponents is not None and mean_exponent(study, inside) is not None:
-        small, middle, large = np.nanquantile(exponents[inside], _QUANTILES)
-        details = [f"λ {middle:.2g} ({small:.2g} … {large:.2g}) 1/s"]
+    if mean_exponent(study, inside) is not None:
+        exponents = study.indicators["lyapunov"][inside]
+        part = exponents > SIGNIFICANT * study.indicators["lyapunov_error"][inside]
+        details = [
+            f"λ {_quantiles(exponents, 0.005)} 1/s",
+            f"neighbours part at {100 * part.mean():.0f} %",
+        ]
     extent = spread(study, words["joint"], words["axes"])[inside]
-    small, middle, large = np.nanquantile(extent, _QUANTILES)
-    details.append(f"extent {middle:.2g} c ({small:.2g} … {large:.2g})")
+    details.append(f"extent {_quantiles(extent, 0.0005)} c")
     return Cell(in_words(tally(study, inside)) or "no verdict", tuple(details))
+
+
+def medians(study: StudyReader, setting: str, words: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the medians of extent [clearances] and exponent [1/s] over a printed interval."""
+    inside = _inside(study, setting, words)
+    exponents = study.indicators.get("lyapunov", np.full(study.points, np.nan))[inside]
+    extent = spread(study, words["joint"], words["axes"])[inside]
+    known = exponents[np.isfinite(exponents)]
+    return float(np.median(extent)), float(np.median(known)) if len(known) else float("nan")
+
+
+def largest_rise(study: StudyReader, joint: str) -> tuple[float, float, float]:
+    """Return where a joint's extent rises most: the value [SI], and the extent before and after.
+
+    Before and after are medians over five values of the parameter.
+    """
+    extent = spread(study, joint, "xy")
+    if len(extent) <= 2 * _NEAR:
+        return float("nan"), float("nan"), float("nan")
+    medians = np.median(np.lib.stride_tricks.sliding_window_view(extent, _NEAR), axis=1)
+    before, after = medians[:-_NEAR], medians[_NEAR:]
+    index = int(np.nanargmax(after - before))
+    return float(study.values[index + _NEAR, 0]), float(before[index]), float(after[index])
+
+
+def _inside(study: StudyReader, setting: str, words: Mapping[str, Any]) -> NDArray[np.bool_]:
+    """Return (points,) which lie in a printed interval, both its ends included."""
+    low, high = (reported.si(setting, edge) for edge in words["interval"])
+    values = study.values[:, 0]
+    return np.asarray((values >= low * (1.0 - 1e-9)) & (values <= high * (1.0 + 1e-9)))
+
+
+def _quantiles(values: Floats, bound: float) -> str:
+    low, middle, high = (small(float(one), bound) for one in np.nanquantile(values, _QUANTILES))
+    return f"{middle} ({low} … {high})"
 
 
 def _clearances(study: StudyReader, joint: str) -> Floats:

@@ -1,13 +1,15 @@
 """Sentences whose numbers are computed: what the report says in short, and its evidence."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from jointplay.reproduce import cases, load_cases, overview, ranges, reported
-from jointplay.reproduce.comparison import milliseconds
-from jointplay.reproduce.motions import in_words, judged
+from jointplay.reproduce import cases, diagrams, load_cases, overview, ranges, reported
+from jointplay.reproduce.comparison import milliseconds, signed
+from jointplay.reproduce.motions import judged
 from jointplay.reproduce.size import Size
-from jointplay.reproduce.variants import AS_PUBLISHED, CONSTANT, MATERIAL, Variant
+from jointplay.reproduce.variants import AS_PUBLISHED, CONSTANT, MATERIAL, SLIPS, Variant
+from storage.studies import StudyReader
 
 
 def in_short(folder: Path, size: Size) -> Iterator[str]:
@@ -16,7 +18,8 @@ def in_short(folder: Path, size: Size) -> Iterator[str]:
     yield f"All printed peaks of the displacement agree within {1e3 * worst:.2f} mm."
     yield _impacts(folder)
     yield _spans(folder)
-    yield from _motions(folder, size)
+    yield _motions(folder, size)
+    yield _expansion(folder, size)
     yield gravity(folder)
 
 
@@ -106,30 +109,68 @@ def _impacts(folder: Path) -> str:
 
 
 def _spans(folder: Path) -> str:
-    """Return the range of A in x in the cases that the publication prints with most digits."""
+    """Return the range of A in x at the slowest and at the fastest speed."""
+    entries = reported.document()["phase_ranges"]
+    parts = []
+    for case in (0, len(entries) - 1):
+        ours = ranges.found(folder, "late", Variant(CONSTANT, MATERIAL), case, "A.eccentricity_x")
+        low, high = (signed(1e3 * one, ".4f") for one in ours)
+        printed = " to ".join(signed(1e3 * one, ".4f") for one in entries[case]["A"]["x"])
+        name = reported.case_name(entries[case])
+        parts.append(f"{low} to {high} mm at {name} (printed {printed})")
+    return (
+        f"With {CONSTANT.label} and the {MATERIAL.label} the eccentricity of A in x spans"
+        f" {'; '.join(parts)}."
+    )
+
+
+def _motions(folder: Path, size: Size) -> str:
+    """Return in how many readings each of the judged motions is chaotic, with the exponents."""
     parts = []
     for case, entry in enumerate(reported.document()["phase_ranges"]):
-        low, high = ranges.found(
-            folder, "late", Variant(CONSTANT, MATERIAL), case, "A.eccentricity_x"
-        )
-        printed = [f"{1e3 * one:.4f}" for one in entry["A"]["x"]]
+        found = [judged(folder, cases.settled(case, variant)) for variant in size.motions]
+        exponents = [one.exponent.value for one in found if one.exponent]
+        if not exponents:
+            return "Lyapunov exponents were not computed."
+        chaotic = sum(bool(one.verdicts) and one.verdicts[0][0] == "chaotic" for one in found)
+        words = " and ".join(f"{joint} {entry['words'][joint]}" for joint in cases.JOINTS)
+        low, high = (signed(one, ".2f") for one in (min(exponents), max(exponents)))
         parts.append(
-            f"{1e3 * low:.4f} to {1e3 * high:.4f} mm at {reported.case_name(entry)} (printed"
-            f" {printed[0]} to {printed[1]})"
+            f"at {reported.case_name(entry)} chaotic in {chaotic} of {len(found)} readings"
+            f" (exponents {low} to {high} 1/s; printed: {words})"
         )
-    text = "; ".join(parts).replace("-", "−")
-    return f"{CONSTANT.label}, {MATERIAL.label}: the eccentricity of A in x spans {text}."
+    return f"The settled motion of the whole system is {'; '.join(parts)}."
 
 
-def _motions(folder: Path, size: Size) -> Iterator[str]:
-    entries = reported.document()["phase_ranges"]
-    for variant in size.motions:
-        motions = [judged(folder, cases.settled(case, variant)) for case in range(len(entries))]
-        if any(motion.exponent is None for motion in motions):
-            yield "Lyapunov exponents were not computed: this version has no indicator of them yet."
-            return
-        told = "; ".join(
-            f"{motion.exponent} 1/s at {reported.case_name(entry)}, {in_words(motion.verdicts)}"
-            for entry, motion in zip(entries, motions, strict=True)
-        )
-        yield f"Largest exponent, {variant.label}: {told}."
+def _expansion(folder: Path, size: Size) -> str:
+    """Return where the sections of B widen most as the speed grows."""
+    parts = []
+    for choice in SLIPS:
+        rises = []
+        for variant in size.motions:
+            study = StudyReader(folder / cases.diagram(1, variant))
+            value, before, after = diagrams.largest_rise(study, "B")
+            if variant.slip == choice and math.isfinite(value):
+                at = value / reported.si("omega_over_pi", 1.0)
+                rises.append(f"{at:.2f}π ({before:.2g} to {after:.2g} c, {variant.law.label})")
+        if rises:
+            parts.append(f"with the {choice.label} at {' and '.join(rises)}")
+    if not parts:
+        return "Too few speeds were computed to say where the sections of B widen."
+    return (
+        "The sections of B are printed to expand suddenly at 1.42π rad/s; ours widen most"
+        f" {', '.join(parts)}."
+    )
+
+
+def weakening(folder: Path, size: Size) -> str:
+    """Return extent and exponent of B over the printed intervals of the speed."""
+    variant = size.motions[-1]
+    study = StudyReader(folder / cases.diagram(1, variant))
+    parts = []
+    for words in reported.document()["bifurcation"][1]["reported"]:
+        if words["joint"] == "B":
+            extent, exponent = diagrams.medians(study, "omega_over_pi", words)
+            low, high = words["interval"]
+            parts.append(f"{extent:.2g} c and {exponent:.2g} 1/s on {low:g} to {high:g}π")
+    return f"{variant.label}, medians of extent and exponent: {', '.join(parts)}."

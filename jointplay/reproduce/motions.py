@@ -2,15 +2,16 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.reproduce import cases, reported
-from jointplay.reproduce.comparison import Cell, Row
+from jointplay.reproduce.comparison import Cell, Row, signed, small
 from jointplay.reproduce.variants import Variant
 from jointplay.source import Floats
 from solver.nonlinear.estimate import Estimate
@@ -86,8 +87,11 @@ def rows(folder: Path, variants: Sequence[Variant]) -> Iterator[Row]:
             reported.case_name(entry),
             ", ".join(entry["figures"]),
             "; ".join(f"{joint}: {words[joint]}" for joint in cases.JOINTS),
-            tuple(_cell(one, 2.0 / entry["omega_over_pi"]) for one in motions),
-            ("system", "window"),
+            tuple(
+                _cell(motion, 2.0 / entry["omega_over_pi"], _in_diagram(folder, variant, entry))
+                for motion, variant in zip(motions, variants, strict=True)
+            ),
+            ("system", "window", "tolerance"),
         )
 
 
@@ -99,15 +103,35 @@ def in_words(verdicts: Sequence[tuple[str, int]]) -> str:
     return ", ".join(f"{word} {100 * count / total:.0f} %" for word, count in verdicts)
 
 
-def _cell(motion: Motion, period: float) -> Cell:
-    details = [f"λ = {motion.exponent} 1/s" if motion.exponent else UNKNOWN]
+def _cell(motion: Motion, period: float, elsewhere: Estimate | None) -> Cell:
+    details = [f"λ = {written(motion.exponent)}" if motion.exponent else UNKNOWN]
     if motion.exponent:
-        details.append(f"{motion.exponent.value * period:.2g} a revolution")
+        details.append(f"{small(motion.exponent.value * period, 0.005)} a revolution")
     if math.isfinite(motion.zero_one):
-        details.append(f"K = {motion.zero_one:.2f}")
+        details.append(f"0–1 test {signed(motion.zero_one, '.2f')}")
     if motion.period > 0.0:
         details.append(f"recurs after {motion.period:g}")
+    if elsewhere:
+        details.append(f"in the diagram λ = {written(elsewhere)}")
     return Cell(in_words(motion.verdicts) or "no verdict", tuple(details))
+
+
+def written(exponent: Estimate) -> str:
+    """Return an exponent with its error and unit."""
+    return str(exponent).replace("-", "−") + " 1/s"
+
+
+def _in_diagram(folder: Path, variant: Variant, entry: Mapping[str, Any]) -> Estimate | None:
+    """Return the exponent of the same motion in a bifurcation diagram, if it is there."""
+    parameters = reported.parameters(entry)
+    for which, shown in enumerate(reported.document()["bifurcation"]):
+        name, _ = reported.SETTINGS[shown["parameter"]]
+        fixed = reported.parameters(shown)
+        study = StudyReader(folder / cases.diagram(which, variant))
+        here = np.isclose(study.values[:, 0], parameters[name], rtol=1e-9, atol=0.0)
+        if here.any() and all(parameters[one] == value for one, value in fixed.items()):
+            return mean_exponent(study, here)
+    return None
 
 
 def _median(study: StudyReader, name: str) -> float:

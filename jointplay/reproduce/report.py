@@ -10,6 +10,7 @@ from string import Template
 from jointplay.reproduce import (
     cases,
     diagrams,
+    experiment,
     findings,
     load_cases,
     markup,
@@ -18,7 +19,6 @@ from jointplay.reproduce import (
     peaks,
     ranges,
     reported,
-    test_bed,
 )
 from jointplay.reproduce.comparison import Row
 from jointplay.reproduce.pictures import Picture
@@ -26,6 +26,10 @@ from jointplay.reproduce.size import FULL, Size
 from jointplay.reproduce.variants import CONSTANT, SLIPS, Variant
 from solver import presets
 
+_FEW = (
+    "<p>Sections as few as those of a diagram tell the 0–1 test nothing: a motion whose exponent is"
+    " near zero stays undecided there, unless it recurs.</p>"
+)
 _FIRST = ("case", "quantity", "printed")
 
 
@@ -63,11 +67,12 @@ def page(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]]) ->
             f'<section id="{name}"><h2>{escape(title)}</h2>{body}</section>'
             for name, title, body in sections
         ),
-        test_bed=markup.table("Printed of the experiment", _FIRST, ("ours",), test_bed.rows()),
+        test_bed=markup.table("Printed of the experiment", _FIRST, ("ours",), experiment.rows()),
         gravity=escape(findings.gravity(folder)),
         sampling=escape(findings.sampling(folder, size)),
         slip=escape(findings.slip(folder)),
         window=escape(findings.window(folder, size)),
+        weakening=escape(findings.weakening(folder, size)),
         bed=escape(findings.bed()),
         jobs=_jobs(size),
     )
@@ -110,7 +115,7 @@ def _sections(
             list(diagrams.rows(folder, which, size.motions)),
             ("interval", "joint", "their words"),
         )
-        yield f"diagram-{which}", title, _drawn(f"diagram-{which}", pictures) + table
+        yield f"diagram-{which}", title, _drawn(f"diagram-{which}", pictures) + _FEW + table
 
 
 def _phases(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]]) -> str:
@@ -124,7 +129,7 @@ def _phases(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]])
     parts.append(_table(caption, labels, list(ranges.rows(folder, size.variants))))
     caption = (
         f"Kind of motion, from {size.members} starts, {size.settle} revolutions left out,"
-        f" {size.record} recorded"
+        f" {size.record} recorded, tolerance {size.tolerance:g}"
     )
     first = ("case", "figures", "their words")
     labels = [variant.label for variant in size.motions]

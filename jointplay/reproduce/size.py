@@ -26,8 +26,9 @@ class Size:
         The same after long settling.
     settle, record
         Periods of the sections that indicators are computed from, before and in the record.
-    members
-        Starts from which these are computed.
+    members, tolerance
+        Starts from which these are computed, and how exactly: at the standard tolerance chaotic
+        exponents of the stiffest contacts are off by a third.
     thinning
         Of the values of bifurcation diagrams every so many-th one is computed.
     diagram
@@ -43,8 +44,9 @@ class Size:
     early: tuple[int, int] = (2, 12)
     late: tuple[int, int] = (100, 200)
     settle: int = 100
-    record: int = 500
+    record: int = 400
     members: int = 8
+    tolerance: float = 1e-8
     thinning: int = 1
     diagram: tuple[int, int] = (100, 50)
     variants: tuple[Variant, ...] = VARIANTS
