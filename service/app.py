@@ -7,6 +7,7 @@ from importlib.metadata import version
 from fastapi import FastAPI
 
 import service.batches.endpoints
+import service.estimates.endpoints
 import service.events.endpoints
 import service.health.endpoints
 import service.jobs.endpoints
@@ -17,6 +18,7 @@ import service.scenes.endpoints
 import service.studies.endpoints
 import service.zarr.endpoints
 from service import problems
+from service.estimates.prober import Prober
 from service.events.watcher import Watcher
 from service.idempotency import InFlight
 from service.openapi import described
@@ -32,6 +34,7 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 _RESOURCES = (
     service.jobs.endpoints,
     service.events.endpoints,
+    service.estimates.endpoints,
     service.batches.endpoints,
     service.studies.endpoints,
     service.results.endpoints,
@@ -62,9 +65,11 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.catalogue = catalogue
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = InFlight()
+        app.state.prober = prober = Prober()
         try:
             yield
         finally:
+            prober.close()
             catalogue.close()
 
     app = FastAPI(

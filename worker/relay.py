@@ -23,6 +23,7 @@ from worker.removal import remove_expired
 
 _DUTY = "relay"
 _DUTY_SECONDS = 5.0
+_REMOVAL_PATIENCE = 2.0  # s; whoever relays next goes on with it
 _log = logging.getLogger(__name__)
 
 
@@ -35,6 +36,7 @@ class Relay:
         self._app = make_app(settings.redis_url)
         self._name = f"{socket.gethostname()}:{os.getpid()}"
         self._reaped = 0.0
+        self._removing: threading.Thread | None = None
         self._duty_until = 0.0
 
     def turn(self) -> None:
@@ -51,8 +53,19 @@ class Relay:
                 _log.warning("block %s lost its worker and is queued again", block)
             for job in reaped.ended:
                 _log.error("job %s lost too many workers", job)
-            remove_expired(self._catalogue, self._settings)
+            self._remove_expired()
         self.publish()
+
+    def _remove_expired(self) -> None:
+        """Begin with it beside the relay's other work, which must not wait for disks."""
+        if self._removing is None or not self._removing.is_alive():
+            if not self._catalogue.removable(1):
+                return
+            arguments = self._catalogue, self._settings
+            self._removing = threading.Thread(
+                target=remove_expired, args=arguments, name="removal", daemon=True
+            )
+            self._removing.start()
 
     def publish(self) -> None:
         """Send every due wake-up to Redis; what cannot be sent stays due."""
@@ -69,6 +82,8 @@ class Relay:
 
     def lay_down(self) -> None:
         """Let another relay take over at once."""
+        if self._removing is not None:
+            self._removing.join(_REMOVAL_PATIENCE)
         self._app.close()
         self._catalogue.lay_down_duty(_DUTY, self._name)
 

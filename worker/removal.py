@@ -11,8 +11,10 @@ _log = logging.getLogger(__name__)
 
 
 def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
-    """Remove the folders of some expired jobs; what cannot be removed is tried again."""
-    removed = []
+    """Remove the folders of some expired jobs; what cannot be removed is tried again.
+
+    It takes seconds a job where disks are slow.
+    """
     for job in catalogue.removable(_AT_ONCE):
         try:
             shutil.rmtree(settings.job_folder(job))
@@ -21,7 +23,5 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
         except OSError as error:
             _log.warning("the results of job %s cannot be removed: %s", job, error)
             continue
-        removed.append(job)
-    if removed:
-        catalogue.mark_removed(removed)
-        _log.info("removed the results of %s expired jobs", len(removed))
+        catalogue.mark_removed([job])
+        _log.info("removed the results of job %s", job)

@@ -14,6 +14,7 @@ from jointplay.client import studies
 from jointplay.client.batches import Batch
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError
+from jointplay.client.estimates import Estimate
 from jointplay.client.events import follow
 from jointplay.client.jobs import Job
 from jointplay.client.results import History, Impacts, Peak, Section
@@ -77,6 +78,11 @@ class Client:
         """
         headers = {} if key is None else {"Idempotency-Key": key}
         return _job(self._connection.post("/v1/jobs", dict(document), headers))
+
+    def estimate(self, document: Mapping[str, Any]) -> Estimate:
+        """Return what a job will cost; nothing is queued."""
+        answer = self._connection.post("/v1/estimates", dict(document)).json()
+        return Estimate.from_document(answer)
 
     def delete(self, job_id: str) -> None:
         """Delete a finished job and its results."""

@@ -214,6 +214,11 @@ class Catalogue:
         with self._connections.reading() as connection:
             return listing.glances_of(connection, jobs)
 
+    def identical(self, new: NewJob) -> str | None:
+        """Return the id of the job that `submit` would find instead of making this one."""
+        with self._connections.reading() as connection:
+            return submission.same_job(connection, new, self._clock())
+
     def expired(self, job: Job) -> bool:
         """Tell whether a job and its results can be read no more."""
         return job.expired(self._clock())

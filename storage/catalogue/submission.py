@@ -50,7 +50,7 @@ def submit(
             job = find_job(connection, earlier.job)
             # a key is stored with the job that it made, and later than one that it found
             return Submitted(job, created=False, cached=earlier.created > job.created)
-    if reuse and (same := _same_job(connection, new, now)) is not None:
+    if reuse and (same := same_job(connection, new, now)) is not None:
         if key is not None:
             remember_key(connection, key, now, job=same)
         _keep_until(connection, same, new.expires)
@@ -61,7 +61,7 @@ def submit(
     return Submitted(find_job(connection, job_id), created=True)
 
 
-def _same_job(connection: Connection, new: NewJob, now: float) -> str | None:
+def same_job(connection: Connection, new: NewJob, now: float) -> str | None:
     """Return the newest job that asks this solver for the same, unless it ended badly or expired.
 
     The digest covers the filled-in job without its label, the version the solver's sources.

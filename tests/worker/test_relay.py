@@ -132,8 +132,7 @@ def test_the_results_of_deleted_jobs_are_removed(
         catalogue.request_cancel(job)
         settings.result_folder(job, 1).mkdir(parents=True)
     catalogue.delete(deleted)
-    relay.turn()
+    until(lambda: catalogue.get(deleted).removed is not None, relay.turn)
     assert not settings.job_folder(deleted).exists()
     assert settings.result_folder(kept, 1).exists()
-    assert catalogue.get(deleted).removed is not None
     assert catalogue.removable(10) == ()

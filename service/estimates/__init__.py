@@ -1,0 +1,1 @@
+"""``/v1/estimates``: what a job will cost, before anything is queued."""

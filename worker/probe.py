@@ -1,0 +1,197 @@
+"""`python -m worker.probe`: says what jobs will cost, by computing the beginning of each.
+
+Reads one admitted job document a line and answers each with one line of JSON; ends with its
+input, or when nobody asked for a while. A job that is over within the budget is known exactly; of
+a longer one the pace at the end of the beginning is taken for the rest.
+"""
+
+import json
+import os
+import select
+import shutil
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from solver.admission import Admission, Study, readmit
+from solver.errors import InvalidInput, SimulationFailed
+from solver.simulate import Simulation
+from solver.study.run import StudyRun
+from worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
+
+BUDGET = 0.5
+"""Seconds of computing spent on one estimate."""
+_MOST_BLOCKS = 3
+"""Blocks of a study of which the beginning is computed: first, middle and last."""
+_BEGINNING = 0.2
+"""Part of what was computed whose pace is not taken for that of the rest: how a motion starts."""
+_STUDY_COMPRESSION = 0.8  # of sections and peaks; of a simulation it is measured
+_MEMORY = Path("/dev/shm")  # noqa: S108  (TemporaryDirectory makes a private folder in it)
+_ROOM = 2_000_000_000  # bytes
+_IDLE = 300.0  # s after which memory is given back
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a job takes: `seconds` of one core, accepted `steps`, `bytes` on the disk."""
+
+    seconds: float
+    steps: int
+    bytes: int
+    points: int  # of a study; 1
+    blocks: int  # that can be computed at the same time
+    exact: bool  # it was computed to its end
+    failure: str | None  # why it will end early
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How far a probe was."""
+
+    seconds: float
+    fraction: float
+    steps: float
+
+
+def cost_of(document: object) -> Cost:
+    """Return what an admitted job takes on this machine, at its present load.
+
+    Raises
+    ------
+    InvalidInput
+        The job cannot be computed after all.
+    """
+    admitted = readmit(document)
+    return _of_study(admitted) if isinstance(admitted, Study) else _of_simulation(admitted)
+
+
+def _of_simulation(admission: Admission) -> Cost:
+    with suppress(SimulationFailed):
+        next(Simulation(admission).slices(), None)  # kernels are loaded, or compiled
+    outcome, marks, fixed, growing = _run(admission, BUDGET)
+    exact = outcome.state != "cancelled"
+    if exact:
+        steps = int((outcome.statistics or {}).get("steps", 0))
+        whole = Mark(marks[-1].seconds, 1.0, steps)
+    else:
+        whole = _extrapolated(marks)
+    reached = max(outcome.fraction, 1e-9)
+    return Cost(
+        seconds=whole.seconds,
+        steps=round(whole.steps),
+        bytes=round(fixed + growing / (1.0 if exact else reached)),
+        points=1,
+        blocks=1,
+        exact=exact,
+        failure=outcome.error.detail if outcome.error else None,
+    )
+
+
+def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int]:
+    """Compute for so many seconds; return also the bytes of documents, and those of numbers."""
+    marks: list[Mark] = []
+    began = time.process_time()
+
+    def report(progress: Progress) -> Answer:
+        spent = time.process_time() - began
+        marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
+        return Answer.cancel if len(marks) > 1 and spent > budget else Answer.go_on
+
+    with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
+        folder = Path(name) / "store"
+        outcome = execute(admission, folder, report=report)
+        marks.append(Mark(time.process_time() - began, outcome.fraction, 0))
+        sizes = {path: path.stat().st_size for path in folder.rglob("*") if path.is_file()}
+    fixed = sum(size for path, size in sizes.items() if path.suffix == ".json")
+    fixed -= next((size for path, size in sizes.items() if path.name == JOB_FILE), 0)
+    if outcome.state == "cancelled":
+        marks.pop()  # sealing a part says nothing about the rest
+    return outcome, marks, fixed, sum(sizes.values()) - fixed
+
+
+def _scratch() -> str | None:
+    """Return a folder in memory, if there is room: what is stored there is thrown away."""
+    try:
+        return str(_MEMORY) if shutil.disk_usage(_MEMORY).free > _ROOM else None
+    except OSError:
+        return None
+
+
+def _of_study(study: Study) -> Cost:
+    count = len(study.blocks)
+    chosen = sorted({0, count // 2, count - 1})[:_MOST_BLOCKS]
+    seconds = steps = 0.0
+    points, exact, failure = 0, True, None
+    next(StudyRun(study, chosen[0]).slices(), None)  # kernels are loaded, or compiled
+    for index in chosen:
+        marks, found = _run_block(study, index, BUDGET / len(chosen))
+        failure = failure or found
+        whole = _extrapolated(marks)
+        exact &= marks[-1].fraction >= 1.0
+        seconds, steps = seconds + whole.seconds, steps + whole.steps
+        points += study.blocks[index][1]
+    every = len(study.values) if not study.parameters else sum(n for _, n in study.blocks)
+    return Cost(
+        seconds=seconds / points * every,
+        steps=round(steps / points * every),
+        bytes=round(_STUDY_COMPRESSION * study.stored_bytes),
+        points=every,
+        blocks=count,
+        exact=exact and len(chosen) == count,
+        failure=failure,
+    )
+
+
+def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str | None]:
+    run = StudyRun(study, index)
+    marks, ended, failure = [], 0.0, None
+    began = time.process_time()
+    for piece in run.slices():
+        for point in piece.ended:
+            ended += point.statistics.get("steps", 0.0)
+            failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
+        going = 0.0
+        if run.bundle is not None:
+            made = run.bundle.table("steps")[0]
+            going = float(sum(made[lane] for lane, one in enumerate(run.lanes) if one is not None))
+        marks.append(Mark(time.process_time() - began, piece.fraction, ended + going))
+        if marks[-1].seconds > budget:
+            break
+    return marks, failure
+
+
+def _extrapolated(marks: list[Mark]) -> Mark:
+    """Return the end of a run of which these marks show the beginning."""
+    last = marks[-1]
+    settled = next(mark for mark in marks if mark.fraction >= _BEGINNING * last.fraction)
+    if settled.fraction >= last.fraction:
+        settled = Mark(0.0, 0.0, 0.0)
+    share = (1.0 - last.fraction) / max(last.fraction - settled.fraction, 1e-12)
+    return Mark(
+        last.seconds + share * (last.seconds - settled.seconds),
+        1.0,
+        last.steps + share * (last.steps - settled.steps),
+    )
+
+
+def main() -> None:
+    """Answer until the input ends."""
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # whatever else prints must not be taken for an answer
+    while select.select([sys.stdin], [], [], _IDLE)[0]:
+        line = sys.stdin.readline()
+        if not line:
+            return
+        try:
+            answer = asdict(cost_of(json.loads(line)))
+        except InvalidInput as error:
+            answer = {"refused": str(error)}
+        answers.write(json.dumps(answer) + "\n")
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main()
