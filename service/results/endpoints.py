@@ -1,6 +1,7 @@
 """``/v1/jobs/{id}/history`` and its siblings: numbers that a job has computed."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
@@ -13,14 +14,24 @@ from service.dependencies import (
     SettingsDependency,
 )
 from service.jobs.results_of_kinds import insist, is_study
-from service.problems import kinds, problems
+from service.problems import RequestRefused, kinds, problems
 from service.results import schemas
 from service.results.as_json import as_json
-from service.results.queries import Selection, Window, check_size, chosen_channels
+from service.results.negotiation import JSON, Form
+from service.results.queries import (
+    HistoryQuery,
+    Selection,
+    Window,
+    check_points,
+    check_size,
+    chosen_channels,
+)
 from service.results.stores import StoreOfThePath, open_store, open_study
+from service.results.tables import AS_FILES, Column, as_file
 from service.studies.answers import sections
 from service.studies.queries import PoincareQuery
 from service.studies.schemas import Sections
+from storage.catalogue import Job
 from storage.results import ResultReader
 
 router = APIRouter(
@@ -39,17 +50,34 @@ router = APIRouter(
 Floats = NDArray[np.float64]
 
 
-@router.get("/history", response_model=schemas.History)
-def show_history(store: StoreOfThePath, selection: Annotated[Selection, Query()]) -> Response:
-    """Return channels on the output grid, in a window of time."""
-    start, stop = selection.checked()
-    names = chosen_channels(selection.channels, _names(store))
+@router.get(
+    "/history",
+    response_model=schemas.History | schemas.Overview,
+    responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
+)
+def show_history(
+    job: JobOfThePath,
+    store: StoreOfThePath,
+    query: Annotated[HistoryQuery, Query()],
+    form: Form,
+) -> Response:
+    """Return channels on the output grid, in a window of time; of a running job as far as it is.
+
+    With `points`, smallest and largest values of that many groups of samples, so that no peak is
+    lost.  Accept chooses JSON, CSV, NPZ or a MATLAB file.
+    """
+    start, stop = query.checked()
+    names = chosen_channels(query.channels, _names(store))
     first, last = store.between(start, stop)
+    if query.points is not None and last - first > query.points:
+        return _overview(job, store, names, (first, last, query.points), form)
     if last > first:
         ends = store.history([], first, first + 1)[0], store.history([], last - 1, last)[0]
         seconds = float(ends[1][0] - ends[0][0])
         check_size(last - first, len(names) + 1, "samples", seconds)
     time, columns = store.history(names, first, last)
+    if form != JSON:
+        return _file(job, store, "history", form, {"time": time, **columns})
     return as_json(
         schemas.History.model_construct(
             complete=store.complete, time=_time(time), channels=_series(store, columns)
@@ -57,23 +85,38 @@ def show_history(store: StoreOfThePath, selection: Annotated[Selection, Query()]
     )
 
 
-@router.get("/poincare", response_model=schemas.Poincare | Sections)
+@router.get(
+    "/poincare",
+    response_model=schemas.Poincare | Sections,
+    responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
+)
 def show_poincare(
     job: JobOfThePath,
     settings: SettingsDependency,
     catalogue: CatalogueDependency,
     query: Annotated[PoincareQuery, Query()],
+    form: Form,
 ) -> Response:
     """Return channels at the Poincare sections.
 
     Of a simulation: once in every period, in a window of time.  Of a study: at the sections that
-    each of its points has recorded so far; start and stop are a range of points.
+    each of its points has recorded so far; start and stop are a range of points.  Accept chooses
+    JSON, or of a simulation CSV, NPZ or a MATLAB file.
     """
     insist(job, "poincare")
     if is_study(job):
+        if form != JSON:
+            raise RequestRefused(
+                kinds.NOT_ACCEPTABLE, f"Sections of a study are there as {JSON} and as Zarr."
+            )
         study = open_study(job, settings)
         return as_json(sections(study, query.range_of_points(), query.channels))
-    return as_json(_poincare(open_store(job, settings, catalogue), query.window_of_time()))
+    store = open_store(job, settings, catalogue)
+    found = _poincare(store, query.window_of_time())
+    if form != JSON:
+        columns = {"time": found.time.values, **{k: v.values for k, v in found.channels.items()}}
+        return _file(job, store, "poincare", form, columns)
+    return as_json(found)
 
 
 @router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])
@@ -109,6 +152,54 @@ def show_impacts(store: StoreOfThePath, window: Annotated[Window, Query()]) -> R
         values["joint"] = store.joints[values["joint"]]
         impacts.append(schemas.Impact.model_construct(**values))
     return as_json(schemas.Impacts.model_construct(complete=store.complete, impacts=impacts))
+
+
+def _overview(
+    job: Job, store: ResultReader, names: list[str], window: tuple[int, int, int], form: str
+) -> Response:
+    """Return extremes of a window (first, last, points) of samples."""
+    first, last, points = window
+    check_points(points, len(names))
+    time, found = store.extremes(names, first, last, points)
+    described = {channel.name: channel for channel in store.channels}
+    if form != JSON:
+        columns = [
+            Column("time", "s", time[:, 0], "first"),
+            Column("time", "s", time[:, 1], "last"),
+        ]
+        for name, pairs in found.items():
+            unit = described[name].unit
+            columns.append(Column(name, unit, pairs[:, 0], "minimum"))
+            columns.append(Column(name, unit, pairs[:, 1], "maximum"))
+        return as_file(form, f"{job.id}-history", columns, complete=store.complete)
+    extremes = {
+        name: schemas.Extremes.model_construct(
+            unit=described[name].unit,
+            long_name=described[name].long_name,
+            minimum=pairs[:, 0].tolist(),
+            maximum=pairs[:, 1].tolist(),
+        )
+        for name, pairs in found.items()
+    }
+    bins = schemas.Bins.model_construct(
+        unit="s", first=time[:, 0].tolist(), last=time[:, 1].tolist()
+    )
+    return as_json(
+        schemas.Overview.model_construct(
+            complete=store.complete, samples=last - first, bins=bins, extremes=extremes
+        )
+    )
+
+
+def _file(
+    job: Job, store: ResultReader, what: str, form: str, columns: Mapping[str, Any]
+) -> Response:
+    units = {channel.name: channel.unit for channel in store.channels} | {"time": "s"}
+    table = [
+        Column(name, units[name], np.asarray(values, dtype=np.float64))
+        for name, values in columns.items()
+    ]
+    return as_file(form, f"{job.id}-{what}", table, complete=store.complete)
 
 
 def _poincare(store: ResultReader, selection: Selection) -> schemas.Poincare:

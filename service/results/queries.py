@@ -5,6 +5,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.channel_choice import NoSuchChannel, choose
 from service.problems import ErrorDetail, RequestRefused, kinds
 
+MOST_POINTS = 100_000  # of an overview: more than any screen is wide
 MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON
 
 
@@ -38,6 +39,18 @@ class Selection(Window):
         max_length=20_000,
         description="Names or globs, separated by commas, such as `slider7.*,A.normal_force`; "
         "default: all that the job stored.",
+    )
+
+
+class HistoryQuery(Selection):
+    """Channels, a window of time, and how finely it is shown."""
+
+    points: int | None = Field(
+        default=None,
+        ge=1,
+        le=MOST_POINTS,
+        description="Show at most so many pairs of smallest and largest values, such as pixels of "
+        "a screen; a window of no more samples is shown exactly. Default: every sample.",
     )
 
 
@@ -76,3 +89,16 @@ def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
         sentence,
         [ErrorDetail(parameter="stop", detail="Choose a shorter window.")],
     )
+
+
+def check_points(points: int, channels: int) -> None:
+    """Refuse an overview of more than `MOST_VALUES` values."""
+    most = MOST_VALUES // (2 * (channels + 1))
+    if points <= most:
+        return
+    sentence = (
+        f"{points} pairs of {channels} channels are more than the {MOST_VALUES} values that one "
+        f"answer carries; of so many channels it carries {most} points."
+    )
+    errors = [ErrorDetail(parameter="points", detail=f"Ask for at most {most} points.")]
+    raise RequestRefused(kinds.RESPONSE_TOO_LARGE, sentence, errors)

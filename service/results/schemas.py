@@ -25,6 +25,34 @@ class History(BaseModel):
     channels: dict[str, Series]
 
 
+class Bins(BaseModel):
+    """Times of consecutive groups of samples."""
+
+    unit: str
+    first: Values = Field(description="Time of the first sample of each group.")
+    last: Values = Field(description="Time of the last sample of each group.")
+
+
+class Extremes(BaseModel):
+    """Smallest and largest value of one quantity in each group of samples."""
+
+    unit: str
+    long_name: str = Field(description="What the quantity is, in words.")
+    minimum: Values
+    maximum: Values
+
+
+class Overview(BaseModel):
+    """Channels at the resolution of a screen: no peak is lost."""
+
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
+    samples: int = Field(description="Samples in the window.")
+    bins: Bins
+    extremes: dict[str, Extremes]
+
+
 class Poincare(History):
     """Channels at the Poincare sections."""
 

@@ -1,0 +1,109 @@
+"""Columns of numbers in the forms that programs read: CSV, NPZ, MATLAB."""
+
+import io
+import re
+from dataclasses import dataclass
+from typing import Any, Final, cast
+
+import numpy as np
+from fastapi import Response
+from numpy.typing import NDArray
+
+from service.results.negotiation import CSV, MATLAB, NPZ
+
+_SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat"}
+_LONGEST_FIELD: Final = 63  # of a name in MATLAB
+_OF_A_PARENT: Final = "value"
+_BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
+AS_FILES: Final[dict[int | str, dict[str, Any]]] = {
+    200: {"content": {CSV: {"schema": {"type": "string"}}, NPZ: _BINARY, MATLAB: _BINARY}}
+}
+"""The forms of an answer beside JSON, for the OpenAPI document."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity over the rows of a table, or with `part` its minimum or maximum."""
+
+    name: str
+    unit: str
+    values: NDArray[Any]
+    part: str = ""
+
+    @property
+    def label(self) -> str:
+        """Name in flat tables."""
+        return f"{self.name}_{self.part}" if self.part else self.name
+
+
+def as_file(form: str, name: str, columns: list[Column], *, complete: bool) -> Response:
+    """Give a table as a file of the form.
+
+    Parameters
+    ----------
+    form
+        Media type, not JSON.
+    name
+        Of the file, without what it ends with.
+    columns
+        All of one length.
+    complete
+        Whether the run came to its end; in NPZ and MATLAB files.
+    """
+    content = {CSV: _csv, NPZ: _npz, MATLAB: _matlab}[form](columns, complete)
+    headers = {"Content-Disposition": f'attachment; filename="{name}.{_SUFFIX[form]}"'}
+    media_type = f"{form}; charset=utf-8; header=present" if form == CSV else form
+    return Response(content, headers=headers, media_type=media_type)
+
+
+def _csv(columns: list[Column], complete: bool) -> bytes:
+    del complete  # has no place in a table
+    lines = [",".join(f"{column.label} [{column.unit}]" for column in columns)]
+    row = ",".join(["%.17g"] * len(columns))
+    table = np.column_stack([column.values for column in columns])
+    lines += [row % tuple(values) for values in table.tolist()]
+    return "\n".join([*lines, ""]).encode()
+
+
+def _npz(columns: list[Column], complete: bool) -> bytes:
+    file = io.BytesIO()
+    named: dict[str, Any] = {column.label: column.values for column in columns}
+    units = np.array([[column.label, column.unit] for column in columns])
+    np.savez(file, **named, units=units, complete=np.array(complete))
+    return file.getvalue()
+
+
+def _matlab(columns: list[Column], complete: bool) -> bytes:
+    """Give nested structs: channel `slider7.x` is the field `x` of the variable `slider7`."""
+    from scipy.io import savemat  # loads much of scipy
+
+    values: dict[str, Any] = {}
+    units: dict[str, Any] = {}
+    for column in columns:
+        path = [*column.name.split("."), *([column.part] if column.part else [])]
+        _place(values, path, column.values.reshape(-1, 1))
+        _place(units, column.name.split("."), column.unit)
+    file = io.BytesIO()
+    document = values | {"units": units, "complete": complete}
+    savemat(cast(Any, file), document, long_field_names=True, oned_as="column")
+    return file.getvalue()
+
+
+def _place(tree: dict[str, Any], path: list[str], leaf: object) -> None:
+    """Put a leaf at a path; where a node is a leaf as well, that goes into its `value`."""
+    *parents, last = (_field(part) for part in path)
+    for parent in parents:
+        below = tree.setdefault(parent, {})
+        if not isinstance(below, dict):
+            below = tree[parent] = {_OF_A_PARENT: below}
+        tree = below
+    if isinstance(tree.get(last), dict):
+        tree[last][_OF_A_PARENT] = leaf
+    else:
+        tree[last] = leaf
+
+
+def _field(name: str) -> str:
+    """Make a name that MATLAB takes."""
+    field = re.sub(r"\W", "_", name, flags=re.ASCII)
+    return (field if field[:1].isalpha() else f"x{field}")[:_LONGEST_FIELD]
