@@ -1,0 +1,88 @@
+"""What a job will cost, against what it costs."""
+
+import pytest
+
+from service.estimates.prober import Prober
+from solver import presets
+from solver.admission import Admission, Study, admit
+from solver.simulate import Simulation
+from solver.study.run import StudyRun
+
+LONG = {"bouncing-journal": 2000.0, "pendulum": 2000.0, "seven-bar-press": 400.0}
+"""Seconds that take longer than an estimate, as 30 s of the others do."""
+STUDY = {
+    "kind": "bifurcation",
+    "scene": {"preset": "slider-crank"},
+    "parameter": "clearance",
+    "values": {"from": 1e-4, "to": 5e-4, "count": 64},
+    "settle": 50,
+}
+
+
+def estimated(http, job):
+    answer = http.post("/v1/estimates", json=job, timeout=120)
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+@pytest.mark.parametrize("name", presets.names())
+def test_an_estimate_is_right_within_a_factor_of_two(http, name):
+    job = {"kind": "simulate", "scene": {"preset": name}, "duration": LONG.get(name, 30.0)}
+    estimate = estimated(http, job)
+    admission = admit(job)
+    assert isinstance(admission, Admission)
+    simulation = Simulation(admission)
+    for _ in simulation.slices():
+        pass
+    steps = simulation.summary().statistics["steps"]
+    assert steps / 2 < estimate["steps"] < 2 * steps
+    # half of what is not compressed at all: numbers are noisy; each file has its page of metadata
+    assert 0.25 * admission.stored_bytes < estimate["bytes"] < 1.5 * admission.stored_bytes
+    assert estimate["seconds"] > 0
+    assert (estimate["points"], estimate["blocks"], estimate["failure"]) == (1, 1, None)
+
+
+def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http):
+    estimate = estimated(http, STUDY)
+    study = admit(STUDY)
+    assert isinstance(study, Study)
+    steps = sum(
+        point.statistics["steps"]
+        for block in range(len(study.blocks))
+        for piece in StudyRun(study, block).slices()
+        for point in piece.ended
+    )
+    assert steps / 2 < estimate["steps"] < 2 * steps
+    assert (estimate["points"], estimate["blocks"]) == (64, len(study.blocks))
+    assert not estimate["exact"]
+
+
+def test_nothing_is_queued_and_a_short_job_is_known_exactly(http):
+    job = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 0.0625}
+    before = http.get("/v1/jobs").json()["jobs"]
+    estimate = estimated(http, job)
+    assert (estimate["exact"], estimate["cached"]) == (True, False)
+    assert http.get("/v1/jobs").json()["jobs"] == before
+    http.post("/v1/jobs", json=job)
+    assert estimated(http, job)["cached"]
+    assert not estimated(http, job | {"cache": False})["cached"]
+
+
+def test_a_wrong_job_is_refused_as_a_submission_is(http):
+    answer = http.post("/v1/estimates", json={"kind": "simulate", "scene": {"preset": "pendulum"}})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["pointer"] == "/duration"
+
+
+def test_a_probe_that_ended_is_started_again():
+    prober = Prober()
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    spec = admit(job).job
+    try:
+        first = prober.cost_of(spec)
+        assert prober._process is not None
+        prober._process.kill()
+        prober._process.wait()
+        assert prober.cost_of(spec)["steps"] == first["steps"]
+    finally:
+        prober.close()
