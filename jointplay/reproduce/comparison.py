@@ -59,4 +59,5 @@ def small(value: float, bound: float, digits: str = ".2g") -> str:
 
 def signed(value: float, digits: str) -> str:
     """Return a number with a minus sign as wide as a digit, that no line is broken after."""
-    return format(value, digits).replace("-", "−")
+    written = format(value, digits)
+    return written.removeprefix("-") if float(written) == 0.0 else written.replace("-", "−")
