@@ -2,12 +2,13 @@
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from jointplay.command_line import job_document
 from jointplay.command_line.calibration_options import calibration_document
+from jointplay.command_line.compact_json import compact_json
 from jointplay.command_line.exits import Exit, Stopped
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ def calibrate(
     outcome = _compute(calibration, processes)
     _write(outcome, output, preset_out)
     if as_json:
-        typer.echo(_json(outcome.document()))
+        typer.echo(compact_json(outcome.document()))
         return
     from jointplay.command_line.calibration_table import lines
 
@@ -118,15 +119,9 @@ def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
 
 def _write(outcome: "Outcome", output: Path | None, preset_out: Path | None) -> None:
     if output is not None:
-        output.write_text(_json(outcome.document()) + "\n")
+        output.write_text(compact_json(outcome.document()) + "\n")
     if preset_out is not None:
         from solver.calibration.fitted_scene import fitted_scene
 
         name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
-        preset_out.write_text(_json(fitted_scene(outcome, name)) + "\n")
-
-
-def _json(document: dict[str, Any]) -> str:
-    import json
-
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+        preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")

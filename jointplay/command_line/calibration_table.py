@@ -89,10 +89,11 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
     yield from _pairs(document["correlation"])
     rough = [t for t in document["targets"] if (t["roughness"] or 0.0) > ROUGH]
     if rough:
+        fitted = sum(target["weight"] > 0 for target in rough)
         yield (
-            f"impacts make {len(rough)} of the targets rough (!): they change by more than"
-            f" {ROUGH:g} tolerances between parameters that differ by a ten-thousandth of their"
-            " range, so no fit can be sharper than that"
+            f"impacts make {len(rough)} of the targets rough (!), {fitted or 'none'} of the fitted"
+            f" ones: they change by more than {ROUGH:g} tolerances between parameters that differ"
+            " by a ten-thousandth of their range, and no fit is sharper than that"
         )
     if not search["settled"]:
         yield (

@@ -43,7 +43,7 @@ def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
         declared["help"] = declared["help"][: LONGEST_HELP - len(told)] + told
         declared["default"] = float(outcome.best[k])
         declared["inferred"] = True
-    told = f" {', '.join(calibration.space.names)}: inferred, by a fit to {_targets(outcome)}"
+    told = f" Inferred: {', '.join(calibration.space.names)}, by a fit to {_targets(outcome)}"
     told += f" (root mean square of the misses {outcome.cost:.2g} tolerances)."
     if calibration.job.description:
         told += f" {calibration.job.description}"

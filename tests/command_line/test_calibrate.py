@@ -90,7 +90,10 @@ def test_the_scene_that_is_written_has_what_was_found_as_its_defaults(
         assert written["parameters"][name]["default"] == value
         assert written["parameters"][name]["inferred"] is True
     assert written["parameters"]["friction"]["default"] == 0.0
-    assert "inferred, by a fit to 1 number of bearing.normal_force" in written["description"]
+    assert (
+        "Inferred: stiffness, mass, by a fit to 1 number of bearing.normal_force"
+        in written["description"]
+    )
     shown = jointplay("scene", "check", scene)
     assert shown.code == 0, shown.err
     admitted = admit({"kind": "simulate", "scene": written, "duration": 0.01})

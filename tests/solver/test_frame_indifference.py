@@ -167,6 +167,7 @@ def test_every_preset_closes_to_rounding_with_the_freedom_it_should_have(name: s
     found = assemble(Scene.model_validate(presets.document(name)))
     expected = {
         "seven-bar-press": (0, 4),
+        "seven-bar-press-fitted": (0, 4),
         "slider-crank": (0, 2),
         "bouncing-journal": (1, 3),
         "pendulum": (1, 1),

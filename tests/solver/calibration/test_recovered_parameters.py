@@ -139,7 +139,7 @@ def test_the_fitted_scene_has_the_defaults_that_give_the_fitted_values(elastic):
     assert declared["stiffness"]["inferred"] is True
     assert "90 %" in declared["stiffness"]["help"]
     assert (declared["restitution"]["default"], declared["friction"]["default"]) == (1.0, 0.0)
-    assert "inferred" in document["description"]
+    assert "Inferred: stiffness" in document["description"]
     assert document["name"] == "fitted-journal"
     job = {"kind": "simulate", "scene": document, "duration": 0.018}
     assert (
