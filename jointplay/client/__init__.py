@@ -17,6 +17,7 @@ from jointplay.client.errors import (
     ServiceFailure,
     Unreachable,
 )
+from jointplay.client.estimates import Estimate
 from jointplay.client.jobs import Job, JobError, Progress
 from jointplay.client.results import ChannelSeries, History, Impacts, Peak, Section
 from jointplay.client.session import Client
@@ -27,6 +28,7 @@ __all__ = [
     "ChannelSeries",
     "Client",
     "ClientError",
+    "Estimate",
     "History",
     "Impacts",
     "Job",

@@ -8,10 +8,13 @@ from jointplay.command_line import (
     batch,
     calibrate,
     cancel,
+    cite,
+    compare,
     delete,
     demo,
     export,
     ls,
+    openapi,
     plot,
     reproduce,
     run_locally,
@@ -44,6 +47,9 @@ application.command()(cancel.cancel)
 application.command()(delete.delete)
 application.command()(export.export)
 application.command()(plot.plot)
+application.command()(compare.compare)
+application.command()(cite.cite)
+application.command()(openapi.openapi)
 application.add_typer(scene.application, name="scene")
 
 _WRONG_PATH = (

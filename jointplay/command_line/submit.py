@@ -32,6 +32,9 @@ def submit(
     anew: Annotated[
         bool, typer.Option("--anew", help="Compute it even if an identical job is there.")
     ] = False,
+    estimate: Annotated[
+        bool, typer.Option("--estimate", help="Only say what it will cost; queue nothing.")
+    ] = False,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
@@ -42,6 +45,7 @@ def submit(
     Examples: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`,
     `jointplay submit seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --wait`
     """
+    from jointplay.command_line.estimate import print_estimate
     from jointplay.command_line.waiting import exit_of, wait_for
 
     job = job_document.job_document(
@@ -72,6 +76,9 @@ def submit(
     if anew:
         job["cache"] = False
     with connection.connect(url) as client:
+        if estimate:
+            print_estimate(client.estimate(job))
+            return
         queued = client.submit(job)
         typer.echo(queued.id)
         if wait:

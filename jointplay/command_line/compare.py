@@ -1,0 +1,176 @@
+"""``jointplay compare``: several runs over one another, and a table of their peaks."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from jointplay.command_line import connection, output_folder
+from jointplay.command_line.drawing import Form
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.study_options import listed
+
+if TYPE_CHECKING:
+    from jointplay.client import Client
+    from jointplay.figures.overlay import Curve
+    from jointplay.source import PeakLike
+
+_MOST_PANELS = 6
+
+
+@dataclass(frozen=True)
+class _Run:
+    """One run: what tells it from the others, its peaks, and where its curves come from."""
+
+    name: str
+    job: dict[str, Any]
+    outputs: list[str]
+    units: "dict[str, str]"
+    peaks: "dict[str, PeakLike]"
+    store: Any
+    """The client of a service, or the results at hand."""
+
+
+def compare(
+    results: Annotated[
+        list[str], typer.Argument(metavar="OUT|ID...", help="Runs: folders, or ids of jobs.")
+    ],
+    channels: Annotated[
+        str | None,
+        typer.Option(metavar="A,B", help="Channels to compare; default outputs and contact force."),
+    ] = None,
+    start: Annotated[float | None, typer.Option(metavar="SECONDS", help="From this time.")] = None,
+    stop: Annotated[float | None, typer.Option(metavar="SECONDS", help="To this time.")] = None,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="The figure, .png or .svg.")
+    ] = Path("comparison.png"),
+    as_json: Annotated[bool, typer.Option("--json", help="Print the table as JSON.")] = False,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Draw channels of several simulations over one another, and print their peaks side by side.
+
+    Example: `jointplay compare OUT1 OUT2 --channels displacement --stop 0.5 -o both.svg`
+    """
+    from jointplay.figures.overlay import MOST_CURVES, draw_overlay
+
+    form = _form_of(output)
+    if not 2 <= len(results) <= MOST_CURVES:
+        line = f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}."
+        raise Stopped(Exit.BAD_INPUT, line)
+    with connection.connect(url) as client:
+        runs = [_run(one, client) for one in results]
+        labels = _labels(runs)
+        names = _chosen(runs, listed(channels))
+        drawn = names[:_MOST_PANELS]
+        curves = [
+            _curves(run, label, drawn, start, stop) for run, label in zip(runs, labels, strict=True)
+        ]
+        panels = {name: [of_run[name] for of_run in curves] for name in drawn}
+        output.write_bytes(draw_overlay(panels, form))
+    _print_table(runs, labels, names, as_json=as_json)
+    typer.echo(output, err=as_json)
+
+
+def _form_of(path: Path) -> Form:
+    forms: dict[str, Form] = {".png": "png", ".svg": "svg"}
+    if path.suffix not in forms:
+        raise Stopped(Exit.BAD_INPUT, f"{path}: a figure's name ends in .png or .svg.")
+    return forms[path.suffix]
+
+
+def _run(results: str, client: "Client") -> _Run:
+    from storage.results import ResultReader
+
+    if output_folder.is_of_service(results):
+        job = client.get(results)
+        if job.kind != "simulate":
+            raise Stopped(Exit.BAD_INPUT, f"Job {job.id} is a {job.kind}; compare simulations.")
+        peaks = client.peaks(results)
+        units = {name: peak.unit for name, peak in peaks.items()}
+        return _Run(results, job.job, [], units, {**peaks}, client)
+    store = output_folder.results_in(Path(results))
+    if not isinstance(store, ResultReader):
+        raise Stopped(Exit.BAD_INPUT, f"{results} is a study; compare simulations.")
+    units = {channel.name: channel.unit for channel in store.channels}
+    outputs = [one["name"] for one in store.attributes["scene"].get("outputs", [])]
+    return _Run(results, store.attributes["job"], outputs, units, {**store.peaks()}, store)
+
+
+def _labels(runs: list[_Run]) -> list[str]:
+    """Tell runs apart by their own labels, else by the parameters in which they differ."""
+    own = [run.job.get("label") or "" for run in runs]
+    if all(own) and len(set(own)) == len(own):
+        return own
+    facts = [_facts(run.job) for run in runs]
+    differing = [name for name in facts[0] if len({json.dumps(one.get(name)) for one in facts}) > 1]
+    labels = [
+        " ".join(f"{name}={_short(one.get(name))}" for name in differing[:3]) for one in facts
+    ]
+    if all(labels) and len(set(labels)) == len(labels):
+        return labels
+    return [run.name for run in runs]
+
+
+def _facts(job: dict[str, Any]) -> dict[str, Any]:
+    scene = job["scene"]
+    found = {"scene": scene.get("preset") or scene.get("name")}
+    found |= scene.get("parameters", {}) if "preset" in scene else {}
+    return found | {name: job.get(name) for name in ("tolerance", "formulation", "duration")}
+
+
+def _short(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _chosen(runs: list[_Run], wanted: list[str] | None) -> list[str]:
+    from jointplay.channel_choice import NoSuchChannel, choose
+
+    common = [name for name in runs[0].units if all(name in run.units for run in runs)]
+    if not common:
+        raise Stopped(Exit.BAD_INPUT, "The runs have no channel in common.")
+    if wanted is not None:
+        try:
+            return choose(",".join(wanted), common)
+        except NoSuchChannel as error:
+            raise Stopped(Exit.BAD_INPUT, " ".join(error.sentences)) from None
+    outputs = [name for run in runs for name in run.outputs if name in common]
+    first = [*dict.fromkeys(outputs), *(n for n in common if "." not in n and n not in outputs)]
+    first += [name for name in common if name.endswith(".normal_force")]
+    return first[:_MOST_PANELS] or common[:_MOST_PANELS]
+
+
+def _curves(
+    run: _Run, label: str, names: list[str], start: float | None, stop: float | None
+) -> "dict[str, Curve]":
+    from jointplay.client import Client
+    from jointplay.figures.overlay import Curve
+
+    if isinstance(run.store, Client):
+        history = run.store.history(run.name, names, start, stop)
+        time, columns = history.time, {name: history[name] for name in names}
+    else:
+        time, columns = run.store.history(names, *run.store.between(start, stop))
+    return {name: Curve(label, run.units[name], time, columns[name]) for name in names}
+
+
+def _print_table(runs: list[_Run], labels: list[str], names: list[str], *, as_json: bool) -> None:
+    table = [
+        {"channel": name, "unit": runs[0].units[name], "run": label}
+        | {"minimum": run.peaks[name].minimum, "minimum_time": run.peaks[name].minimum_time}
+        | {"maximum": run.peaks[name].maximum, "maximum_time": run.peaks[name].maximum_time}
+        for name in names
+        for run, label in zip(runs, labels, strict=True)
+        if name in run.peaks
+    ]
+    if as_json:
+        typer.echo(json.dumps(table, indent=2))
+        return
+    wide, width = max(map(len, labels)), max(map(len, names))
+    heading = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
+    typer.echo(f"{'channel':{width}}  {'run':{wide}} {heading}")
+    for row in table:
+        low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
+        high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
+        typer.echo(f"{row['channel']:{width}}  {row['run']:{wide}} {low}  {high}  {row['unit']}")

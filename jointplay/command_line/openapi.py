@@ -1,0 +1,27 @@
+"""``jointplay openapi``: the description of the HTTP interface, without a service."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def openapi(
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Default: print it.")
+    ] = None,
+) -> None:
+    """Print the OpenAPI document that a service has at /openapi.json.
+
+    Example: `jointplay openapi -o openapi.json`
+    """
+    import json
+
+    from service.app import create_app
+
+    text = json.dumps(create_app().openapi(), indent=2, sort_keys=True)
+    if output is None:
+        typer.echo(text)
+    else:
+        output.write_text(text + "\n")
+        typer.echo(output)
