@@ -36,9 +36,9 @@ class Content:
         return cls(about.st_size, tag, None, descriptor)
 
     @classmethod
-    def of_bytes(cls, content: bytes, variant: str = "") -> Self:
-        """Take bytes; `variant` tells encodings of the same content apart."""
-        return cls(len(content), f'"{sha256(content).hexdigest()[:32]}{variant}"', content)
+    def of_bytes(cls, content: bytes) -> Self:
+        """Take bytes that were made."""
+        return cls(len(content), f'"{sha256(content).hexdigest()[:32]}"', content)
 
     def read(self, start: int, stop: int) -> bytes:
         """Give bytes [start, stop)."""

@@ -39,6 +39,7 @@ _SERVED: dict[int | str, dict[str, Any]] = {
             "application/json": {"schema": {"type": "string", "format": "binary"}},
         },
     },
+    304: {"description": "It is what If-None-Match names."},
 }
 
 

@@ -42,11 +42,17 @@ def content_of(job: Job, key: str, catalogue: Catalogue, settings: Settings) -> 
     if not key.endswith(FILE) and (stored := Content.of_file(folder, key)):
         return stored
     try:
-        store = _live_study(folder) if study else LiveStore(folder, samples)
+        store = _live_study(folder) if study else _live_store(folder, samples)
     except NotAStore:
         return None
     made = store.document(key) if key.endswith(FILE) else store.chunk(key)
     return None if made is None else Content.of_bytes(made)
+
+
+@lru_cache(maxsize=2)
+def _live_store(folder: Path, samples: int) -> LiveStore:
+    """Return a run at one of its checkpoints, for the requests of the second until the next."""
+    return LiveStore(folder, samples)
 
 
 def _live_study(folder: Path) -> LiveStudy:
