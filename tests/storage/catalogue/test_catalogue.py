@@ -15,7 +15,6 @@ from storage.catalogue import (
     Catalogue,
     Fenced,
     JobError,
-    JobNotFinished,
     JobNotFound,
     JobState,
     KeyReused,
@@ -266,113 +265,6 @@ def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> N
     assert failed.finished == clock.now
     assert catalogue.events(job)[-1].data["error"]["detail"] == error.detail
     assert catalogue.events(job, after=2, limit=1)[0].seq == 3
-
-
-def succeed(catalogue: Catalogue, new: NewJob) -> str:
-    job = catalogue.submit(new).job.id
-    catalogue.claim_block(f"{job}-0", "worker", 30)
-    catalogue.finish(f"{job}-0", 1, BlockState.done, steps=1000)
-    return job
-
-
-def test_an_identical_job_is_found_and_not_made_again(catalogue: Catalogue) -> None:
-    first = catalogue.submit(NEW, reuse=True)
-    again = catalogue.submit(replace(NEW, label="other"), reuse=True)
-    assert (first.created, first.cached) == (True, False)
-    assert (again.created, again.cached, again.job.id) == (False, True, first.job.id)
-    assert again.job.label is None
-    for other in (
-        replace(NEW, digest="e" * 64),
-        replace(NEW, solver_version="0.1.0+def"),
-        replace(NEW, owner="somebody"),
-    ):
-        assert catalogue.submit(other, reuse=True).created
-    assert catalogue.submit(NEW).created
-
-
-def test_what_ended_badly_or_is_being_cancelled_is_not_found_again(catalogue: Catalogue) -> None:
-    queued = catalogue.submit(NEW).job.id
-    catalogue.request_cancel(queued)
-    cancelling = catalogue.submit(NEW, reuse=True).job.id
-    catalogue.claim_block(f"{cancelling}-0", "worker", 30)
-    catalogue.request_cancel(cancelling)
-    failed = catalogue.submit(NEW, reuse=True).job.id
-    catalogue.claim_block(f"{failed}-0", "worker", 30)
-    assert catalogue.submit(NEW, reuse=True).job.id == failed  # it is running
-    error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.")
-    catalogue.finish(f"{failed}-0", 1, BlockState.failed, error)
-    assert len({queued, cancelling, failed, catalogue.submit(NEW, reuse=True).job.id}) == 4
-
-
-def test_a_job_that_is_wanted_again_expires_later_and_an_expired_one_is_not_found(
-    catalogue: Catalogue, clock: Clock
-) -> None:
-    job = succeed(catalogue, replace(NEW, expires=clock.now + 5))
-    again = catalogue.submit(replace(NEW, expires=clock.now + 8), reuse=True)
-    assert (again.job.id, again.job.expires) == (job, clock.now + 8)
-    sooner = catalogue.submit(replace(NEW, expires=clock.now + 1), reuse=True)
-    assert sooner.job.expires == clock.now + 8
-    clock.now += 9
-    assert catalogue.expired(catalogue.get(job))
-    lasting = catalogue.submit(replace(NEW, expires=clock.now + 5), reuse=True)
-    assert lasting.created
-    assert catalogue.submit(NEW, reuse=True).job.expires is None
-
-
-def test_a_key_remembers_whether_it_was_answered_with_an_earlier_job(
-    catalogue: Catalogue, clock: Clock
-) -> None:
-    made, found = (SubmissionKey("", name, "f" * 64) for name in ("made", "found"))
-    first = catalogue.submit(NEW, made, reuse=True)
-    clock.now += 1
-    assert catalogue.submit(NEW, found, reuse=True).cached
-    again = [catalogue.submit(NEW, key, reuse=True) for key in (made, found)]
-    assert [one.job.id for one in again] == [first.job.id] * 2
-    assert [one.cached for one in again] == [False, True]
-
-
-def test_a_deleted_job_expires_and_its_results_are_to_be_removed_once(
-    catalogue: Catalogue, clock: Clock
-) -> None:
-    job = succeed(catalogue, NEW)
-    queued = catalogue.submit(replace(NEW, expires=clock.now)).job.id
-    assert catalogue.removable(10) == ()
-    assert catalogue.delete(job).expires == clock.now
-    assert catalogue.delete(job).expires == clock.now
-    with pytest.raises(JobNotFinished, match="cancel it"):
-        catalogue.delete(queued)
-    assert not catalogue.expired(catalogue.get(queued))  # what is live does not expire
-    assert [one.id for one in catalogue.jobs().jobs] == [queued]
-    assert catalogue.removable(10) == (job,)
-    catalogue.mark_removed([job])
-    assert catalogue.removable(10) == ()
-    assert catalogue.get(job).removed == clock.now
-
-
-def test_jobs_are_found_by_scene_and_by_the_time_of_their_submission(
-    catalogue: Catalogue, clock: Clock
-) -> None:
-    made = []
-    for scene in ("press", "pendulum", "press"):
-        made.append(catalogue.submit(replace(NEW, scene=scene)).job)
-        clock.now += 1
-    first, second, third = (job.id for job in made)
-    assert [job.id for job in catalogue.jobs(scene="press").jobs] == [third, first]
-    assert [job.id for job in catalogue.jobs(since=made[1].created).jobs] == [third, second]
-    assert [job.id for job in catalogue.jobs(before=made[1].created).jobs] == [first]
-    window = catalogue.jobs(since=made[0].created, before=made[2].created, scene="pendulum")
-    assert [job.id for job in window.jobs] == [second]
-
-
-def test_a_glance_shows_how_far_a_job_is(catalogue: Catalogue) -> None:
-    job = catalogue.submit(replace(NEW, blocks=((0, 1), (1, 1)))).job.id
-    for index in (0, 1):
-        catalogue.claim_block(f"{job}-{index}", "worker", 30)
-        catalogue.record_progress(f"{job}-{index}", 1, 30, time=1.0, fraction=0.5, steps=300)
-    (glance,) = catalogue.glances([job, "nobody"])
-    assert (glance.state, glance.time, glance.fraction, glance.steps) == ("running", 1.0, 0.5, 600)
-    assert glance.last_event == catalogue.events(job)[-1].seq
-    assert catalogue.get(job).steps == 600
 
 
 def test_a_duty_has_one_holder_at_a_time(catalogue: Catalogue, clock: Clock) -> None:

@@ -1,0 +1,195 @@
+"""What a study's store refuses, and what it survives."""
+
+import errno
+import os
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+import pytest
+from made_up_studies import MadeUpStudy, files, made_up_layout
+
+from solver.study.results import StudySlice
+from storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
+from storage.studies import StudyBlock, StudyReader, create, seal
+
+SHAPES = {
+    "a chunk a block": made_up_layout(),
+    "one chunk for all blocks": made_up_layout(points=10, blocks=((0, 5), (5, 3), (8, 2))),
+    "chunks on boundaries": made_up_layout(points=20, record=3000, blocks=((0, 11), (11, 9))),
+    "more sections than a chunk": made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))),
+}
+STEP = {"more sections than a chunk": 1000, "chunks on boundaries": 500}
+
+
+@pytest.fixture(params=SHAPES)
+def shape(request):
+    return request.param
+
+
+@pytest.fixture
+def study(shape):
+    return MadeUpStudy(SHAPES[shape])
+
+
+@pytest.fixture
+def step(shape):
+    return STEP.get(shape, 2)
+
+
+@pytest.fixture
+def undisturbed(tmp_path, study):
+    return files(study.write(tmp_path / "undisturbed"))
+
+
+def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path / "store", study.layout)
+    block = StudyBlock(tmp_path / "store", study.layout, 0)
+    block.take(next(study.slices(0)))
+    name = block.flush(b"checkpoint")
+    path = tmp_path / "store/.parts" / name
+    content = path.read_bytes()
+    for damaged in (content[:-3], content[:-3] + b"xyz", b"other" + content, b""):
+        path.write_bytes(damaged)
+        with pytest.raises(CorruptStore, match="cannot be read"):
+            StudyBlock.resume(tmp_path / "store", study.layout, 0, 2, name)
+    path.write_bytes(content)
+    other = made_up_layout(attributes={"job": {"kind": "sweep"}})
+    with pytest.raises(CheckpointMismatch, match="another study"):
+        StudyBlock.resume(tmp_path / "store", other, 0, 2, name)
+    with pytest.raises(FileNotFoundError):
+        StudyBlock.resume(tmp_path / "store", study.layout, 1, 2, "00001-a1")
+    with pytest.raises(StoreExists, match="another version"):
+        create(tmp_path / "store", other)
+
+
+@pytest.mark.parametrize("record", [7, 9000])
+def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
+    """A power cut may take files away whose names were not on the disk yet."""
+    study = MadeUpStudy(made_up_layout(points=10, record=record, blocks=((0, 8), (8, 2))))
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 1)
+    for piece in study.slices(1):
+        block.take(piece)
+    name = block.flush(b"")
+    first = 1 if record == 7 else 8  # chunks of eight points, or of one
+    missing = tmp_path / f"sections/slider7.q1/c/{first}/0"
+    content = missing.read_bytes()
+    missing.unlink()
+    with pytest.raises(CorruptStore, match=f"q1/c/{first}/0 is missing, though block 1"):
+        StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
+    missing.write_bytes(content)
+    StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
+    study.write_block(tmp_path, 0)
+    block.finish()
+    missing.unlink()
+    assert StudyBlock.done(tmp_path, study.layout, 0)
+    assert not StudyBlock.done(tmp_path, study.layout, 1)
+    with pytest.raises(CorruptStore, match="is missing"):
+        seal(tmp_path, study.layout)
+
+
+@pytest.mark.parametrize("written", [0, 1, 3, 5, 8])
+def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, written):
+    study = MadeUpStudy(made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))))
+    undisturbed = files(study.write(tmp_path / "undisturbed"))
+    folder = tmp_path / "store"
+    create(folder, study.layout)
+    pieces = list(study.slices(0, 1500))
+    block = StudyBlock(folder, study.layout, 0)
+    for piece in pieces[:2]:
+        block.take(piece)
+    name = block.flush(b"")
+    write, calls = os.write, count()
+
+    def write_until_full(descriptor, content):
+        if next(calls) >= written:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(descriptor, content)
+
+    def go_on():
+        for piece in pieces[2:]:
+            block.take(piece)
+            block.flush(b"")
+
+    with monkeypatch.context() as full:
+        full.setattr(os, "write", write_until_full)
+        with pytest.raises(OSError, match="No space left"):
+            go_on()
+    assert (StudyReader(folder).counts[:8] > 0).any()
+    other, _ = StudyBlock.resume(folder, study.layout, 0, 2, name)
+    for piece in pieces[2:]:
+        other.take(piece)
+    other.finish()
+    study.write_block(folder, 1)
+    seal(folder, study.layout)
+    assert files(folder) == undisturbed
+
+
+def test_a_failure_without_a_time_is_kept(tmp_path):
+    study = MadeUpStudy(made_up_layout(points=8))
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    ends = tuple(replace(study.end(point), time=float("nan")) for point in range(8))
+    block.take(StudySlice(1.0, tuple(range(8)), (), ends))
+    block.finish()
+    running = StudyReader(tmp_path).failures[3]
+    seal(tmp_path, study.layout)
+    sealed = StudyReader(tmp_path).failures[3]
+    assert running[:2] == sealed[:2]
+    assert np.isnan(running.time)
+    assert np.isnan(sealed.time)
+
+
+def test_a_store_cut_off_while_it_was_made_is_made_again(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    whole = files(tmp_path)
+    (tmp_path / "zarr.json").write_bytes(b"")
+    create(tmp_path, study.layout)
+    assert files(tmp_path) == whole
+
+
+@pytest.mark.parametrize(
+    ("piece", "sentence"),
+    [
+        (lambda study: StudySlice(0, (8,), (), ()), "point 8 is not one of the 8 from 0"),
+        (lambda study: StudySlice(0, (), (study.rows(1, 2, 3),), ()), "sections 2 to 2 do not"),
+        (
+            lambda study: StudySlice(0, (), (replace(study.rows(1, 0, 2), first=6),), ()),
+            "do not follow",
+        ),
+        (
+            lambda study: StudySlice(
+                0, (), (replace(study.rows(1, 0, 2), values=np.zeros((2, 5))),), ()
+            ),
+            r"need shape \(2, 2\)",
+        ),
+        (lambda study: StudySlice(0, (), (), (study.end(1), study.end(1))), "1 ended before"),
+        (
+            lambda study: StudySlice(0, (), (study.rows(0, 0, 1),), (study.end(0),)),
+            "0 has ended and takes no more",
+        ),
+    ],
+)
+def test_what_does_not_fit_is_refused(tmp_path, piece, sentence):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    if "takes no more" in sentence:
+        block.take(StudySlice(0, (), (), (study.end(0),)))
+    with pytest.raises(InvalidAppend, match=sentence):
+        block.take(piece(study))
+
+
+def test_a_block_is_not_finished_before_its_points_are(tmp_path):
+    study = MadeUpStudy(made_up_layout())
+    create(tmp_path, study.layout)
+    block = StudyBlock(tmp_path, study.layout, 0)
+    block.take(StudySlice(0.1, (0,), (), (study.end(0),)))
+    with pytest.raises(InvalidAppend, match="7 points of block 0 have not ended"):
+        block.finish()
+    assert not StudyBlock.done(tmp_path, study.layout, 0)
+    study.write_block(tmp_path, 0)
+    assert StudyBlock.done(tmp_path, study.layout, 0)
