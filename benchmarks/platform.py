@@ -198,16 +198,16 @@ def store_blocks(barrier: Any, results: Any, index: int, folder: Path) -> None:
         PointEnd(p, "", "", 1.0, np.empty((0, 4)), {"steps": 1.0}, {}) for p in range(count)
     )
     barrier.wait()
-    done, begun = 0, time.perf_counter()
-    while time.perf_counter() - begun < SECONDS:
-        path = folder / f"{index}-{done}"
-        create(path, layout)
-        block = StudyBlock(path, layout, 0)
-        block.take(StudySlice(1.0, tuple(range(count)), rows, ends))
-        block.finish()
-        done += 1
-    files = len(layout.observables) + 2  # with the times, and the part
-    results.put(done * files / (time.perf_counter() - begun))
+    done, begun, counts = 0, time.perf_counter(), Counter[str]()
+    with counted(counts):
+        while time.perf_counter() - begun < SECONDS:
+            path = folder / f"{index}-{done}"
+            create(path, layout)
+            block = StudyBlock(path, layout, 0)
+            block.take(StudySlice(1.0, tuple(range(count)), rows, ends))
+            block.finish()
+            done += 1
+    results.put(counts["files"] / (time.perf_counter() - begun))
 
 
 def capacities(folder: Path) -> dict[str, float]:
@@ -259,6 +259,8 @@ def main() -> None:
         submitting, asking, cancelling = batch_of_jobs(folder)
     scale = 1000 / VALUES
     core_seconds = seconds * scale
+    ends = 2 * counts["messages"]
+    busy = ends / able["claims and ends"] + (counts["writing"] - ends) / able["progress"]
     print(
         f"1000 values x {SETTLE + RECORD} periods of the press: {core_seconds:.0f} core seconds;"
         f" SQLite {sqlite3.sqlite_version}, {CORES} cores"
@@ -267,7 +269,7 @@ def main() -> None:
     for what, asked, sustained in (
         ("messages, relay to broker", counts["messages"], able["messages sent"]),
         ("messages, broker to workers", counts["messages"], able["messages acted on"]),
-        ("writing transactions", counts["writing"], min(able["progress"], able["claims and ends"])),
+        ("writing transactions", counts["writing"], counts["writing"] / busy),
         ("files written", counts["files"], able["files"]),
     ):
         needed = asked * scale
