@@ -3,7 +3,7 @@
 import importlib
 import sys
 
-ALL = ("press", "sweep", "platform", "start", "results_store")
+ALL = ("press", "exponent", "sweep", "platform", "start", "results_store", "results_http")
 
 
 def main() -> int:

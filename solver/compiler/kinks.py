@@ -3,8 +3,9 @@
 Friction turns from full one way to full the other within less slip than a step may bring. What a
 tangent loses there depends on how long the slip takes through the bend, and the few stages of a
 step do not see when it began. Where a step passes a kink, the slope is the change of value over
-the change of argument in it: exact for an argument that changes at a constant rate, also where
-the law jumps (equal limit velocities), if the argument goes on through the jump.
+the change of argument in it: exact for an argument that changes at a constant rate. A law may even
+jump (equal limit velocities), if its argument goes on through the jump; where friction holds the
+slip at the jump, the mean slope grows beyond bounds and no tangent can be carried.
 """
 
 from __future__ import annotations

@@ -44,6 +44,11 @@ class ModifiedCoulomb(Strict):
         ),
     ] = "material"
 
+    @property
+    def jumps(self) -> bool:
+        """Whether the force jumps with the slip: then no tangent vector follows a held joint."""
+        return self.coefficient > 0.0 and self.dynamic_velocity <= self.static_velocity
+
 
 def ramp_slope(law: SimpleNamespace) -> Scalar:
     """1 / (v_1 - v_0), s/m, bounded so that equal limit velocities are a step."""

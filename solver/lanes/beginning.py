@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from solver.compiler.kernel import LEDGER
 from solver.compiler.layout import LANES
-from solver.lanes.problem import LaneStart
+from solver.lanes.problem import LaneProblem
 from solver.lanes.tangent import start_tangent
+from solver.scene.document import Scene
 
 if TYPE_CHECKING:
     from solver.lanes.bundle import Bundle
@@ -19,8 +20,9 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
-def begin(bundle: Bundle, lane: int, start: LaneStart | None) -> None:
+def begin(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
     """Evaluate a lane's start: first slopes, contacts that begin closed, first records."""
+    start = problem.start
     kernel, module = bundle.kernel, bundle.kernel.module
     joints, rows = len(kernel.play), kernel.rows.scanned
     lanes = bundle.work.reshape(-1, LANES)[:, lane]
@@ -61,14 +63,20 @@ def begin(bundle: Bundle, lane: int, start: LaneStart | None) -> None:
     if joints:
         block("lowest0", rows)[rows - joints :] = -math.inf
     if bundle.tangents is not None:
-        _start_tangent(bundle, lane)
+        _start_tangent(bundle, lane, problem.scene)
 
 
-def _start_tangent(bundle: Bundle, lane: int) -> None:
-    """Give a lane its first tangent; its state is in the stage still."""
+def _start_tangent(bundle: Bundle, lane: int, scene: Scene) -> None:
+    """Give a lane its first tangent; its state is in the stage still.
+
+    Where friction jumps there is none: the tangent is not a number, and neither is its growth.
+    """
     assert bundle.tangents is not None  # noqa: S101  (asked before)
     start_tangent(lane, bundle.slots, bundle.work)
     if bundle.tangents.kinks:
         bundle.tangents.module.kinks(bundle.work)
         rows = 3 * bundle.tangents.kinks
         bundle.table("kink_start0", rows)[:, lane] = bundle.table("kink_end0", rows)[:, lane]
+    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
+    if any(c.friction is not None and c.friction.jumps for c in clearances if c is not None):
+        bundle.table("tangent0", bundle.kernel.states)[:, lane] = math.nan

@@ -82,7 +82,7 @@ class Bundle:
         fresh[lane] = False
         self.work.reshape(-1, LANES)[:, fresh] = self.work.reshape(-1, LANES)[:, [lane]]
         self.table("active")[0, fresh] = 0.0
-        begin(self, lane, problem.start)
+        begin(self, lane, problem)
         self._run(lane)
         self.first_energy[:, lane] = self.energy(lane)
 

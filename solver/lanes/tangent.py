@@ -42,9 +42,8 @@ def latch_tangent(j: int, lane: int, slots: np.ndarray, work: np.ndarray) -> Non
     grows from zero at δ = 0, K δ^n with n >= 1 and friction proportional to it, makes the slope f
     continuous there. The same holds where contact ends. It fails for a law whose force jumps at
     touch, such as a viscous damper without the factor δ^n. Friction with equal limit velocities
-    jumps, too, but where the slip reverses, which is no onset: there the mean slope over the step
-    (`solver.compiler.kinks`) is the saltation of a slip that goes on through the jump. A slip that
-    is held at the jump is contracted to nothing in the motion; in the tangent it only decays.
+    jumps, too, but where the slip reverses, which is no onset; a run with such friction has no
+    tangent (`solver.lanes.beginning`).
     """
     gap_slot = slots[Slot.GAP] + 4 * j
     tangent_slot = slots[Slot.TANGENT_GAP] + 3 * j
@@ -81,31 +80,35 @@ def record_growth(
 def renormalise(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
     """Bring a lane's tangent back to length 1; the logarithm of the length that it had.
 
-    A tangent that has vanished or overflowed starts afresh, and its logarithm is not finite.
+    A tangent that has vanished stays so, with growth -inf; one that has overflowed, or was not a
+    number, is not a number from then on.
     """
     length = tangent_length(lane, slots, work)
     if SHORTEST < length < math.inf:
         scale_tangent(1.0 / length, lane, slots, work)
-    else:
-        start_tangent(lane, slots, work)
-    return math.log(length)
+        return math.log(length)
+    if length <= SHORTEST:
+        scale_tangent(0.0, lane, slots, work)
+        return -math.inf
+    scale_tangent(math.nan, lane, slots, work)
+    return math.nan
 
 
 @kernel()
 def tangent_length(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
     """Length in the metric of the error weights: the scene's own scales for metres and radians."""
-    largest = 0.0
+    total = 0.0
     for i in range(slots[Slot.STATES]):
         weight = work[(slots[Slot.WEIGHT] + i) * LANES + lane]
-        largest = max(largest, abs(work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight))
-    if largest == 0.0:
-        return 0.0
-    square = 0.0
+        total += abs(work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight)
+    if not 0.0 < total < math.inf:
+        return total
+    square = 0.0  # of shares of the total: the squares themselves might overflow
     for i in range(slots[Slot.STATES]):
         weight = work[(slots[Slot.WEIGHT] + i) * LANES + lane]
-        share = work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight / largest
+        share = work[(slots[Slot.TANGENT] + i) * LANES + lane] * weight / total
         square += share * share
-    return largest * math.sqrt(square)
+    return total * math.sqrt(square)
 
 
 @kernel()

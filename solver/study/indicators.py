@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.nonlinear.estimate import UNKNOWN
 from solver.nonlinear.lyapunov import exponent_from_growth
 from solver.nonlinear.recurrence import recurrence_period
 from solver.nonlinear.rotation import rotation_number
@@ -54,7 +55,8 @@ def indicators_of(
     lyapunov = zero_one = rotation = None
     recurrence: int | None = None
     if "lyapunov" in chosen and len(log_growth):
-        lyapunov = exponent_from_growth(log_growth, period)
+        known = not (np.isnan(log_growth) | (log_growth == np.inf)).any()
+        lyapunov = exponent_from_growth(log_growth, period) if known else UNKNOWN
         found |= {"lyapunov": lyapunov.value, "lyapunov_error": lyapunov.error}
     if len(states) and "zero_one" in chosen:
         zero_one = zero_one_test(states, resolution=RECURS)

@@ -218,6 +218,35 @@ def test_tangents_are_finite_from_a_journal_in_the_middle_of_its_bearing(slip: s
     assert rows[-1, 0] == 0.05
 
 
+def test_where_friction_jumps_nothing_is_said_of_growth() -> None:
+    same = {"static_velocity": 1e-3, "dynamic_velocity": 1e-3}
+    rough, smooth = (preset("bouncing-journal", friction=mu, **same) for mu in (0.1, 0.0))
+    assert np.isnan(grown(rough, 0.05, 1e-6)[:, 1]).all()
+    assert np.isfinite(grown(smooth, 0.05, 1e-6)).all()
+
+
+@pytest.mark.parametrize(
+    ("tangent", "growth_of_it"),
+    [(0.0, -math.inf), (1e-305, -math.inf), (math.nan, math.nan), (math.inf, math.nan)],
+)
+def test_a_tangent_that_is_lost_says_so_ever_after(tangent: float, growth_of_it: float) -> None:
+    bundle = bundle_of([problem(preset("bouncing-journal"), 1.0, 1e-6)])
+    bundle.table("tangent0", 6)[1, 0] = tangent
+    bundle.table("tangent0", 6)[[0, 2, 3, 4, 5], 0] = 0.0
+    bundle.advance(10**6)
+    found = growth(bundle)[:, 1]
+    assert len(found) > 3
+    np.testing.assert_array_equal(found, growth_of_it)
+
+
+def test_the_length_of_a_tangent_is_told_even_where_its_square_would_overflow() -> None:
+    scene = preset("bouncing-journal", gravity_y=0.0)
+    bundle = bundle_of([problem(scene, 1.0, 1e-6)])
+    bundle.table("tangent0", 6)[:, 0] *= 1e200
+    bundle.advance(10**6)
+    assert growth(bundle)[0, 1] == pytest.approx(math.log(1e200), rel=0.05)
+
+
 # exponents
 
 
@@ -263,6 +292,29 @@ def test_an_impact_oscillator_grows_as_in_a_program_of_its_own() -> None:
     # a growth of e^7 of 1e-8 is 1e-5 of the clearance: what neighbours so far apart do not have
     # in common; 27 impacts at 1e-10, each of 50 steps
     assert growth(bundle)[:, 1].sum() == pytest.approx(expected, abs=5e-3)
+
+
+@pytest.mark.long
+def test_both_formulations_have_the_same_exponent() -> None:
+    # in absolute coordinates the tangent may leave the constraints, but what does is brought back
+    def exponents(formulation: str) -> Floats:
+        scene = shaken_disc()
+        kernel = compile_kernel(scene, spanning_tree(scene), formulation, TSITOURAS5)
+        lanes = [problem(scene, 1000.0 * PERIOD, 1e-7 * (1.0 + 0.01 * i)) for i in range(LANES)]
+        bundle = Bundle(kernel, lanes, watch=False, tangents=compile_tangents(kernel))
+        total = np.zeros(LANES)
+        while True:
+            running = bundle.advance(10**6)
+            for lane in range(LANES):
+                total[lane] += growth(bundle, lane)[:, 1].sum()
+            if not running:
+                return total / (1000.0 * PERIOD)
+
+    reduced, lagrange = exponents("reduced"), exponents("lagrange")
+    # chaotic runs of their own: equal within the errors of their means
+    error = math.hypot(reduced.std(), lagrange.std()) / math.sqrt(LANES)
+    assert lagrange.mean() == pytest.approx(reduced.mean(), abs=4.0 * error)
+    assert error < 0.03 * reduced.mean()
 
 
 def test_the_press_grows_as_its_companion_does() -> None:

@@ -1,0 +1,45 @@
+"""Exponents of a study's points: what tangent vectors give, and what they leave alone."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tests.solver.completed_runs import CASE_3
+from tests.solver.study.test_run import Computed
+
+DIAGRAM: dict[str, Any] = {
+    "kind": "bifurcation",
+    "scene": {"preset": "seven-bar-press", "parameters": CASE_3},
+    "parameter": "dynamic_velocity",
+    "values": [1e-3, 1e-2],
+    "settle": 1,
+    "record": 8,
+}
+
+
+def test_exponents_change_no_section_and_are_not_known_where_friction_jumps() -> None:
+    with_exponents = Computed({**DIAGRAM, "indicators": ["lyapunov"]})
+    without = Computed(DIAGRAM)
+    for point in range(2):
+        assert with_exponents.ends[point].code == ""
+        assert np.array_equal(with_exponents.sections(point), without.sections(point))
+    # the static velocity is 1e-3, too
+    jump, ramp = (with_exponents.ends[point].indicators for point in range(2))
+    assert math.isnan(jump["lyapunov"])
+    # eight revolutions tell little: a regular motion, within a wide error
+    assert abs(ramp["lyapunov"]) < ramp["lyapunov_error"] < 3.0
+
+
+def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
+    scene = {
+        "preset": "seven-bar-press",
+        "parameters": CASE_3 | {"speed": 7.854, "speed_crank4": -7.854},
+    }
+    job = {"kind": "poincare", "scene": scene, "settle": 20, "record": 100}
+    end = Computed({**job, "indicators": ["lyapunov"]}).ends[0]
+    # 6.9 +- 0.1 over longer runs at tolerances down to 1e-11
+    assert abs(end.indicators["lyapunov"] - 6.9) < 4.0 * end.indicators["lyapunov_error"] + 0.3
+    assert end.indicators["lyapunov_error"] < 0.5
