@@ -1,6 +1,7 @@
 """Which form of an answer a client takes (RFC 9110, section 12.5.1)."""
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 from typing import Annotated
 
 from fastapi import Depends, Request
@@ -57,7 +58,9 @@ JSON = "application/json"
 CSV = "text/csv"
 NPZ = "application/x-npz"
 MATLAB = "application/x-matlab-data"
-FORMS = (JSON, CSV, NPZ, MATLAB)
+ARROW = "application/vnd.apache.arrow.stream"
+_EXTRA = (ARROW,) if find_spec("pyarrow") else ()  # comes with the extra `arrow`
+FORMS = (JSON, CSV, NPZ, MATLAB, *_EXTRA)
 
 
 def _form(request: Request) -> str:

@@ -1,4 +1,4 @@
-"""Columns of numbers in the forms that programs read: CSV, NPZ, MATLAB."""
+"""Columns of numbers in the forms that programs read: CSV, NPZ, MATLAB, Arrow."""
 
 import io
 import re
@@ -9,14 +9,18 @@ import numpy as np
 from fastapi import Response
 from numpy.typing import NDArray
 
-from service.results.negotiation import CSV, MATLAB, NPZ
+from service.results.negotiation import ARROW, CSV, FORMS, MATLAB, NPZ
 
-_SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat"}
+_SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat", ARROW: "arrows"}
 _LONGEST_FIELD: Final = 63  # of a name in MATLAB
 _OF_A_PARENT: Final = "value"
 _BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 AS_FILES: Final[dict[int | str, dict[str, Any]]] = {
-    200: {"content": {CSV: {"schema": {"type": "string"}}, NPZ: _BINARY, MATLAB: _BINARY}}
+    200: {
+        "content": {
+            form: {"schema": {"type": "string"}} if form == CSV else _BINARY for form in FORMS[1:]
+        }
+    }
 }
 """The forms of an answer beside JSON, for the OpenAPI document."""
 
@@ -48,9 +52,9 @@ def as_file(form: str, name: str, columns: list[Column], *, complete: bool) -> R
     columns
         All of one length.
     complete
-        Whether the run came to its end; in NPZ and MATLAB files.
+        Whether the run came to its end; in all files but CSV.
     """
-    content = {CSV: _csv, NPZ: _npz, MATLAB: _matlab}[form](columns, complete)
+    content = {CSV: _csv, NPZ: _npz, MATLAB: _matlab, ARROW: _arrow}[form](columns, complete)
     headers = {"Content-Disposition": f'attachment; filename="{name}.{_SUFFIX[form]}"'}
     media_type = f"{form}; charset=utf-8; header=present" if form == CSV else form
     return Response(content, headers=headers, media_type=media_type)
@@ -87,6 +91,21 @@ def _matlab(columns: list[Column], complete: bool) -> bytes:
     document = values | {"units": units, "complete": complete}
     savemat(cast(Any, file), document, long_field_names=True, oned_as="column")
     return file.getvalue()
+
+
+def _arrow(columns: list[Column], complete: bool) -> bytes:
+    import pyarrow  # is there only with the extra
+
+    fields = [
+        pyarrow.field(column.label, pyarrow.float64(), metadata={"unit": column.unit})
+        for column in columns
+    ]
+    schema = pyarrow.schema(fields, metadata={"complete": str(complete).lower()})
+    table = pyarrow.table([column.values for column in columns], schema=schema)
+    stream = pyarrow.BufferOutputStream()
+    with pyarrow.ipc.new_stream(stream, schema) as writer:
+        writer.write_table(table)
+    return bytes(stream.getvalue())
 
 
 def _place(tree: dict[str, Any], path: list[str], leaf: object) -> None:

@@ -4,6 +4,7 @@ import io
 
 import httpx
 import numpy as np
+import pyarrow.ipc
 import pytest
 from scipy.io import loadmat
 
@@ -127,6 +128,15 @@ def test_matlab_has_channels_as_nested_structs(http, job, values):
     np.testing.assert_array_equal(found["time"], values["time"])
     assert found["units"]["slider7"]["x"] == "m"
     assert found["complete"] == 1
+
+
+def test_arrow_has_columns_with_units(http, job, values):
+    content = ask(http, job, "application/vnd.apache.arrow.stream").content
+    found = pyarrow.ipc.open_stream(content).read_all()
+    assert found.schema.metadata == {b"complete": b"true"}
+    assert found.schema.field("slider7.x").metadata == {b"unit": b"m"}
+    for name, column in values.items():
+        np.testing.assert_array_equal(found[name].to_numpy(), column)
 
 
 def test_overviews_and_sections_have_all_forms_too(http, job, finished_study):
