@@ -1,0 +1,115 @@
+"""Following a job by its events, over connections that break; what else clients ask of jobs."""
+
+import threading
+import time
+from datetime import UTC, datetime, timedelta
+
+import pytest
+
+from jointplay.client import Client, NotFound, Refused, Unreachable, events
+from service.app import create_app
+from storage.catalogue import BlockState, Catalogue
+from storage.settings import Settings
+from tests.service_in_thread import serving
+
+PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+
+
+@pytest.fixture(scope="module")
+def client(service_url):
+    with Client(service_url) as client:
+        yield client
+
+
+def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
+    job_id = worker.submit()
+    seen = []
+
+    def report(job):
+        seen.append((job.state, job.progress.fraction, job.progress.steps))
+        if job.state == "queued":
+            report.claim = worker.start(job_id)
+        elif job.progress.fraction == 0.0:
+            block = report.claim.block.id
+            catalogue.record_progress(block, 1, 60.0, time=1.0, fraction=0.5, steps=700)
+        elif not job.is_finished:
+            worker.finish(report.claim, BlockState.done)
+
+    job = client.wait(job_id, report)
+    assert seen == [
+        ("queued", 0.0, None),
+        ("running", 0.0, None),
+        ("running", 0.5, 700),
+        ("succeeded", 1.0, 700),
+    ]
+    assert job.finished is not None
+
+
+def test_a_lost_service_is_an_error_and_not_an_end(tmp_path, monkeypatch):
+    monkeypatch.setattr(events, "_PATIENCE", 0.5)
+    with serving(create_app(Settings(data=tmp_path / "data"))) as url:
+        client = Client(url)
+        job_id = client.submit(PENDULUM).id
+    began = time.monotonic()
+    with pytest.raises(Unreachable):
+        client.wait(job_id)
+    assert time.monotonic() - began < 10
+    client.close()
+
+
+def test_a_service_that_comes_back_is_followed_on(tmp_path, monkeypatch):
+    settings = Settings(data=tmp_path / "data")
+    with serving(create_app(settings)) as url, Client(url) as client:
+        job_id = client.submit(PENDULUM).id
+    catalogue = Catalogue(settings.catalogue_url)
+    with serving(create_app(settings)) as url, Client(url) as client:
+        lines = client._connection.lines
+        broken = []
+
+        def breaking(path, silence):
+            """A connection that breaks after the first word, twice."""
+            for line in lines(path, silence):
+                yield line
+                if len(broken) < 2 and line.startswith("data"):
+                    broken.append(line)
+                    raise Unreachable("broken")
+
+        monkeypatch.setattr(client._connection, "lines", breaking)
+        timer = threading.Timer(0.5, catalogue.request_cancel, [job_id])
+        timer.start()
+        assert client.wait(job_id, timeout=30).state == "cancelled"
+        assert len(broken) == 2
+        timer.join()
+    catalogue.close()
+
+
+def test_an_identical_job_is_found_a_key_repeats_and_an_estimate_queues_nothing(client):
+    job = PENDULUM | {"duration": 1.40625}
+    assert not client.estimate(job).cached
+    first = client.submit(job)
+    assert (first.cached, client.submit(job).cached) == (False, True)
+    assert client.estimate(job).cached
+    anew = job | {"cache": False}
+    repeated = [client.submit(anew, key="from-python").id for _ in range(2)]
+    assert repeated[0] == repeated[1] != first.id
+    with pytest.raises(Refused) as caught:
+        client.submit(anew | {"duration": 1.5}, key="from-python")
+    assert caught.value.problem == "key-reused"
+
+
+def test_jobs_are_found_by_what_they_are(client, worker):
+    job_id = worker.finished(label="looked for in Python")
+    chosen = {"label": "looked for in Python", "state": "succeeded", "kind": "simulate"}
+    (found,) = client.jobs(**chosen, scene="seven-bar-press")
+    assert found.id == job_id
+    hour = timedelta(hours=1)
+    now = datetime.now(UTC)
+    assert [job.id for job in client.jobs(**chosen, since=now - hour, before=now + hour)] == [
+        job_id
+    ]
+    assert list(client.jobs(**chosen, since=now + hour)) == []
+    client.delete(job_id)
+    assert list(client.jobs(**chosen)) == []
+    with pytest.raises(Refused) as caught:
+        client.get(job_id)
+    assert (caught.value.status, isinstance(caught.value, NotFound)) == (410, False)
