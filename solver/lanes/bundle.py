@@ -14,7 +14,7 @@ from solver.compiler.layout import LANES
 from solver.compiler.tangents import Tangents
 from solver.lanes.advance import advance
 from solver.lanes.beginning import begin
-from solver.lanes.binding import bind
+from solver.lanes.binding import FIRST_STEP, bind
 from solver.lanes.clock import product_difference
 from solver.lanes.observation import observe_rows
 from solver.lanes.peaks import POINTS
@@ -109,6 +109,8 @@ class Bundle:
                 lanes[first : first + rows] = lanes[at["previous0"] : at["previous0"] + rows]
                 lanes[first_time : first_time + rows] = now
             lanes[at["change0"] : at["change0"] + rows] = math.nan
+            # no change is known before the next step: a long one could hide an extreme
+            lanes[at["step"]] = FIRST_STEP * period
         self._run(lane)
 
     def _run(self, lane: int) -> None:
