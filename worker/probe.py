@@ -75,7 +75,10 @@ def _of_simulation(admission: Admission) -> Cost:
     exact = outcome.state != "cancelled"
     if exact:
         steps = int((outcome.statistics or {}).get("steps", 0))
-        whole = Mark(marks[-1].seconds, 1.0, steps)
+        seconds = marks[-1].seconds
+        if seconds < BUDGET / 2:  # the clock is coarse, and the first run warms the caches
+            seconds = min(seconds, _run(admission, BUDGET)[1][-1].seconds)
+        whole = Mark(seconds, 1.0, steps)
     else:
         whole = _extrapolated(marks)
     reached = max(outcome.fraction, 1e-9)
