@@ -55,6 +55,9 @@ class Processes:
         for index in order:
             call = calls[index]
             futures[self._pool.submit(_make, call.function, call.arguments, index)] = index
+        # The pool watches the processes that it knew when it was last roused, and rouses itself
+        # before it starts the process of a call: without one more, the last one could die unseen.
+        self._pool.submit(_nothing)
         weights = [call.weight for call in calls]
         running, done = set(futures), set[Future[Any]]()
         ended = 0
@@ -126,6 +129,10 @@ def _begin(fractions: MutableSequence[float], leave: Any) -> None:
     global _shared
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _shared = _Shared(fractions, leave)
+
+
+def _nothing() -> None:
+    """Do what takes no time."""
 
 
 def _make(function: Callable[..., Any], arguments: tuple[Any, ...], index: int) -> Any:

@@ -3,11 +3,12 @@
 import os
 import signal
 import threading
+from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
 from jointplay.reproduce.processes import Call, Interrupted, processes
-from tests.reproduce.calls import doubled, endless, refused
+from tests.reproduce.calls import doubled, endless, killed, refused
 
 
 def test_results_come_in_the_order_of_the_calls_and_progress_ends_at_one():
@@ -39,3 +40,10 @@ def test_ctrl_c_ends_the_calls():
         with pytest.raises(Interrupted):
             crew.make([Call(endless, (), 1.0)], lambda *told: None)
     pressed.join()
+
+
+def test_a_process_that_dies_is_noticed():
+    with processes(2, most_calls=2) as crew:
+        calls = [Call(endless, (), 2.0), Call(killed, (), 1.0)]
+        with pytest.raises(BrokenProcessPool):
+            crew.make(calls, lambda *told: None)
