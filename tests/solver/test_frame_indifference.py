@@ -130,10 +130,21 @@ def poses(scene: Scene) -> dict[str, object]:
     }
 
 
+def with_start_angles(scene: Scene) -> Scene:
+    """Return the scene with the angles of its own assembly as start angles."""
+    pose = assemble(scene).pose
+    angles = {name: float(pose[3 * i + 2]) for i, name in enumerate(scene.bodies)}
+    start = scene.start.model_copy(update={"angles": angles})
+    return scene.model_copy(update={"start": start})
+
+
 @given(st.one_of(trees(), st.sampled_from(list(PRESETS.values()))), st.randoms())
 def test_assembly_does_not_depend_on_the_order_of_the_document(
     scene: Scene, shuffler: random.Random
 ) -> None:
+    """Given the angles of what the ideal mechanism leaves free: which body's angle is zero there
+    is a matter of the order."""
+    scene = with_start_angles(scene)
     bodies, joints = list(scene.bodies), list(scene.joints)
     shuffler.shuffle(bodies)
     shuffler.shuffle(joints)
