@@ -27,8 +27,8 @@ class Size:
     settle, record
         Periods of the sections that indicators are computed from, before and in the record.
     members, tolerance
-        Starts from which these are computed, and how exactly: at the standard tolerance chaotic
-        exponents of the stiffest contacts are off by a third.
+        Starts from which these are computed, and how exactly: at the standard tolerance exponents
+        of the stiffest contacts are off by a third, or positive where neighbours converge.
     thinning
         Of the values of bifurcation diagrams every so many-th one is computed.
     diagram
@@ -44,7 +44,7 @@ class Size:
     early: tuple[int, int] = (2, 12)
     late: tuple[int, int] = (100, 200)
     settle: int = 100
-    record: int = 400
+    record: int = 300
     members: int = 8
     tolerance: float = 1e-8
     thinning: int = 1
