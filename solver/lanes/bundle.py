@@ -62,6 +62,7 @@ class Bundle:
         self.settings = np.zeros((Setting.FIRST_DRIVER + 2 * drivers, LANES))
         self.counters = np.zeros((Counter.COUNT, LANES), dtype=np.int64)
         self.counters[Counter.STATUS] = Status.IDLE
+        self.counters[Counter.LANDING] = -1
         self.first_energy = np.zeros((len(ENERGIES), LANES))
         width = row_width(drivers, kernel.states, joints)
         self.sample_rows = np.zeros((LANES, ROWS_AT_ONCE, width))

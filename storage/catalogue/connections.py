@@ -4,7 +4,9 @@ SQLite: one write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A d
 that reads first and writes later fails at once under contention, whatever the busy timeout.
 """
 
+import sqlite3
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -50,13 +52,10 @@ class Connections:
         def _configure(dbapi_connection: Any, _record: object) -> None:
             dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
             cursor = dbapi_connection.cursor()
-            for pragma in (
-                f"busy_timeout={_BUSY_TIMEOUT_MS}",
-                "journal_mode=WAL",
-                f"synchronous={synchronous}",
-                "foreign_keys=ON",
-            ):
-                cursor.execute(f"PRAGMA {pragma}")
+            cursor.execute(f"PRAGMA busy_timeout={_BUSY_TIMEOUT_MS}")
+            _write_ahead(cursor)
+            cursor.execute(f"PRAGMA synchronous={synchronous}")
+            cursor.execute("PRAGMA foreign_keys=ON")
             cursor.close()
 
         @event.listens_for(engine, "begin")
@@ -90,3 +89,19 @@ class Connections:
         """Close every connection of this process."""
         for engine in (self._readers, self._writer, self._durable_writer):
             engine.dispose()
+
+
+def _write_ahead(cursor: sqlite3.Cursor) -> None:
+    """Have the database keep a write-ahead log.
+
+    A database that is new to it is locked for a moment, for which SQLite does not wait by itself.
+    """
+    give_up = time.monotonic() + _BUSY_TIMEOUT_MS / 1000
+    while True:
+        try:
+            cursor.execute("PRAGMA journal_mode=WAL")
+            return
+        except sqlite3.OperationalError:
+            if time.monotonic() > give_up:
+                raise
+            time.sleep(0.01)
