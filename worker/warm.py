@@ -10,19 +10,25 @@ import time
 
 from solver import presets
 from solver.admission import admit_simulate
+from solver.compile_loop import ready_kernel
 from solver.compiler.cache import cache_folder
+from solver.compiler.tangents import compile_tangents
 from solver.jobs import SimulateJob
+from solver.scene.document import Scene
 from solver.simulate import Simulation
 
 
 def warm(name: str) -> float:
-    """Compile or load the kernels of a preset by a very short run; return the seconds."""
+    """Compile or load a preset's kernels, those of exponents too; return the seconds."""
     began = time.perf_counter()
     job = SimulateJob.model_validate(
         {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
     )
-    for _ in Simulation(admit_simulate(job)).slices():
+    admission = admit_simulate(job)
+    for _ in Simulation(admission).slices():
         pass
+    scene = Scene.model_validate(admission.scene)
+    compile_tangents(ready_kernel(scene, admission.job["formulation"]))
     return time.perf_counter() - began
 
 
