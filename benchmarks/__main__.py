@@ -3,7 +3,7 @@
 import importlib
 import sys
 
-ALL = ("press", "exponent", "sweep", "platform", "start", "results_store", "results_http")
+ALL = ("press", "peers", "exponent", "sweep", "platform", "start", "results_store", "results_http")
 
 
 def main() -> int:

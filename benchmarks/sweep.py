@@ -14,24 +14,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from scipy.integrate import solve_ivp
-
+from benchmarks.paper_equations import SIMULATED, seconds_a_period
 from benchmarks.press import CASE
 from jointplay.client import Client
 from jointplay.serving import running_service
 from solver.admission import Study, admit
-from solver.assembly import assemble
 from solver.lanes.bundle import Bundle
-from solver.mechanics.lagrange import LagrangeMechanism
-from solver.mechanics.view import view
 from solver.study.run import StudyRun
 
 VALUES, SETTLE, RECORD = 200, 100, 50
 PERIODS = VALUES * (SETTLE + RECORD)
 REPEATS = 3
-SCIPY_SECONDS = 0.02
-"""Simulated time that SciPy gets; the rest is scaled."""
 
 
 def document(values: int = VALUES, settle: int = SETTLE, record: int = RECORD) -> dict[str, Any]:
@@ -95,31 +88,10 @@ def in_kernels() -> tuple[float, float, float]:
 
 
 def with_scipy() -> float:
-    """Return seconds a period: 18 coordinates, multipliers, Baumgarte; the rate latched inside."""
+    """Return seconds a period on the paper's equations."""
     study = admit(document())
     assert isinstance(study, Study)
-    scene = study.point_scene(VALUES // 2)
-    numbers, assembly = view(scene), assemble(scene)
-    half = 3 * len(scene.bodies)
-    mode = dict.fromkeys(("A", "B"), 0.0)
-    rate = dict.fromkeys(mode, 1e-3)
-
-    def slope(t: float, y: np.ndarray) -> list[float]:
-        driven = {name: d.position + d.speed * t for name, d in scene.drivers.items()}
-        state = [float(x) for x in y]
-        mechanism = LagrangeMechanism(scene, numbers, state[:half], state[half:], driven)
-        motion = mechanism.motion(mode, rate)
-        for name, found in motion.contacts.items():
-            closed = found.penetration > 0.0
-            if closed and mode[name] == 0.0:
-                rate[name] = max(found.penetration_rate, 1e-3)
-            mode[name] = float(closed)
-        return [*state[half:], *motion.accelerations]
-
-    begun = time.perf_counter()
-    start = np.concatenate([assembly.pose, assembly.velocity])
-    solve_ivp(slope, (0.0, SCIPY_SECONDS), start, method="RK45", rtol=1e-6, atol=1e-9)
-    return (time.perf_counter() - begun) * float(study.period[0]) / SCIPY_SECONDS
+    return seconds_a_period(study.point_scene(VALUES // 2))
 
 
 def main() -> None:
@@ -127,7 +99,7 @@ def main() -> None:
     scipy = with_scipy()
     hours = scipy * PERIODS / 3600.0
     print(f"SciPy RK45 on the paper's equations: {scipy:.1f} s a period, scaled from"
-          f" {SCIPY_SECONDS:g} s of motion: {hours:.0f} h for the diagram")  # fmt: skip
+          f" {SIMULATED:g} s of motion: {hours:.0f} h for the diagram")  # fmt: skip
     kernels, alone, useful = in_kernels()
     print(f"{VALUES} values x {SETTLE + RECORD} periods; medians of {REPEATS}, best in brackets")
     print(

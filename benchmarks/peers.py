@@ -1,0 +1,277 @@
+"""What a user would write instead, beside a bare run of ours, at equal error, in one run.
+
+    python -m benchmarks peers
+
+The press with stiffness from its elastic constants, bearing radius 10 mm, restitution 0.9, friction
+0.1, limit velocities 1e-3 and 1e-2 m/s, clearance 0.5 mm, over one revolution of 2 s on one core.
+SciPy's methods and CVODE (if `pip install scikit-sundae` was done) get our compiled right-hand side
+and restart at located onsets and releases; only the paper's equations are in plain Python. Errors
+are the largest of all coordinates and speeds at 0.03 s against a run at 1e-13. A peer is compared
+with our cheapest run whose errors are no larger. Times are of the processor.
+"""
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from benchmarks.paper_equations import seconds_a_period
+from solver.admission import Admission, admit
+from solver.compile_loop import ready_kernel
+from solver.compiler.kernel import Kernel
+from solver.lanes.bundle import Bundle
+from solver.lanes.problem import LaneProblem
+from solver.scene.document import Scene
+
+CASE = {
+    "bearing_radius": 0.01,
+    "restitution": 0.9,
+    "friction": 0.1,
+    "static_velocity": 1e-3,
+    "dynamic_velocity": 1e-2,
+}
+REVOLUTION, CHECK_TIME = 2.0, 0.03
+TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
+REPEATS = 9
+LONGEST_STEP = 1e-3
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One way of computing the revolution."""
+
+    name: str
+    tolerance: float
+    seconds: float
+    position_error: float
+    velocity_error: float
+
+
+def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
+    """Return the case for one lane, without outputs."""
+    admission = admit(
+        {
+            "kind": "simulate",
+            "scene": {
+                "preset": "seven-bar-press",
+                "parameters": CASE | {"clearance": clearance},
+            },
+            "duration": duration,
+            "tolerance": tolerance,
+        }
+    )
+    assert isinstance(admission, Admission)
+    scene = Scene.model_validate(admission.scene)
+    return LaneProblem(scene, duration, tolerance, duration, 0, 0, 0.0)
+
+
+class CompiledEquations:
+    """The kernel's right-hand side for one lane, as a peer calls it."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.bundle = Bundle(kernel, [problem(5e-4, 1e-6, REVOLUTION)])
+        self.states, self.joints = kernel.states, len(kernel.play)
+        self.start = self.bundle.state_of(0).state
+        self._stage = self.bundle.table("stage0", self.states)
+        self._time = self.bundle.table("stage_time")
+        self._mode = self.bundle.table("mode0", self.joints)
+        self._rate = self.bundle.table("impact_rate0", self.joints)
+        self._slope = self.bundle.table("slope0", self.states)
+        self._gaps = [self.bundle.table(f"gap{j}") for j in range(self.joints)]
+        self._rates = [self.bundle.table(f"gap_rate{j}") for j in range(self.joints)]
+        self._evaluate = kernel.module.right_hand_side
+        self.floor = self.bundle.table("impact_floor0", self.joints)[:, 0].copy()
+
+    def slope(self, t: float, y: np.ndarray, mode: np.ndarray, rate: np.ndarray) -> np.ndarray:
+        """Return the slopes of coordinates and speeds."""
+        self._stage[:, 0], self._time[0, 0] = y, t
+        self._mode[:, 0], self._rate[:, 0] = mode, rate
+        self._evaluate(self.bundle.work)
+        return self._slope[:, 0].copy()
+
+    def gaps(
+        self, t: float, y: np.ndarray, mode: np.ndarray, rate: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the penetration of each joint and its rate."""
+        self.slope(t, y, mode, rate)
+        return (
+            np.array([gap[0, 0] for gap in self._gaps]),
+            np.array([rate[0, 0] for rate in self._rates]),
+        )
+
+
+Leg = Callable[[float, np.ndarray, float, np.ndarray, np.ndarray], tuple[float, np.ndarray]]
+"""(time, state, end, modes, impact rates) -> time and state where a gap passes zero, or the end."""
+
+
+def by_legs(equations: CompiledEquations, leg: Leg, end: float) -> np.ndarray:
+    """Return the state at the end: a leg from each onset or release to the next."""
+    now, state = 0.0, equations.start.copy()
+    mode = np.zeros(equations.joints)
+    rate = equations.floor.copy()
+    while True:
+        now, state = leg(now, state, end, mode, rate)
+        if now >= end:
+            return state
+        gap, gap_rate = equations.gaps(now, state, mode, rate)
+        joint = int(np.argmin(np.abs(gap)))
+        mode[joint] = 1.0 if gap_rate[joint] > 0.0 else 0.0
+        if mode[joint]:
+            rate[joint] = max(gap_rate[joint], equations.floor[joint])
+
+
+def scipy_leg(equations: CompiledEquations, method: str, tolerance: float) -> Leg:
+    """Return legs by one of SciPy's methods."""
+
+    def event(joint: int, mode: np.ndarray, rate: np.ndarray) -> Callable[..., float]:
+        def gap(t: float, y: np.ndarray) -> float:
+            return float(equations.gaps(t, y, mode, rate)[0][joint])
+
+        gap.terminal = True  # type: ignore[attr-defined]
+        gap.direction = -1.0 if mode[joint] else 1.0  # type: ignore[attr-defined]
+        return gap
+
+    def leg(
+        now: float, state: np.ndarray, end: float, mode: np.ndarray, rate: np.ndarray
+    ) -> tuple[float, np.ndarray]:
+        found = solve_ivp(
+            lambda t, y: equations.slope(t, y, mode, rate),
+            (now, end),
+            state,
+            method=method,
+            rtol=tolerance,
+            atol=1e-3 * tolerance,
+            max_step=LONGEST_STEP,
+            events=[event(joint, mode, rate) for joint in range(equations.joints)],
+        )
+        return float(found.t[-1]), found.y[:, -1]
+
+    return leg
+
+
+def cvode_leg(equations: CompiledEquations, method: str, tolerance: float) -> Leg | None:
+    """Return legs by CVODE; none where scikit-sundae is not installed."""
+    try:
+        from sksundae.cvode import CVODE
+    except ImportError:
+        return None
+
+    def leg(
+        now: float, state: np.ndarray, end: float, mode: np.ndarray, rate: np.ndarray
+    ) -> tuple[float, np.ndarray]:
+        def slope(t: float, y: np.ndarray, out: np.ndarray) -> None:
+            out[:] = equations.slope(t, y, mode, rate)
+
+        def passes(t: float, y: np.ndarray, out: np.ndarray) -> None:
+            out[:] = equations.gaps(t, y, mode, rate)[0]
+
+        passes.terminal = [True] * equations.joints  # type: ignore[attr-defined]
+        passes.direction = [-1 if closed else 1 for closed in mode]  # type: ignore[attr-defined]
+        integrator = CVODE(
+            slope,
+            method=method,
+            rtol=tolerance,
+            atol=1e-3 * tolerance,
+            max_step=LONGEST_STEP,
+            max_num_steps=10**6,
+            eventsfn=passes,
+            num_events=equations.joints,
+        )
+        found = integrator.solve(np.array([now, end]), state)
+        return float(found.t[-1]), np.array(found.y[-1])
+
+    return leg
+
+
+def ours(
+    kernel: Kernel, tolerance: float, clearances: list[float], reference: np.ndarray
+) -> Measured:
+    """Measure a bare run, one or more lanes busy; seconds a revolution and lane."""
+    seconds = []
+    problems = [problem(clearance, tolerance, REVOLUTION) for clearance in clearances]
+    for _ in range(REPEATS):
+        bundle = Bundle(kernel, problems, watch=False)
+        begun = time.process_time()
+        while bundle.advance(10_000_000):
+            pass
+        seconds.append((time.process_time() - begun) / len(problems))
+    name = "ours, alone" if len(problems) == 1 else f"ours, {len(problems)} lanes busy"
+    found = at_check(kernel, tolerance)
+    return Measured(name, tolerance, statistics.median(seconds), *errors(found, reference))
+
+
+def at_check(kernel: Kernel, tolerance: float) -> np.ndarray:
+    """Return our coordinates and speeds at `CHECK_TIME`."""
+    bundle = Bundle(kernel, [problem(5e-4, tolerance, CHECK_TIME)], watch=False)
+    while bundle.advance(10_000_000):
+        pass
+    return bundle.table("y0", kernel.states)[:, 0].copy()
+
+
+def errors(found: np.ndarray, reference: np.ndarray) -> tuple[float, float]:
+    """Return the largest error of a coordinate and of a speed."""
+    error, half = np.abs(found - reference), len(reference) // 2
+    return float(error[:half].max()), float(error[half:].max())
+
+
+def peer(
+    name: str, tolerance: float, equations: CompiledEquations, leg: Leg, reference: np.ndarray
+) -> Measured:
+    """Measure a peer."""
+    found = by_legs(equations, leg, CHECK_TIME)
+    begun = time.process_time()
+    by_legs(equations, leg, REVOLUTION)
+    seconds = time.process_time() - begun
+    return Measured(name, tolerance, seconds, *errors(found, reference))
+
+
+def main() -> None:
+    """Print the table."""
+    scene = problem(5e-4, 1e-6, REVOLUTION).scene
+    kernel = ready_kernel(scene, "reduced")
+    reference = at_check(kernel, 1e-13)
+    lanes = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, 8)]
+    alone = [ours(kernel, tolerance, [5e-4], reference) for tolerance in TOLERANCES]
+    busy = [ours(kernel, tolerance, lanes, reference) for tolerance in TOLERANCES]
+    print(f"{'':28} tolerance  ms a revolution  position  velocity   times ours, alone")
+    for row in alone + busy:
+        print(line(row))
+    equations = CompiledEquations(kernel)
+    for tolerance in (1e-6, 1e-8):
+        for method in ("RK45", "DOP853", "LSODA"):
+            leg = scipy_leg(equations, method, tolerance)
+            row = peer(f"SciPy {method}", tolerance, equations, leg, reference)
+            print(line(row, alone), flush=True)
+        for method in ("Adams", "BDF"):
+            cvode = cvode_leg(equations, method, tolerance)
+            if cvode is not None:
+                row = peer(f"CVODE {method}", tolerance, equations, cvode, reference)
+                print(line(row, alone), flush=True)
+    plain = seconds_a_period(scene)
+    fastest = next(row.seconds for row in alone if row.tolerance == 1e-6)
+    print(f"paper's equations, NumPy-free Python, SciPy RK45 at 1e-6: {plain:.1f} s a revolution")
+    print(f"that is {plain / fastest:.0f} times ours at 1e-6")
+
+
+def line(row: Measured, alone: list[Measured] | None = None) -> str:
+    """Return a row of the table; a peer's with its ratio to ours at no larger errors."""
+    text = (
+        f"{row.name:28} {row.tolerance:9.0e} {1e3 * row.seconds:16.2f} {row.position_error:9.1e}"
+        f" {row.velocity_error:9.1e}"
+    )
+    equal = [
+        own
+        for own in alone or ()
+        if own.position_error <= row.position_error and own.velocity_error <= row.velocity_error
+    ]
+    if equal:
+        best = min(equal, key=lambda own: own.seconds)
+        text += f"   {row.seconds / best.seconds:6.0f}  (ours at {best.tolerance:.0e})"
+    return text
+
+
+if __name__ == "__main__":
+    main()
