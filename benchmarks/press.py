@@ -50,7 +50,7 @@ def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
 def compiled() -> Kernel:
     """Return the case's kernel, its loop warm."""
     scene = problem(5e-4, 1e-6, 2.0).scene
-    kernel = compile_kernel(scene, spanning_tree(scene), "reduced", METHODS["tsitouras5"])
+    kernel = compile_kernel(scene, spanning_tree(scene), "reduced", METHODS["tsitouras"])
     Bundle(kernel, [problem(5e-4, 1e-6, 0.01)]).advance(1000)
     return kernel
 

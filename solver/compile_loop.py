@@ -38,8 +38,10 @@ def compile_loop_aside() -> subprocess.Popen[bytes] | None:
     )
 
 
-def ready_kernel(scene: Scene, formulation: str) -> Kernel:
+def ready_kernel(scene: Scene, formulation: str, method: str = "tsitouras") -> Kernel:
     """Return the kernel of a scene's structure, the loop ready, too; seconds when not cached.
+
+    `method` : a name of `solver.integrators.METHODS`.
 
     Raises
     ------
@@ -47,7 +49,7 @@ def ready_kernel(scene: Scene, formulation: str) -> Kernel:
         The scene's equations are too long to compile.
     """
     aside = compile_loop_aside()
-    kernel = compile_kernel(scene, spanning_tree(scene), formulation, METHODS["tsitouras5"])
+    kernel = compile_kernel(scene, spanning_tree(scene), formulation, METHODS[method])
     if aside is not None:
         aside.wait()
     return kernel

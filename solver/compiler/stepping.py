@@ -123,25 +123,13 @@ class StepRecorder:
         """Error of the step, the next step size, and what needs attention."""
         v, number = self.variable, self.recorder.constant
         last = self.tableau.stages
-        squared: Expression = number(SMALLEST_ERROR)
-        for i in range(self.states):
-            slopes = [f"k{s}_{i}" for s in range(1, last)] + [f"slope{i}"]
-            error: Expression = number(0.0)
-            for weight, slope in zip(self.tableau.error, slopes, strict=True):
-                error = error + weight * v(slope)
-            scaled = v("tried") * error * v(f"weight{i}")
-            squared = squared + scaled * scaled
+        squared = self._squared_error() if self.tableau.error else self._overflow()
         good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
         magnitude = 0.5 * log2(squared)
-        exponent = 1.0 / self.tableau.error_order
-        smooth = exponent - 0.75 * PROPORTIONAL
-        onwards = PROPORTIONAL * v("memory") - smooth * magnitude
-        again = -exponent * magnitude
-        safety = math.log2(SAFETY)
-        growth: Expression = exp2(safety + select_positive(good, onwards, again))
-        growth = select_positive(good, growth, minimum(growth, 1.0))
-        growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
-        growth = minimum(growth, number(LARGEST_GROWTH))
+        if self.tableau.error:
+            next_step = v("tried") * self._growth(good, magnitude)
+        else:  # fixed; after an overflow there is none
+            next_step = select_positive(good, v("step"), number(0.0))
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
         flag = REJECTED * (1.0 - good) + due + pace
@@ -154,11 +142,53 @@ class StepRecorder:
         outputs = [
             ("accept", good * v("active")),
             ("flag", select_positive(v("active"), flag, number(0.0))),
-            ("next_step", v("tried") * growth),
+            ("next_step", next_step),
             ("new_memory", magnitude),
         ]
         outputs += self._kept(last)
         return self._function("judge", outputs)
+
+    def _squared_error(self) -> Expression:
+        """Square of the step's error, in tolerances."""
+        squared = self._sum_of_squares(self.tableau.error)
+        if not self.tableau.coarse_error:
+            return squared
+        coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
+        return squared * (squared / (squared + coarse))
+
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
+        """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
+        v, last = self.variable, self.tableau.stages
+        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            slopes = [f"k{s}_{i}" for s in range(1, last)] + [f"slope{i}"]
+            error: Expression = self.recorder.constant(0.0)
+            for weight, slope in zip(weights, slopes, strict=True):
+                error = error + weight * v(slope)
+            scaled = v("tried") * error * v(f"weight{i}")
+            squared = squared + scaled * scaled
+        return squared
+
+    def _overflow(self) -> Expression:
+        """Next to nothing, but infinite or not a number where a slope is."""
+        overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
+        return overflow
+
+    def _growth(self, good: Expression, magnitude: Expression) -> Expression:
+        """Factor from this step to the next, from log2 of this one's error and of the last."""
+        number = self.recorder.constant
+        exponent = 1.0 / self.tableau.error_order
+        smooth = exponent - 0.75 * PROPORTIONAL
+        onwards = PROPORTIONAL * self.variable("memory") - smooth * magnitude
+        again = -exponent * magnitude
+        safety = math.log2(SAFETY)
+        growth: Expression = exp2(safety + select_positive(good, onwards, again))
+        growth = select_positive(good, growth, minimum(growth, 1.0))
+        growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
+        limited: Expression = minimum(growth, number(LARGEST_GROWTH))
+        return limited
 
     def _contact_flags(self, j: int) -> tuple[Expression, Expression]:
         """Flag a gap that closed, or nearly, inside the step; and one in contact that opened."""
@@ -180,6 +210,8 @@ class StepRecorder:
         grazing = select_positive(
             start_rate, select_positive(-rate, touches, number(0.0)), number(0.0)
         )
+        if not self.tableau.error:  # a fixed step is not shortened: contacts begin where it ends
+            grazing = number(0.0)
         onset = select_positive(gap, number(ONSET), grazing)
         opened = select_positive(-rate, number(RELEASE), number(0.0))
         release = select_positive(gap, number(0.0), opened)

@@ -6,9 +6,10 @@ Source: Tsitouras 2011, Computers and Mathematics with Applications 62:770.
 from solver.integrators.tableau import Tableau
 
 TSITOURAS5 = Tableau(
-    name="tsitouras5",
+    name="tsitouras",
     order=5,
     error_order=5,
+    dense_order=4,
     nodes=(0.0, 0.161, 0.327, 0.9, 0.9800255409045097, 1.0, 1.0),
     matrix=(
         (),

@@ -65,7 +65,8 @@ def bind(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
     for j, clearance in enumerate(clearances):
         assert clearance is not None  # noqa: S101  (joints with play have one; narrows the type)
         bundle.table(f"impact_floor{j}")[0, lane] = clearance.contact.impact_rate_floor
-        bundle.table(f"restart{j}")[0, lane] = RESTART * clearance.radial_clearance
+        restart = RESTART * clearance.radial_clearance if problem.step is None else math.inf
+        bundle.table(f"restart{j}")[0, lane] = restart
 
 
 def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, common: bool) -> None:
@@ -82,8 +83,8 @@ def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, commo
     ):
         bundle.table(name)[0, lane] = 0.0
     bundle.table("pace_at")[0, lane] = PACE_STEPS
-    bundle.table("step")[0, lane] = FIRST_STEP * period
-    bundle.table("largest_step")[0, lane] = period / STEPS_IN_A_PERIOD
+    bundle.table("step")[0, lane] = problem.step or FIRST_STEP * period
+    bundle.table("largest_step")[0, lane] = problem.step or period / STEPS_IN_A_PERIOD
     bundle.table("smallest_step")[0, lane] = period
     bundle.table("end")[0, lane] = problem.duration
     setting = bundle.settings[:, lane]

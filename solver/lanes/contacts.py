@@ -43,6 +43,9 @@ def land(
         if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
             continue
         gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
+        if gap > 0.0 and work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf:
+            counters[Counter.LANDING, lane] = j  # the step is fixed: contact begins where it ends
+            return True
         if j == target and abs(gap) <= LANDED:
             continue
         found = first_onset(j, lane, slots, work, spare, lend, probe, right_hand_side)

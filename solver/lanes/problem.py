@@ -53,3 +53,5 @@ class LaneProblem:
     first_section: int = 0
     event: Event | None = None
     start: LaneStart | None = None
+    step: float | None = None
+    """Of a method with a fixed step, s."""

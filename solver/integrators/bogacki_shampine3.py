@@ -1,0 +1,19 @@
+"""Bogacki-Shampine 3(2), four stages, FSAL, with its free dense output of order three.
+
+Source: Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
+"""
+
+from solver.integrators.tableau import Tableau, cubic_dense
+
+_WEIGHTS = (2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0)
+
+BOGACKI_SHAMPINE3 = Tableau(
+    name="bogacki-shampine",
+    order=3,
+    error_order=3,
+    dense_order=3,
+    nodes=(0.0, 0.5, 0.75, 1.0),
+    matrix=((), (0.5,), (0.0, 0.75), _WEIGHTS),
+    error=(-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0),
+    dense=cubic_dense(_WEIGHTS),
+)
