@@ -23,7 +23,7 @@ def reproduce(
     """Compute the published figures of the press again, and set every printed number beside ours.
 
     OUT gets report.html, which needs nothing beside itself, and runs/ with the results of every
-    job.  Takes a few minutes on two cores, longer when kernels have to be compiled first.
+    job.  Takes some ten minutes on two cores, longer when kernels have to be compiled first.
 
     Example: `jointplay reproduce -o reproduction`
     """
