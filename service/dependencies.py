@@ -12,18 +12,20 @@ from service.problems.document import clipped
 from storage.catalogue import Catalogue, Job, JobNotFound
 from storage.settings import Settings
 
+# dependencies that wait for nothing are coroutines: others cost a change of thread each
 
-def _catalogue(request: Request) -> Catalogue:
+
+async def _catalogue(request: Request) -> Catalogue:
     catalogue: Catalogue = request.app.state.catalogue
     return catalogue
 
 
-def _settings(request: Request) -> Settings:
+async def _settings(request: Request) -> Settings:
     settings: Settings = request.app.state.settings
     return settings
 
 
-def _no_parameters(request: Request) -> None:
+async def _no_parameters(request: Request) -> None:
     """Refuse query parameters where there are none, in the words for unknown ones elsewhere."""
     errors = [
         {"loc": ("query", name), "msg": "Extra inputs are not permitted"}

@@ -69,7 +69,7 @@ class InFlight:
                 self._keys.discard(key)
 
 
-def _repeatable(
+async def _repeatable(
     request: Request,
     idempotency_key: Annotated[
         str | None,

@@ -9,6 +9,7 @@ from solver.errors import InvalidInput, Problem
 from solver.scene.document import Revolute, Scene
 from solver.scene.near import unknown
 from solver.scene.references import has_play
+from solver.scene.structure import per_structure
 
 BODY = (
     ("x", "m", "position x of the centre of mass"),
@@ -47,6 +48,7 @@ class Channel:
     long_name: str
 
 
+@per_structure
 def channels(scene: Scene) -> tuple[Channel, ...]:
     """Return every channel of a scene: bodies, joints, drivers, energy, declared outputs.
 
@@ -102,7 +104,7 @@ def select(offered: tuple[Channel, ...], patterns: list[str], pointer: str) -> t
     chosen: set[str] = set()
     problems = []
     for index, pattern in enumerate(patterns):
-        matched = [name for name in names if fnmatchcase(name, pattern)]
+        matched = names if pattern == "*" else [n for n in names if fnmatchcase(n, pattern)]
         chosen.update(matched)
         if not matched:
             sentence = unknown("channel", pattern, names)

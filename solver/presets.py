@@ -1,5 +1,6 @@
 """The preset scenes that come with the package."""
 
+import hashlib
 import json
 from functools import cache
 from importlib import resources
@@ -33,3 +34,9 @@ def document(name: str, pointer: str = "/scene/preset") -> dict[str, Any]:
         raise InvalidInput([Problem(pointer, unknown("preset", name, names()))])
     loaded: dict[str, Any] = json.loads(_documents()[name])
     return loaded
+
+
+@cache
+def digest(name: str) -> str:
+    """Return the SHA-256 of a preset's scene document."""
+    return hashlib.sha256(_documents()[name].encode()).hexdigest()

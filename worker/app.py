@@ -10,9 +10,6 @@ from celery import Celery
 from kombu.entity import Exchange, Queue
 
 from storage.settings import Settings
-from worker.bell import wake_relay
-
-__all__ = ["QUEUES", "RUN_BLOCK", "app", "make_app", "wake_relay"]
 
 RUN_BLOCK = "worker.run_block"
 QUEUES = ("recovered", "jobs")  # in the order in which workers look at them

@@ -12,8 +12,6 @@ from typing import Self
 from redis import Redis
 from redis.exceptions import RedisError
 
-from storage.settings import Settings
-
 CHANNEL = "jointplay:bell"
 _PATIENCE = 2.0  # seconds a thread of ours waits for Redis
 _log = logging.getLogger(__name__)
@@ -48,9 +46,8 @@ def _bell(redis_url: str) -> Bell:
     return Bell(redis_url)
 
 
-def wake_relay() -> None:
+def wake_relay(redis_url: str | None) -> None:
     """Tell the relay that there are new blocks; returns at once and never raises."""
-    redis_url = Settings().redis_url
     if redis_url is not None:
         _bell(redis_url).ring()
 

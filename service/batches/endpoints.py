@@ -15,7 +15,7 @@ from service.jobs.schemas import JobPage, JobResource
 from service.problems import ErrorDetail, RequestRefused, kinds, problems
 from service.problems.document import clipped
 from storage.catalogue import Batch, BatchNotFound
-from worker.app import wake_relay
+from worker.bell import wake_relay
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
 
@@ -71,7 +71,7 @@ def submit_batch(
     with repeatable.key_for(document) as key:
         jobs, label = admit_batch(document, settings)
         submitted = catalogue.submit_batch(jobs, label=label or None, key=key)
-    wake_relay()
+    wake_relay(settings.redis_url)
     response.headers["Location"] = address(submitted.batch.id)
     return AcceptedBatch.of(submitted.batch, job_ids=list(submitted.jobs))
 

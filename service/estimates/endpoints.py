@@ -14,7 +14,7 @@ from service.problems import kinds, problems
 router = APIRouter(prefix="/v1/estimates", tags=["jobs"])
 
 
-def _prober(request: Request) -> Prober:
+async def _prober(request: Request) -> Prober:
     prober: Prober = request.app.state.prober
     return prober
 

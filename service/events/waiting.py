@@ -51,7 +51,7 @@ class Patience:
         return await run_in_threadpool(self._catalogue.get, job.id)
 
 
-def watcher_of(request: Request) -> Watcher:
+async def watcher_of(request: Request) -> Watcher:
     """Return the application's watcher."""
     watcher: Watcher = request.app.state.watcher
     return watcher
@@ -60,7 +60,7 @@ def watcher_of(request: Request) -> Watcher:
 WatcherDependency = Annotated[Watcher, Depends(watcher_of)]
 
 
-def _patience(
+async def _patience(
     watcher: WatcherDependency,
     catalogue: CatalogueDependency,
     response: Response,

@@ -22,7 +22,7 @@ class Health(BaseModel):
 
 
 @router.get("/healthz")
-def is_alive() -> Health:
+async def is_alive() -> Health:
     """Answer while the process lives."""
     return Health()
 

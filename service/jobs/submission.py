@@ -10,7 +10,7 @@ from solver.errors import InvalidInput
 from solver.version import SOLVER_VERSION
 from storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
 from storage.settings import Settings
-from worker.app import wake_relay
+from worker.bell import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
     "required": True,
@@ -71,5 +71,5 @@ def submit(
     new, reuse = checked(document, settings)
     submitted = catalogue.submit(new, key, reuse=reuse)
     if submitted.created:
-        wake_relay()
+        wake_relay(settings.redis_url)
     return submitted

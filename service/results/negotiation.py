@@ -63,7 +63,7 @@ _EXTRA = (ARROW,) if find_spec("pyarrow") else ()  # comes with the extra `arrow
 FORMS = (JSON, CSV, NPZ, MATLAB, *_EXTRA)
 
 
-def _form(request: Request) -> str:
+async def _form(request: Request) -> str:
     accept = ",".join(request.headers.getlist("accept")) or None
     form = preferred(accept, FORMS)
     if form is None:

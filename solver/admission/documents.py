@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from solver import presets
 from solver.admission.mechanism import Echo
 from solver.errors import InvalidInput, Problem
 from solver.jobs import KINDS, TOLERANCES, Job, PresetScene
@@ -70,9 +71,10 @@ def filled(job: Job, scene_document: Mapping[str, Any], echo: Echo, **found: Any
     return document | found
 
 
-def digest(document: Mapping[str, Any], scene_document: Mapping[str, Any]) -> str:
-    """Return the SHA-256 of a filled-in job without its label, and of its scene."""
-    unlabelled = {key: value for key, value in document.items() if key != "label"}
-    spec = {"job": unlabelled, "scene": scene_document}
+def digest(document: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a filled-in job without its label, and of the preset it names."""
+    spec = {key: value for key, value in document.items() if key != "label"}
+    if "preset" in document["scene"]:
+        spec["preset"] = presets.digest(document["scene"]["preset"])
     canonical = json.dumps(spec, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cache
 from typing import Any
 
 from pydantic import ValidationError
@@ -15,7 +16,7 @@ from solver.jobs import Job, PresetScene
 from solver.mechanics.tree import Tree, spanning_tree
 from solver.scene.document import Scene
 from solver.scene.parameters import parameter_of, set_parameters
-from solver.scene.references import reference_problems
+from solver.scene.references import part_problems, reference_problems
 from solver.scene.sentences import schema_problems
 
 Echo = dict[str, float | str | None]
@@ -31,12 +32,17 @@ def declared(job: Job) -> tuple[dict[str, Any], Scene, dict[str, float | str | N
         Unknown preset; parts of the scene that do not fit together.
     """
     if isinstance(job.scene, PresetScene):
-        document = presets.document(job.scene.preset)
-        return document, Scene.model_validate(document), job.scene.parameters
+        return *_preset(job.scene.preset), job.scene.parameters
     problems = list(reference_problems(job.scene))
     if problems:
         raise InvalidInput(Problem(f"/scene{p.pointer}", p.detail) for p in problems)
     return job.scene.model_dump(mode="json"), job.scene, {}
+
+
+@cache
+def _preset(name: str) -> tuple[dict[str, Any], Scene]:
+    document = presets.document(name)
+    return document, Scene.model_validate(document)
 
 
 def resolve(job: Job) -> tuple[Scene, dict[str, Any], Echo]:
@@ -65,7 +71,7 @@ def with_parameters(
         found = Scene.model_validate(filled)
     except ValidationError as error:
         raise InvalidInput(_located(schema_problems(error, Scene), scene, echo)) from None
-    problems = list(reference_problems(found))
+    problems = list(part_problems(found))  # its parameters are those of the scene as written
     if problems:
         raise InvalidInput(_located(problems, scene, echo))
     return found, filled, echo

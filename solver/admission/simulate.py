@@ -91,7 +91,7 @@ def admit_simulate(job: SimulateJob) -> Admission:
     return Admission(
         job=filled,
         scene=scene_document,
-        digest=documents.digest(filled, scene_document),
+        digest=documents.digest(filled),
         channels=selected,
         samples=samples,
         sections=sections,

@@ -207,7 +207,7 @@ def make_study(
     return Study(
         kind=job.kind,
         job=filled,
-        digest=documents.digest(filled, checked.first),
+        digest=documents.digest(filled),
         scene=checked.first,
         parameters=points.parameters,
         parameter_units=tuple(declared[name].unit for name in points.parameters),

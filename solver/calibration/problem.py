@@ -94,9 +94,7 @@ def admit_calibration(document: object) -> Calibration:
     _check_size(job, cases)
     goals = goals_of([target for case in cases for target in case.targets])
     document = filled(job, resolved, echo)
-    return Calibration(
-        document, digest(document, resolved), job, written, scene, space, cases, goals
-    )
+    return Calibration(document, digest(document), job, written, scene, space, cases, goals)
 
 
 def _parse(document: object) -> CalibrationJob:

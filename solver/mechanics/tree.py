@@ -10,6 +10,7 @@ from typing import Literal
 
 from solver.scene.document import Fixed, Prismatic, Revolute, Scene
 from solver.scene.references import ends, has_play
+from solver.scene.structure import per_structure
 
 Kind = Literal["revolute", "prismatic", "fixed", "free"]
 
@@ -52,6 +53,7 @@ class Tree:
         return next(b for b in self.branches if b.body == body)
 
 
+@per_structure
 def spanning_tree(scene: Scene) -> Tree:
     """Walk the ideal joints from the ground, breadth first, in the order of the document.
 

@@ -19,7 +19,7 @@ def set_parameters(
     """Return the document with its parameters set, and every parameter's value.
 
     Parameters are applied in the order of their declaration, so that a later one overrides an
-    earlier one on the same target.
+    earlier one on the same target. What none of them changes is shared with the document given.
 
     Raises
     ------
@@ -31,7 +31,7 @@ def set_parameters(
         for name in values
         if name not in scene.parameters
     ]
-    filled = copy.deepcopy(dict(document))
+    filled = _Edited(document)
     echo: dict[str, float | str | None] = {}
     for name, parameter in scene.parameters.items():
         value = values.get(name, parameter.default)
@@ -45,10 +45,10 @@ def set_parameters(
         if value is not None:
             for target in parameter.targets:
                 placed = value * target.factor if isinstance(value, float) else value
-                _place(filled, target.path, placed)
+                filled.place(target.path, placed)
     if problems:
         raise InvalidInput(problems)
-    return filled, echo
+    return filled.document, echo
 
 
 def parameter_of(scene: Scene, echo: Mapping[str, float | str | None], path: str) -> str | None:
@@ -120,11 +120,25 @@ def allowed_range(parameter: Parameter) -> str:
     return f"is at most {high:g}{unit}" if high is not None else "is finite"
 
 
-def _place(document: Any, path: str, value: object) -> None:
-    *parents, last = path.strip("/").split("/")
-    for key in parents:
-        document = document[int(key)] if isinstance(document, list) else document[key]
-    if isinstance(document, list):
-        document[int(last)] = value
-    else:
-        document[last] = value
+class _Edited:
+    """A document in which values are placed; what leads to them is copied, the rest is shared."""
+
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        self.document = dict(document)
+        self._copied: dict[tuple[str, ...], Any] = {(): self.document}
+
+    def place(self, path: str, value: object) -> None:
+        *parents, last = path.strip("/").split("/")
+        node = self._copied_at(tuple(parents))
+        node[_key(node, last)] = value
+
+    def _copied_at(self, place: tuple[str, ...]) -> Any:
+        if place not in self._copied:
+            parent = self._copied_at(place[:-1])
+            key = _key(parent, place[-1])
+            self._copied[place] = parent[key] = copy.copy(parent[key])
+        return self._copied[place]
+
+
+def _key(node: Any, key: str) -> Any:
+    return int(key) if isinstance(node, list) else key

@@ -34,6 +34,12 @@ def has_play(joint: Joint) -> bool:
 
 def reference_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what is wrong between the parts of a scene; pointers begin at the scene."""
+    yield from part_problems(scene)
+    yield from _parameters(scene)
+
+
+def part_problems(scene: Scene) -> Iterator[Problem]:
+    """Yield the same but for what is wrong with declared parameters."""
     yield from _names(scene)
     for name, joint in scene.joints.items():
         yield from _joint(scene, name, joint)
@@ -52,7 +58,6 @@ def reference_problems(scene: Scene) -> Iterator[Problem]:
         for body in table:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
-    yield from _parameters(scene)
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:

@@ -8,9 +8,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from sqlalchemy import text
+from sqlalchemy.exc import OperationalError
 
 from storage.catalogue import batches, holding, listing, removal, schema, submission, upkeep
 from storage.catalogue.connections import Connections
+from storage.catalogue.errors import KeyReused
 from storage.catalogue.identifiers import Identifiers
 from storage.catalogue.records import (
     Attempt,
@@ -34,6 +36,7 @@ from storage.catalogue.records import (
     WakeUp,
 )
 from storage.catalogue.rows import find_job
+from storage.catalogue.together import Together
 
 
 class Catalogue:
@@ -54,6 +57,7 @@ class Catalogue:
         self._connections = Connections(url)
         self._clock = clock
         self._identifiers = Identifiers()
+        self._submissions = Together(self._submit, common=OperationalError)
 
     def migrate(self) -> None:
         """Create the tables or bring them up to date; several processes may do it at once."""
@@ -92,10 +96,15 @@ class Catalogue:
         KeyReused
             The key was used before with another fingerprint.
         """
+        answer = self._submissions.done(submission.Request(new, key, reuse))
+        if isinstance(answer, KeyReused):
+            raise answer
+        return answer
+
+    def _submit(self, requests: Sequence[submission.Request]) -> list[Submitted | KeyReused]:
         now = self._clock()
-        identifier = self._identifiers.next(now)
         with self._connections.writing(durable=True) as connection:
-            return submission.submit(connection, identifier, new, key, now, reuse=reuse)
+            return submission.submit(connection, requests, lambda: self._identifiers.next(now), now)
 
     def request_cancel(self, job: str) -> Job:
         """Cancel a queued job at once, ask a running one to stop, leave a finished one alone.

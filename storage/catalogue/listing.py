@@ -49,7 +49,7 @@ def page_of_jobs(
         statement = statement.where(columns.id < earliest(wanted.before))
     expired = and_(columns.expires <= now, columns.state.in_(_TERMINAL))
     statement = statement.where(columns.expires.is_(None) | not_(expired))
-    found = [job_record(row) for row in connection.execute(statement)]
+    found = [job_record(row._mapping) for row in connection.execute(statement)]
     more = len(found) > limit
     jobs = tuple(found[:limit])
     return JobPage(jobs, jobs[-1].id if more else None)

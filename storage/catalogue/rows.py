@@ -22,9 +22,9 @@ from storage.catalogue.records import (
 job_table, block_table = tables.job, tables.block
 
 
-def job_record(row: Row[Any]) -> Job:
+def job_record(row: Mapping[Any, Any]) -> Job:
     """Return the job in a row of the table job."""
-    fields = dict(row._mapping)
+    fields = dict(row)
     error = fields.pop("error")
     state = JobState(fields.pop("state"))
     return Job(**fields, state=state, error=JobError(**error) if error else None)
@@ -51,7 +51,7 @@ def find_job(connection: Connection, job: str) -> Job:
     row = connection.execute(select(job_table).where(job_table.c.id == job)).one_or_none()
     if row is None:
         raise JobNotFound(job)
-    return job_record(row)
+    return job_record(row._mapping)
 
 
 def lock_job(connection: Connection, job: str) -> Job:
@@ -60,7 +60,7 @@ def lock_job(connection: Connection, job: str) -> Job:
     row = connection.execute(statement).one_or_none()
     if row is None:
         raise JobNotFound(job)
-    return job_record(row)
+    return job_record(row._mapping)
 
 
 def step_job(

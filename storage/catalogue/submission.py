@@ -1,6 +1,7 @@
 """Accepting jobs and cancelling them: what users ask for."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from sqlalchemy import (
@@ -8,6 +9,7 @@ from sqlalchemy import (
     Connection,
     Row,
     and_,
+    bindparam,
     delete,
     exists,
     func,
@@ -26,39 +28,104 @@ from storage.catalogue.records import (
     SubmissionKey,
     Submitted,
 )
-from storage.catalogue.rows import find_job, lock_job, step_job
+from storage.catalogue.rows import find_job, job_record, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
 _LONGEST_NAME = 200  # of a scene, as it is looked for
 _REUSED = (JobState.queued.value, JobState.running.value, JobState.succeeded.value)
+_UNSET = dict.fromkeys(column.name for column in tables.job.columns)
 _LIVE = (BlockState.queued.value, BlockState.running.value)
 
 
+@dataclass(frozen=True)
+class Request:
+    """A job that is asked for, and what an earlier one may be found by."""
+
+    new: NewJob
+    key: SubmissionKey | None
+    reuse: bool
+
+    def names(self) -> set[Hashable]:
+        """Return what later requests may find its job by."""
+        computes = ("computes", self.new.digest)
+        return {computes} if self.key is None else {computes, ("key", self.key.key)}
+
+
 def submit(
-    connection: Connection,
-    job_id: str,
-    new: NewJob,
-    key: SubmissionKey | None,
-    now: float,
-    *,
-    reuse: bool,
-) -> Submitted:
-    """Store a job, its blocks and their wake-ups, or find the job an earlier request made."""
+    connection: Connection, requests: Sequence[Request], next_id: Callable[[], str], now: float
+) -> list[Submitted | KeyReused]:
+    """Store jobs, their blocks and their wake-ups, or find the jobs that earlier requests made.
+
+    The requests are answered as if one came after the other; new jobs are stored together.
+    """
+    answers: list[Submitted | KeyReused] = []
+    fresh: list[tuple[str, Request]] = []
+    pending: set[Hashable] = set()
+    for request in requests:
+        names = request.names()
+        if names & pending:
+            _store(connection, fresh, now)
+            fresh, pending = [], set()
+        try:
+            answer = _earlier(connection, request, now)
+        except KeyReused as error:
+            answers.append(error)
+            continue
+        if answer is None:
+            job_id = next_id()
+            fresh.append((job_id, request))
+            pending |= names
+            row = _job_row(job_id, request.new, now)
+            answer = Submitted(job_record({**_UNSET, **row}), created=True)
+        answers.append(answer)
+    _store(connection, fresh, now)
+    return answers
+
+
+def _earlier(connection: Connection, request: Request, now: float) -> Submitted | None:
+    """Find the job of an earlier request with the same key, or one that computes the same."""
+    key, new = request.key, request.new
     if key is not None:
         earlier = earlier_answer(connection, key, now)
         if earlier is not None and earlier.job is not None:
             job = find_job(connection, earlier.job)
             # a key is stored with the job that it made, and later than one that it found
             return Submitted(job, created=False, cached=earlier.created > job.created)
-    if reuse and (same := same_job(connection, new, now)) is not None:
-        if key is not None:
-            remember_key(connection, key, now, job=same)
-        _keep_until(connection, same, new.expires)
-        return Submitted(find_job(connection, same), created=False, cached=True)
-    insert_jobs(connection, [(job_id, new)], now)
+    same = same_job(connection, new, now) if request.reuse else None
+    if same is None:
+        return None
     if key is not None:
-        remember_key(connection, key, now, job=job_id)
-    return Submitted(find_job(connection, job_id), created=True)
+        remember_key(connection, key, now, job=same)
+    job = find_job(connection, same)
+    if job.expires is not None and (new.expires is None or new.expires > job.expires):
+        keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
+        connection.execute(keep)
+        job = replace(job, expires=new.expires)
+    return Submitted(job, created=False, cached=True)
+
+
+def _store(connection: Connection, fresh: Sequence[tuple[str, Request]], now: float) -> None:
+    if not fresh:
+        return
+    insert_jobs(connection, [(job_id, request.new) for job_id, request in fresh], now)
+    for job_id, request in fresh:
+        if request.key is not None:
+            remember_key(connection, request.key, now, job=job_id)
+
+
+_SAME_JOB = (
+    select(tables.job.c.id)
+    .where(
+        tables.job.c.digest == bindparam("digest"),
+        tables.job.c.solver_version == bindparam("solver_version"),
+        tables.job.c.kind == bindparam("kind"),
+        tables.job.c.owner == bindparam("owner"),
+        tables.job.c.state.in_(_REUSED),
+        tables.job.c.expires.is_(None) | (tables.job.c.expires > bindparam("now")),
+    )
+    .order_by(tables.job.c.id.desc())
+    .limit(1)
+)
 
 
 def same_job(connection: Connection, new: NewJob, now: float) -> str | None:
@@ -66,31 +133,14 @@ def same_job(connection: Connection, new: NewJob, now: float) -> str | None:
 
     The digest covers the filled-in job without its label, the version the solver's sources.
     """
-    columns = tables.job.c
-    found = connection.execute(
-        select(columns.id)
-        .where(
-            columns.digest == new.digest,
-            columns.solver_version == new.solver_version,
-            columns.kind == new.kind,
-            columns.owner == new.owner,
-            columns.state.in_(_REUSED),
-            columns.expires.is_(None) | (columns.expires > now),
-        )
-        .order_by(columns.id.desc())
-        .limit(1)
-    )
-    return found.scalar_one_or_none()
-
-
-def _keep_until(connection: Connection, job_id: str, expires: float | None) -> None:
-    """Let a job that is wanted again expire no sooner than the new request asks."""
-    columns = tables.job.c
-    of_job = update(tables.job).where(columns.id == job_id)
-    if expires is None:
-        connection.execute(of_job.values(expires=None))
-    else:
-        connection.execute(of_job.where(columns.expires < expires).values(expires=expires))
+    asked = {
+        "digest": new.digest,
+        "solver_version": new.solver_version,
+        "kind": new.kind,
+        "owner": new.owner,
+        "now": now,
+    }
+    return connection.execute(_SAME_JOB, asked).scalar_one_or_none()
 
 
 def insert_jobs(connection: Connection, jobs: Sequence[tuple[str, NewJob]], now: float) -> None:

@@ -1,0 +1,43 @@
+"""What scenes of one structure share is found once: jobs differ mostly in their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from functools import wraps
+from typing import TypeVar
+
+from solver.scene.document import Scene
+from solver.scene.references import ends, has_play
+
+MOST_KEPT = 256
+"""Structures of which something is kept."""
+Found = TypeVar("Found")
+
+
+def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found]:
+    """Have a function look at one scene of each structure; what it returns is shared.
+
+    It may depend on names, references, which joints have play, and outputs; on no other number.
+    """
+    known: dict[Hashable, Found] = {}
+
+    @wraps(function)
+    def remembered(scene: Scene) -> Found:
+        key = _structure(scene)
+        found = known.get(key)
+        if found is None:
+            while len(known) >= MOST_KEPT:
+                known.pop(next(iter(known)), None)
+            found = known[key] = function(scene)
+        return found
+
+    return remembered
+
+
+def _structure(scene: Scene) -> Hashable:
+    return (
+        tuple(scene.bodies),
+        tuple((name, j.type, ends(j), has_play(j)) for name, j in scene.joints.items()),
+        tuple((name, driver.joint) for name, driver in scene.drivers.items()),
+        tuple((o.name, o.channel, o.factor, o.offset, o.help) for o in scene.outputs),
+    )
