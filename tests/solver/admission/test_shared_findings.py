@@ -24,7 +24,7 @@ def test_jobs_of_one_preset_do_not_touch_each_other():
         return admit({"kind": "simulate", "scene": scene, "duration": 2.0})
 
     first = job()
-    tight, loose = job(clearance=1e-4), job(clearance=5e-4)
+    tight, loose = job(clearance=1e-4), job(clearance=3e-4)
     assert tight.scene != loose.scene
     assert (job().scene, job().digest) == (first.scene, first.digest)
     assert len({first.digest, tight.digest, loose.digest}) == 3
