@@ -48,11 +48,11 @@ def over_http(workers: int) -> list[float]:
         running_service(Path(folder), workers) as url,
         Client(url) as client,
     ):
-        client.wait(client.submit(document(16 * workers, 2, 2)).id)
+        client.submit(document(16 * workers, 2, 2)).wait()
         for _ in range(REPEATS):
             job = document() | {"cache": False}  # computed each time, not found
             begun = time.perf_counter()
-            found = client.wait(client.submit(job).id)
+            found = client.submit(job).wait()
             seconds.append(time.perf_counter() - begun)
             if found.state != "succeeded":
                 raise SystemExit(f"the job {found.state}: {found.error}")

@@ -1,1 +1,31 @@
-"""What users import and type: client, figures, command line."""
+"""What users import and type: client, figures, command line.
+
+>>> import jointplay
+>>> job = jointplay.run("pendulum", duration=1.0)  # doctest: +SKIP
+>>> client = jointplay.Client("http://127.0.0.1:8000")  # doctest: +SKIP
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jointplay.client import Client, Job
+    from jointplay.local import load, run
+
+__all__ = ["Client", "Job", "load", "run"]
+
+
+def __getattr__(name: str) -> Any:
+    """Load what is asked for: the command line's parser needs none of it."""
+    from importlib import import_module
+
+    if name in ("Client", "Job"):
+        return getattr(import_module("jointplay.client"), name)
+    if name in ("load", "run"):
+        return getattr(import_module("jointplay.local"), name)
+    if name in ("client", "figures", "jobs"):
+        return import_module(f"jointplay.{name}")
+    raise AttributeError(f"module 'jointplay' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, "client", "figures", "jobs"})

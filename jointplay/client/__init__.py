@@ -1,26 +1,38 @@
 """Talk to a jointplay service from Python.
 
->>> from jointplay.client import Client
->>> job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+>>> from jointplay import Client
 >>> with Client("http://127.0.0.1:8000") as client:  # doctest: +SKIP
-...     finished = client.wait(client.submit(job).id)
-...     print(client.peaks(finished.id)["energy.kinetic"].maximum)
+...     job = client.simulate("pendulum", duration=1.0).wait(progress=True)
+...     print(job.window("energy.kinetic", points=500)["energy.kinetic"].max())
 """
 
 from jointplay.client.batches import Batch
+from jointplay.client.client import Client
 from jointplay.client.connection import DEFAULT_URL
 from jointplay.client.errors import (
     ClientError,
+    Expired,
+    FieldProblem,
+    JobCancelled,
+    JobEnded,
+    JobFailed,
+    MissingExtra,
+    NotAllowed,
+    NotFinished,
     NotFound,
+    Overloaded,
     Refused,
     ResultsNotReady,
     ServiceFailure,
+    TimedOut,
     Unreachable,
 )
 from jointplay.client.estimates import Estimate
-from jointplay.client.jobs import Job, JobError, Progress
-from jointplay.client.results import ChannelSeries, History, Impacts, Peak, Section
-from jointplay.client.session import Client
+from jointplay.client.job import Job
+from jointplay.client.job_record import JobError, JobRecord, Progress
+from jointplay.client.picture import Picture
+from jointplay.client.results import Impacts, Peak, Results
+from jointplay.client.window import ChannelSeries, Window
 
 __all__ = [
     "DEFAULT_URL",
@@ -29,16 +41,28 @@ __all__ = [
     "Client",
     "ClientError",
     "Estimate",
-    "History",
+    "Expired",
+    "FieldProblem",
     "Impacts",
     "Job",
+    "JobCancelled",
+    "JobEnded",
     "JobError",
+    "JobFailed",
+    "JobRecord",
+    "MissingExtra",
+    "NotAllowed",
+    "NotFinished",
     "NotFound",
+    "Overloaded",
     "Peak",
+    "Picture",
     "Progress",
     "Refused",
+    "Results",
     "ResultsNotReady",
-    "Section",
     "ServiceFailure",
+    "TimedOut",
     "Unreachable",
+    "Window",
 ]

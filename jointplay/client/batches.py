@@ -1,14 +1,25 @@
-"""A batch as the service describes it."""
+"""Jobs that were submitted together."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
+from jointplay.client.connection import Connection, segment
+from jointplay.client.errors import TimedOut
+from jointplay.client.html import html_table
+from jointplay.client.job import Job
+from jointplay.client.keeper import ServiceKeeper
 
-@dataclass(frozen=True)
+_SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...
+_LONGEST_PAUSE = 1.0  # ... this, so that a long batch costs one request a second ...
+_LATE = 0.05  # ... and no answer comes later than by this part of the time it took
+
+
+@dataclass
 class Batch:
-    """Jobs that were submitted together.
+    """A batch as it was last seen.
 
     ``counts`` has the number of jobs in each state, ``fraction`` says how much of the whole is
     done, 0 to 1.
@@ -17,20 +28,107 @@ class Batch:
     id: str
     label: str | None
     created: datetime
-    jobs: int
+    size: int
     counts: Mapping[str, int]
     fraction: float
     is_finished: bool
+    _connection: Connection = field(repr=False, compare=False)
 
-    @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Self:
-        """Read the service's JSON."""
-        return cls(
-            id=document["id"],
-            label=document["label"],
-            created=datetime.fromisoformat(document["created"]),
-            jobs=document["jobs"],
-            counts=document["states"],
-            fraction=document["progress"]["fraction"],
-            is_finished=document["finished"],
-        )
+    def _repr_html_(self) -> str:
+        return html_table("batch", {"id": self.id, "label": self.label, "jobs": self.states})
+
+    @property
+    def states(self) -> str:
+        """How many jobs are in each state, in words."""
+        counts = [f"{count} {state}" for state, count in self.counts.items() if count]
+        return f"{self.size} jobs: {', '.join(counts)}"
+
+    def refresh(self) -> Self:
+        """Look at the batch once more."""
+        return self._renew(self._connection.get(self._path).json())
+
+    def jobs(self) -> Iterator[Job]:
+        """Yield the jobs in the order in which they were given, page by page as they are needed."""
+        yield from jobs_of(self._connection, f"{self._path}/jobs")
+
+    def cancel(self) -> Self:
+        """Ask for every job that is not finished to be cancelled."""
+        return self._renew(self._connection.post(f"{self._path}/cancel").json())
+
+    def wait(
+        self, *, report: Callable[[Self], None] | None = None, timeout: float | None = None
+    ) -> Self:
+        """Ask until every job is finished, whether it succeeded or not.
+
+        Parameters
+        ----------
+        report
+            Called with the batch after every answer.
+        timeout
+            Longest wait, s; then `TimedOut`.
+        """
+        begin = time.monotonic()
+        while True:
+            self.refresh()
+            if report is not None:
+                report(self)
+            if self.is_finished:
+                return self
+            waited = time.monotonic() - begin
+            pause = min(max(_LATE * waited, _SHORTEST_PAUSE), _LONGEST_PAUSE)
+            if timeout is not None and waited + pause > timeout:
+                raise TimedOut(f"Batch {self.id} is at {self.fraction:.0%} after {timeout:g} s.")
+            time.sleep(pause)
+
+    def to_document(self) -> dict[str, Any]:
+        """Return the batch as JSON takes it."""
+        return {
+            "id": self.id,
+            "label": self.label,
+            "created": self.created.isoformat(),
+            "size": self.size,
+            "counts": dict(self.counts),
+            "fraction": self.fraction,
+            "is_finished": self.is_finished,
+        }
+
+    @property
+    def _path(self) -> str:
+        return f"/v1/batches/{segment(self.id)}"
+
+    def _renew(self, document: Mapping[str, Any]) -> Self:
+        for name, value in _read(document).items():
+            setattr(self, name, value)
+        return self
+
+
+def batch_of(connection: Connection, document: Mapping[str, Any]) -> Batch:
+    """Return the batch that the service describes."""
+    return Batch(**_read(document), _connection=connection)
+
+
+def jobs_of(
+    connection: Connection, path: str, query: Mapping[str, str | None] | None = None
+) -> Iterator[Job]:
+    """Yield the jobs of a list, fetching pages as they are needed."""
+    keeper = ServiceKeeper(connection)
+    token: str | None = None
+    while True:
+        page = connection.get(path, {**(query or {}), "page_token": token}).json()
+        for document in page["jobs"]:
+            yield Job(document, keeper)
+        token = page["next_page_token"]
+        if token is None:
+            return
+
+
+def _read(document: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        "id": document["id"],
+        "label": document["label"],
+        "created": datetime.fromisoformat(document["created"]),
+        "size": document["jobs"],
+        "counts": document["states"],
+        "fraction": document["progress"]["fraction"],
+        "is_finished": document["finished"],
+    }

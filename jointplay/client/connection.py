@@ -1,38 +1,43 @@
-"""One HTTP exchange with the service: send, and turn every failure into a typed error."""
+"""One exchange with the service: send, repeat what was lost, turn failures into typed errors."""
 
 import json
+import uuid
 from collections.abc import Iterator, Mapping
 from typing import Any
 from urllib.parse import quote
 
 import httpx
 
-from jointplay.client.errors import (
-    ClientError,
-    FieldProblem,
-    NotFound,
-    Refused,
-    ResultsNotReady,
-    ServiceFailure,
-    Unreachable,
-)
+from jointplay.client import retrying
+from jointplay.client.errors import ClientError, Unreachable
+from jointplay.client.refusals import error_from
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 _LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
+_GONE = frozenset({404, 410})
 
 
 class Connection:
-    """Keeps the address and the open sockets; knows problem documents but no resource."""
+    """Keeps the address and the open sockets; knows problem documents but no resource.
 
-    def __init__(self, url: str, timeout: float, transport: httpx.BaseTransport | None) -> None:
+    Every request can be repeated without harm: a POST carries an Idempotency-Key, by which the
+    service finds what the first one made.
+    """
+
+    def __init__(
+        self, url: str, key: str | None, timeout: float, transport: httpx.BaseTransport | None
+    ) -> None:
         self.url = url.rstrip("/")
+        self.headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         try:
+            # a proxy from the environment cannot reach this machine's own addresses
+            self.trusts_environment = httpx.URL(self.url).host not in _LOOPBACK
             self._http = httpx.Client(
                 base_url=self.url,
+                headers=self.headers,
                 timeout=timeout,
                 transport=transport,
-                # a proxy from the environment cannot reach this machine's own addresses
-                trust_env=httpx.URL(self.url).host not in _LOOPBACK,
+                trust_env=self.trusts_environment,
             )
         except httpx.InvalidURL as error:
             raise ClientError(f"{url!r} is not an address such as {DEFAULT_URL}.") from error
@@ -47,21 +52,19 @@ class Connection:
         return self._exchange("GET", path, params=given)
 
     def post(
-        self,
-        path: str,
-        document: object | None = None,
-        headers: Mapping[str, str] | None = None,
+        self, path: str, document: object | None = None, idempotency_key: str | None = None
     ) -> httpx.Response:
-        """POST a JSON document, or nothing."""
+        """POST a JSON document, or nothing, with an Idempotency-Key of its own if none is given."""
+        headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex}
         if document is None:
-            return self._exchange("POST", path)
+            return self._exchange("POST", path, headers=headers)
         body = json.dumps(document).encode()  # NaN passes here: the service says which field
-        sent = {"Content-Type": "application/json", **(headers or {})}
-        return self._exchange("POST", path, content=body, headers=sent)
+        headers["Content-Type"] = "application/json"
+        return self._exchange("POST", path, content=body, headers=headers)
 
-    def delete(self, path: str) -> httpx.Response:
+    def delete(self, path: str) -> None:
         """DELETE ``path``."""
-        return self._exchange("DELETE", path)
+        self._exchange("DELETE", path)
 
     def lines(self, path: str, silence: float) -> Iterator[str]:
         """Yield the lines of a stream; `Unreachable` after so many seconds without one."""
@@ -71,21 +74,42 @@ class Connection:
             with self._http.stream("GET", path, headers=headers, timeout=timeout) as response:
                 if not response.is_success:
                     response.read()
-                    raise _error_from(response)
+                    raise error_from(response)
                 yield from response.iter_lines()
         except httpx.TransportError as error:
             raise Unreachable(_unreachable(self.url, error)) from error
 
     def _exchange(self, method: str, path: str, **arguments: Any) -> httpx.Response:
+        lost = False
+        for repetition in range(1, retrying.ATTEMPTS + 1):
+            response, failure = self._once(method, path, **arguments)
+            if response is not None:
+                if response.is_success:
+                    return response
+                if lost and method == "DELETE" and response.status_code in _GONE:
+                    return response  # it was deleted before its answer was lost
+                if not retrying.is_worth_repeating(response):
+                    break
+            elif not isinstance(failure, retrying.LOST):
+                break
+            lost |= failure is not None
+            pause = retrying.pause_before(repetition, response)
+            if repetition == retrying.ATTEMPTS or pause > retrying.LONGEST_PAUSE:
+                break
+            retrying.sleep(pause)
+        if response is not None:
+            raise error_from(response)
+        raise Unreachable(_unreachable(self.url, failure)) from failure
+
+    def _once(
+        self, method: str, path: str, **arguments: Any
+    ) -> tuple[httpx.Response | None, httpx.TransportError | None]:
         try:
-            response = self._http.request(method, path, **arguments)
+            return self._http.request(method, path, **arguments), None
         except (httpx.UnsupportedProtocol, httpx.InvalidURL) as error:
             raise ClientError(f"{self.url!r} is not an address such as {DEFAULT_URL}.") from error
         except httpx.TransportError as error:
-            raise Unreachable(_unreachable(self.url, error)) from error
-        if response.is_success:
-            return response
-        raise _error_from(response)
+            return None, error
 
 
 def segment(text: str) -> str:
@@ -93,33 +117,7 @@ def segment(text: str) -> str:
     return quote(text, safe="")
 
 
-def _unreachable(url: str, error: httpx.TransportError) -> str:
+def _unreachable(url: str, error: httpx.TransportError | None) -> str:
     if isinstance(error, httpx.ConnectError | httpx.ConnectTimeout):
         return f"No service answers at {url}; start one with `jointplay serve` or give its URL."
     return f"The connection to {url} broke ({type(error).__name__}); the job itself goes on."
-
-
-def _error_from(response: httpx.Response) -> ClientError:
-    problem = _problem_in(response)
-    detail = str(problem.get("detail") or problem.get("title") or response.reason_phrase)
-    if response.status_code >= 500:
-        return ServiceFailure(f"The service failed with {response.status_code}: {detail}")
-    kind = {404: NotFound, 409: ResultsNotReady}.get(response.status_code, Refused)
-    return kind(
-        detail,
-        status=response.status_code,
-        problem=str(problem.get("type", "")).rsplit("/", 1)[-1],
-        fields=[
-            FieldProblem(str(one.get("pointer") or one.get("parameter") or ""), one["detail"])
-            for one in problem.get("errors") or ()
-        ],
-    )
-
-
-def _problem_in(response: httpx.Response) -> dict[str, Any]:
-    """Return the problem document, or an empty one when something else answered (a proxy)."""
-    if response.headers.get("content-type", "").startswith("application/problem+json"):
-        document = response.json()
-        if isinstance(document, dict):
-            return document
-    return {}

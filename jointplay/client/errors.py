@@ -1,7 +1,10 @@
 """What can go wrong between client and service: one class for each thing to do about it."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from jointplay.client.job import Job
 
 
 class FieldProblem(NamedTuple):
@@ -19,8 +22,16 @@ class Unreachable(ClientError):
     """Nothing answers at the address, or the connection broke."""
 
 
+class MissingExtra(ClientError):
+    """A package is not installed that this needs: ``pip install 'jointplay[xarray]'``."""
+
+
 class ServiceFailure(ClientError):
     """The service answered, but could not do its work (5xx): see its log, try again later."""
+
+
+class Overloaded(ServiceFailure):
+    """The service takes no more for now (429 or 503), also when asked several times."""
 
 
 class Refused(ClientError):
@@ -53,9 +64,47 @@ class Refused(ClientError):
         )
 
 
+class NotAllowed(Refused):
+    """The API key is missing, wrong, or not meant for this (401 or 403)."""
+
+
 class NotFound(Refused):
     """No such job, scene, figure or result (404)."""
 
 
+class Expired(Refused):
+    """The job was deleted or has expired, and its results with it (410)."""
+
+
 class ResultsNotReady(Refused):
-    """The job exists but is not finished, so its results cannot be read yet (409)."""
+    """The job exists, but there are no results yet (409)."""
+
+
+class NotFinished(Refused):
+    """The job is not finished, so it cannot be deleted yet: cancel it, or wait (409)."""
+
+
+class TimedOut(ClientError):
+    """What was waited for is not finished yet; it goes on."""
+
+
+class JobEnded(ClientError):
+    """A job that was waited for did not succeed.
+
+    Attributes
+    ----------
+    job
+        The job; what it had computed can be read.
+    """
+
+    def __init__(self, sentence: str, job: "Job") -> None:
+        super().__init__(sentence)
+        self.job = job
+
+
+class JobFailed(JobEnded):
+    """The job failed; ``job.error`` says why."""
+
+
+class JobCancelled(JobEnded):
+    """The job was cancelled."""

@@ -4,29 +4,28 @@ import json
 import random
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import ClientError, ServiceFailure, Unreachable
-from jointplay.client.jobs import TERMINAL_STATES, Job, Progress
+from jointplay.client.errors import ServiceFailure, Unreachable
+from jointplay.client.job_record import JobRecord
 
 _SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
 _PATIENCE = 20.0  # s for which a lost service is looked for again
 _LONGEST_PAUSE = 2.0
 
 
-def follow(connection: Connection, job: Job, deadline: float | None) -> Iterator[Job]:
-    """Yield a job whenever it has changed, the last time when it is finished.
+def follow(connection: Connection, job: JobRecord, deadline: float | None) -> Iterator[None]:
+    """Keep state and progress of a job up to date, and yield whenever they have changed.
 
-    What the last one says beside state and progress is as old as ``job``: ask for it once more.
+    The iteration ends when the job is finished; what else its record says is as old as before.
 
     Parameters
     ----------
     connection
         To the service.
     job
-        As it was last seen.
+        As it was last seen; updated in place.
     deadline
         Of `time.monotonic`, after which the iteration ends early; none: it does not.
 
@@ -41,11 +40,9 @@ def follow(connection: Connection, job: Job, deadline: float | None) -> Iterator
         try:
             for snapshot in _snapshots(connection, job.id, deadline):
                 lost_since, pause = None, 0.1
-                changed = _updated(job, snapshot)
-                if changed != job:
-                    job = changed
-                    yield job
-                if job.state in TERMINAL_STATES:
+                if job.advance(snapshot):
+                    yield
+                if job.is_finished:
                     return
         except (Unreachable, ServiceFailure):
             now = time.monotonic()
@@ -77,16 +74,3 @@ def _snapshots(
     except Unreachable:
         if deadline is None or time.monotonic() < deadline:
             raise
-
-
-def _updated(job: Job, snapshot: Mapping[str, Any]) -> Job:
-    try:
-        return replace(
-            job,
-            state=snapshot["state"],
-            activity=snapshot["activity"],
-            attempt=snapshot["attempt"],
-            progress=Progress(**snapshot["progress"]),
-        )
-    except (KeyError, TypeError) as error:
-        raise ClientError(f"The service sent an event that is none: {snapshot}") from error

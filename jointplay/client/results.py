@@ -1,80 +1,24 @@
-"""Results as the service sends them, as numpy arrays with their units."""
+"""Results as plain numbers: what a job gives however it is reached, without pandas or xarray."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Self
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.client.window import Window
+from jointplay.source import Source
+from jointplay.study_source import StudySource
 
-@dataclass(frozen=True)
-class ChannelSeries:
-    """One channel over the samples: ``values`` (n,), in ``unit``."""
-
-    unit: str
-    long_name: str
-    values: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class _Sampled:
-    """Channels over shared times.
-
-    ``time`` (n,) in s; ``complete`` says whether the run reached its end.
-    """
-
-    time: NDArray[np.float64]
-    channels: dict[str, ChannelSeries]
-    complete: bool
-
-    def __getitem__(self, channel: str) -> NDArray[np.float64]:
-        """Return the values of ``channel``, (n,)."""
-        return self.channels[channel].values
-
-    @classmethod
-    def joined(cls, pieces: Sequence[Self]) -> Self:
-        """Put consecutive windows of the same channels together."""
-        if len(pieces) == 1:
-            return pieces[0]
-        return replace(
-            pieces[0],
-            time=np.concatenate([piece.time for piece in pieces]),
-            channels={
-                name: replace(one, values=np.concatenate([piece[name] for piece in pieces]))
-                for name, one in pieces[0].channels.items()
-            },
-        )
-
-    @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Self:
-        """Read the service's JSON."""
-        return cls(
-            time=_floats(document["time"]["values"]),
-            channels={
-                name: ChannelSeries(one["unit"], one["long_name"], _floats(one["values"]))
-                for name, one in document["channels"].items()
-            },
-            complete=document["complete"],
-        )
-
-
-@dataclass(frozen=True)
-class History(_Sampled):
-    """Channels on the output grid."""
-
-
-@dataclass(frozen=True)
-class Section(_Sampled):
-    """Channels at the Poincare sections; ``note`` says why there are none, else is empty."""
-
-    note: str = ""
-
-    @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Self:
-        """Read the service's JSON."""
-        sampled = _Sampled.from_document(document)
-        return cls(sampled.time, sampled.channels, sampled.complete, document["note"])
+Form = Literal["png", "svg"]
+IMPACT_UNITS: Final = {
+    "onset": "s",
+    "release": "s",
+    "approach_rate": "m/s",
+    "peak_force": "N",
+    "impulse": "N s",
+}
 
 
 @dataclass(frozen=True)
@@ -89,12 +33,6 @@ class Peak:
     minimum_time: float
     maximum: float
     maximum_time: float
-
-    @classmethod
-    def from_document(cls, document: dict[str, Any]) -> Self:
-        """Read the service's JSON."""
-        names = ("minimum", "minimum_time", "maximum", "maximum_time")
-        return cls(document["unit"], *_floats([document[name] for name in names]).tolist())
 
 
 @dataclass(frozen=True)
@@ -112,13 +50,83 @@ class Impacts:
     peak_force: NDArray[np.float64]
     impulse: NDArray[np.float64]
 
-    @classmethod
-    def from_rows(cls, rows: Sequence[dict[str, Any]]) -> Self:
-        """Read the rows of the service's JSON."""
-        names = ("onset", "release", "approach_rate", "peak_force", "impulse")
-        columns = {name: _floats([row[name] for row in rows]) for name in names}
-        return cls(joint=[row["joint"] for row in rows], **columns)
+
+class Store(NamedTuple):
+    """A Zarr store: its address or path, and what fsspec needs to reach it."""
+
+    address: str
+    options: dict[str, Any] | None
 
 
-def _floats(values: list[float | None]) -> NDArray[np.float64]:
-    return np.array(values, dtype=np.float64)  # null, where nothing was computed, becomes NaN
+class Results(Protocol):
+    """The results of one job; one implementation speaks HTTP, one reads a folder.
+
+    Everything raises `NotFound` where a job of this kind has no such result, and
+    `ResultsNotReady` before there is any.
+    """
+
+    def store(self) -> Store:
+        """Return where stock Zarr clients find the stored arrays."""
+        ...
+
+    def window(
+        self,
+        channels: Sequence[str] | None,
+        start: float | None,
+        stop: float | None,
+        points: int | None,
+    ) -> Window:
+        """Return channels (names or globs; all if None) from ``start`` to ``stop``, in s."""
+        ...
+
+    def sections(self, channels: Sequence[str] | None) -> Window:
+        """Return channels at the Poincare sections of a simulation."""
+        ...
+
+    def peaks(self) -> Mapping[str, Peak]:
+        """Return the signed extremes of every channel of a simulation."""
+        ...
+
+    def impacts(self) -> Impacts:
+        """Return the contacts of the clearance joints of a simulation."""
+        ...
+
+    def statistics(self) -> dict[str, Any]:
+        """Return what a simulation cost, and its energy ledger with the residual, in J."""
+        ...
+
+    def certificate(self) -> dict[str, Any]:
+        """Return how far a simulation can be believed."""
+        ...
+
+    def study(
+        self,
+        observables: Sequence[str] | None,
+        channels: Sequence[str] | None,
+        sections: tuple[int, int] | None,
+    ) -> StudySource:
+        """Return the points of a study as they are now."""
+        ...
+
+    def source(
+        self, channels: Sequence[str] | None, start: float | None, stop: float | None
+    ) -> Source:
+        """Return a window of a simulation as exports take it; it may hold more."""
+        ...
+
+    def figures(self) -> list[str]:
+        """Return the names of the figures that can be drawn."""
+        ...
+
+    def figure(
+        self,
+        name: str,
+        form: Form,
+        *,
+        channels: Sequence[str],
+        joints: Sequence[str],
+        start: float | None,
+        stop: float | None,
+    ) -> bytes:
+        """Return a figure as a file's bytes."""
+        ...

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.client.errors import Refused
-from jointplay.client.jobs import Job
+from jointplay.client.job_record import JobRecord
 from jointplay.dataset import Channel
 from jointplay.source import Floats
 from jointplay.study_dataset import Extremes, Failure, StudyDataset
@@ -18,7 +18,7 @@ Document = dict[str, Any]
 
 
 def with_sections(
-    job: Job, fetch: Callable[..., Document], sections: tuple[int, int]
+    job: JobRecord, fetch: Callable[..., Document], sections: tuple[int, int]
 ) -> StudyDataset:
     """Return a study with times and observables at its sections.
 
@@ -50,7 +50,7 @@ def with_sections(
     )
 
 
-def with_extremes(job: Job, fetch: Callable[..., Document]) -> StudyDataset:
+def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDataset:
     """Return a sweep with the extremes of channels; `fetch` asks for them, with `start`."""
     pages = list(_pages(fetch))
     channels = pages[0]["peaks"]
@@ -102,7 +102,7 @@ def _pages(fetch: Callable[..., Document]) -> Iterator[Document]:
         start = page["next_start"]
 
 
-def _study(job: Job, pages: Sequence[Document], **results: Any) -> StudyDataset:
+def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDataset:
     """Put together what every study has."""
     first = pages[0]
     parameters = [_channel(name, one) for name, one in first["values"].items()]

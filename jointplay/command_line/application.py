@@ -106,12 +106,16 @@ def _bad_document(error: Exception) -> tuple[Exit, str] | None:
 
 
 def _service_failure(error: Exception) -> tuple[Exit, str] | None:
-    from jointplay.client import ClientError, ServiceFailure, Unreachable
+    from jointplay.client import ClientError, JobCancelled, JobFailed, ServiceFailure, Unreachable
     from jointplay.serving import StartFailed, WrongSetting
 
     if isinstance(error, Unreachable):
         return Exit.UNREACHABLE, str(error)
-    if isinstance(error, ServiceFailure | StartFailed) and not isinstance(error, WrongSetting):
+    if isinstance(error, JobCancelled):
+        return Exit.CANCELLED, str(error)
+    if isinstance(error, JobFailed | ServiceFailure | StartFailed) and not isinstance(
+        error, WrongSetting
+    ):
         return Exit.FAILED, str(error)
     known = isinstance(error, ClientError | WrongSetting)
     return (Exit.BAD_INPUT, str(error)) if known else None

@@ -98,7 +98,7 @@ def calibrate(
 def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
     from concurrent.futures.process import BrokenProcessPool
 
-    from jointplay.command_line.progress import progress
+    from jointplay.progress import progress
 
     with progress("calibrate") as report:
         report(0.0, "preparing the kernels")

@@ -1,36 +1,35 @@
 """``jointplay compare``: several runs over one another, and a table of their peaks."""
 
 import json
+from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection, output_folder
+from jointplay.command_line import connection
 from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 from jointplay.command_line.study_options import listed
 
 if TYPE_CHECKING:
-    from jointplay.client import Client
+    from jointplay.client import Job, Peak
     from jointplay.figures.overlay import Curve
-    from jointplay.source import PeakLike
 
 _MOST_PANELS = 6
 
 
 @dataclass(frozen=True)
 class _Run:
-    """One run: what tells it from the others, its peaks, and where its curves come from."""
+    """One run: what tells it from the others, and its peaks."""
 
     name: str
-    job: dict[str, Any]
+    job: "Job"
     outputs: list[str]
-    units: "dict[str, str]"
-    peaks: "dict[str, PeakLike]"
-    store: Any
-    """The client of a service, or the results at hand."""
+    peaks: "Mapping[str, Peak]"
 
 
 def compare(
@@ -46,7 +45,7 @@ def compare(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="FILE", help="The figure, .png or .svg.")
     ] = Path("comparison.png"),
-    as_json: Annotated[bool, typer.Option("--json", help="Print the table as JSON.")] = False,
+    as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
     """Draw channels of several simulations over one another, and print their peaks side by side.
@@ -59,8 +58,9 @@ def compare(
     if not 2 <= len(results) <= MOST_CURVES:
         line = f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}."
         raise Stopped(Exit.BAD_INPUT, line)
-    with connection.connect(url) as client:
-        runs = [_run(one, client) for one in results]
+    with ExitStack() as stack:
+        jobs = [stack.enter_context(connection.job_of(one, url)) for one in results]
+        runs = [_run(name, job) for name, job in zip(results, jobs, strict=True)]
         labels = _labels(runs)
         names = _chosen(runs, listed(channels))
         drawn = names[:_MOST_PANELS]
@@ -69,8 +69,12 @@ def compare(
         ]
         panels = {name: [of_run[name] for of_run in curves] for name in drawn}
         output.write_bytes(draw_overlay(panels, form))
-    _print_table(runs, labels, names, as_json=as_json)
-    typer.echo(output, err=as_json)
+    table = _table(runs, labels, names)
+    if as_json:
+        print_json({"figure": str(output), "peaks": table})
+        return
+    _print_table(table)
+    typer.echo(output)
 
 
 def _form_of(path: Path) -> Form:
@@ -80,30 +84,19 @@ def _form_of(path: Path) -> Form:
     return forms[path.suffix]
 
 
-def _run(results: str, client: "Client") -> _Run:
-    from storage.results import ResultReader
-
-    if output_folder.is_of_service(results):
-        job = client.get(results)
-        if job.kind != "simulate":
-            raise Stopped(Exit.BAD_INPUT, f"Job {job.id} is a {job.kind}; compare simulations.")
-        peaks = client.peaks(results)
-        units = {name: peak.unit for name, peak in peaks.items()}
-        return _Run(results, job.job, [], units, {**peaks}, client)
-    store = output_folder.results_in(Path(results))
-    if not isinstance(store, ResultReader):
-        raise Stopped(Exit.BAD_INPUT, f"{results} is a study; compare simulations.")
-    units = {channel.name: channel.unit for channel in store.channels}
-    outputs = [one["name"] for one in store.attributes["scene"].get("outputs", [])]
-    return _Run(results, store.attributes["job"], outputs, units, {**store.peaks()}, store)
+def _run(name: str, job: "Job") -> _Run:
+    if job.kind != "simulate":
+        raise Stopped(Exit.BAD_INPUT, f"{name} is a {job.kind}; compare simulations.")
+    outputs = [one["name"] for one in job.job["scene"].get("outputs", [])]
+    return _Run(name, job, outputs, job.results.peaks())
 
 
 def _labels(runs: list[_Run]) -> list[str]:
     """Tell runs apart by their own labels, else by the parameters in which they differ."""
-    own = [run.job.get("label") or "" for run in runs]
+    own = [run.job.label or "" for run in runs]
     if all(own) and len(set(own)) == len(own):
         return own
-    facts = [_facts(run.job) for run in runs]
+    facts = [_facts(run.job.job) for run in runs]
     differing = [name for name in facts[0] if len({json.dumps(one.get(name)) for one in facts}) > 1]
     labels = [
         " ".join(f"{name}={_short(one.get(name))}" for name in differing[:3]) for one in facts
@@ -127,7 +120,7 @@ def _short(value: object) -> str:
 def _chosen(runs: list[_Run], wanted: list[str] | None) -> list[str]:
     from jointplay.channel_choice import NoSuchChannel, choose
 
-    common = [name for name in runs[0].units if all(name in run.units for run in runs)]
+    common = [name for name in runs[0].peaks if all(name in run.peaks for run in runs)]
     if not common:
         raise Stopped(Exit.BAD_INPUT, "The runs have no channel in common.")
     if wanted is not None:
@@ -144,30 +137,27 @@ def _chosen(runs: list[_Run], wanted: list[str] | None) -> list[str]:
 def _curves(
     run: _Run, label: str, names: list[str], start: float | None, stop: float | None
 ) -> "dict[str, Curve]":
-    from jointplay.client import Client
     from jointplay.figures.overlay import Curve
 
-    if isinstance(run.store, Client):
-        history = run.store.history(run.name, names, start, stop)
-        time, columns = history.time, {name: history[name] for name in names}
-    else:
-        time, columns = run.store.history(names, *run.store.between(start, stop))
-    return {name: Curve(label, run.units[name], time, columns[name]) for name in names}
+    found = run.job.window(names, start, stop)
+    return {
+        name: Curve(label, one.unit, found.time, one.values) for name, one in found.channels.items()
+    }
 
 
-def _print_table(runs: list[_Run], labels: list[str], names: list[str], *, as_json: bool) -> None:
-    table = [
-        {"channel": name, "unit": runs[0].units[name], "run": label}
-        | {"minimum": run.peaks[name].minimum, "minimum_time": run.peaks[name].minimum_time}
-        | {"maximum": run.peaks[name].maximum, "maximum_time": run.peaks[name].maximum_time}
+def _table(runs: list[_Run], labels: list[str], names: list[str]) -> list[dict[str, Any]]:
+    from jointplay.command_line.peaks import rows_of
+
+    rows = [{row.channel: row for row in rows_of(run.peaks)} for run in runs]
+    return [
+        {"run": label, **of_run[name]._asdict()}
         for name in names
-        for run, label in zip(runs, labels, strict=True)
-        if name in run.peaks
+        for of_run, label in zip(rows, labels, strict=True)
     ]
-    if as_json:
-        typer.echo(json.dumps(table, indent=2))
-        return
-    wide, width = max(map(len, labels)), max(map(len, names))
+
+
+def _print_table(table: list[dict[str, Any]]) -> None:
+    wide, width = (max(len(row[key]) for row in table) for key in ("run", "channel"))
     heading = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
     typer.echo(f"{'channel':{width}}  {'run':{wide}} {heading}")
     for row in table:

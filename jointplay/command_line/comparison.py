@@ -53,8 +53,8 @@ def cases_of(scene: Mapping[str, Any]) -> list[Case]:
     return list(cases.values())
 
 
-def table(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[str]:
-    """Return the lines of the table, and the notes below it.
+def document(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[dict[str, Any]]:
+    """Return every reported number beside ours.
 
     Parameters
     ----------
@@ -63,25 +63,42 @@ def table(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[
     peaks
         The peaks of each case by channel.
     """
+    return [
+        {
+            "where": entry["where"],
+            "parameters": case.parameters,
+            "channel": entry["channel"],
+            "statistic": entry["statistic"],
+            "unit": entry["unit"],
+            "reported": entry["value"],
+            "ours": getattr(found[entry["channel"]], entry["statistic"]),
+            "note": entry.get("note", ""),
+        }
+        for case, found in zip(cases, peaks, strict=True)
+        for entry in case.reported
+    ]
+
+
+def table(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[str]:
+    """Return the lines of the table, and the notes below it; arguments as for `document`."""
     rows = [("source", "case", "quantity", "reported", "ours", "ours/reported", "")]
     notes: list[str] = []
-    for case, found in zip(cases, peaks, strict=True):
-        for entry in case.reported:
-            ours = getattr(found[entry["channel"]], entry["statistic"])
-            note = entry.get("note", "")
-            if note and note not in notes:
-                notes.append(note)
-            rows.append(
-                (
-                    entry["where"],
-                    case.label,
-                    f"{entry['statistic']} of {entry['channel']} [{entry['unit']}]",
-                    f"{entry['value']:g}",
-                    f"{ours:.6g}",
-                    f"{ours / entry['value']:.4f}",
-                    f"({notes.index(note) + 1})" if note else "",
-                )
+    labels = [case.label for case in cases for _ in case.reported]
+    for label, entry in zip(labels, document(cases, peaks), strict=True):
+        ours, note = entry["ours"], entry["note"]
+        if note and note not in notes:
+            notes.append(note)
+        rows.append(
+            (
+                entry["where"],
+                label,
+                f"{entry['statistic']} of {entry['channel']} [{entry['unit']}]",
+                f"{entry['reported']:g}",
+                f"{ours:.6g}",
+                f"{ours / entry['reported']:.4f}",
+                f"({notes.index(note) + 1})" if note else "",
             )
+        )
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = [
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()

@@ -1,17 +1,23 @@
-"""The service that commands talk to."""
+"""The service that commands talk to, and the results that they are given."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from jointplay.client import Client
+    from jointplay.client import Client, Job
 
 URL = Annotated[
     str,
     typer.Option("--url", envvar="JOINTPLAY_URL", help="Address of the service."),
 ]
 DEFAULT_URL = "http://127.0.0.1:8000"  # jointplay.client's, without loading it
+RESULTS = Annotated[
+    str, typer.Argument(metavar="OUT|ID", help="Folder of `jointplay run`, or id of a job.")
+]
 
 
 def connect(url: str) -> "Client":
@@ -19,3 +25,17 @@ def connect(url: str) -> "Client":
     from jointplay.client import Client
 
     return Client(url)
+
+
+@contextmanager
+def job_of(results: str, url: str) -> Iterator["Job"]:
+    """Give the job that ``OUT|ID`` means: in a folder, or of the service at ``url``."""
+    from jointplay.job_id import is_job_id
+
+    if Path(results).exists() or not is_job_id(results):
+        from jointplay.local import load
+
+        yield load(results)
+        return
+    with connect(url) as client:
+        yield client.job(results)

@@ -5,10 +5,12 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line import connection
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 
 def delete(
     job_ids: Annotated[list[str], typer.Argument(metavar="ID...", help="Ids of finished jobs.")],
+    as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
     """Delete finished jobs and their results; there is no way back.
@@ -17,5 +19,8 @@ def delete(
     """
     with connection.connect(url) as client:
         for job_id in job_ids:
-            client.delete(job_id)
-            typer.echo(f"{job_id}  deleted")
+            client.job(job_id).delete()
+            if not as_json:
+                typer.echo(f"{job_id}  deleted")
+    if as_json:
+        print_json({"deleted": job_ids})

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 if TYPE_CHECKING:
-    from jointplay.client import Client, Job
+    from jointplay.client import Job
     from jointplay.command_line.comparison import Case
 
 
@@ -21,6 +22,7 @@ def demo(
         Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the figures go.")
     ] = Path("demo"),
     workers: Annotated[int, typer.Option(min=1, max=64, help="How many workers.")] = 2,
+    as_json: AS_JSON = False,
 ) -> None:
     """Start a service, run a scene's published cases over HTTP, and stop everything.
 
@@ -29,7 +31,7 @@ def demo(
     Example: `jointplay demo seven-bar-press -o demo`
     """
     from jointplay.client import Client
-    from jointplay.command_line.comparison import cases_of, table
+    from jointplay.command_line.comparison import cases_of, document, table
     from jointplay.serving import running_service
     from solver import presets
 
@@ -37,12 +39,16 @@ def demo(
     cases = cases_of(scene)
     data = output / "service"
     shutil.rmtree(data, ignore_errors=True)  # what an earlier demo left
-    typer.echo("starting broker, API and workers")
+    typer.echo("starting broker, API and workers", err=as_json)
     with running_service(data, workers=workers) as url, Client(url) as client:
-        typer.echo(f"the service answers at {url}; submitting {len(cases)} jobs")
-        jobs = _finished(client, [client.submit(case.job(preset)).id for case in cases])
-        peaks = [client.peaks(job.id) for job in jobs]
-        _fetch_figures(client, cases, jobs, output)
+        typer.echo(f"the service answers at {url}; submitting {len(cases)} jobs", err=as_json)
+        jobs = _finished([client.submit(case.job(preset)) for case in cases])
+        peaks = [job.results.peaks() for job in jobs]
+        _fetch_figures(cases, jobs, output)
+    if as_json:
+        told = {"source": scene["source"], "figures": str(output)}
+        print_json(told | {"comparison": document(cases, peaks)})
+        return
     typer.echo(f"everything is stopped\n\nsource: {scene['source']}")
     typer.echo("\n".join(table(cases, peaks)))
     typer.echo(f"figures are in {output}/")
@@ -55,36 +61,31 @@ def _published(scene: dict[str, Any]) -> dict[str, Any]:
     return scene
 
 
-def _finished(client: "Client", ids: list[str]) -> list["Job"]:
+def _finished(jobs: list["Job"]) -> list["Job"]:
     """Wait for all jobs under one progress bar; end with the reason of the first that failed."""
-    from jointplay.command_line.progress import progress
-    from jointplay.command_line.waiting import exit_of
+    from jointplay.progress import progress
 
-    finished: list[Job] = []
     with progress("simulating") as report:
+        for done, job in enumerate(jobs):
 
-        def show(job: "Job") -> None:
-            fraction = (len(finished) + job.progress.fraction) / len(ids)
-            report(fraction, f"{job.label}: {job.state}")
+            def show(job: "Job", done: int = done) -> None:
+                fraction = (done + job.progress.fraction) / len(jobs)
+                report(fraction, f"{job.label}: {job.state}")
 
-        for job_id in ids:
-            finished.append(client.wait(job_id, show))
-            exit_of(finished[-1])
-    return finished
+            job.wait(report=show)
+    return jobs
 
 
-def _fetch_figures(client: "Client", cases: list["Case"], jobs: list["Job"], output: Path) -> None:
-    from jointplay.command_line.progress import progress
+def _fetch_figures(cases: list["Case"], jobs: list["Job"], output: Path) -> None:
+    from jointplay.progress import progress
 
     wanted = [
-        (case, job, name)
-        for case, job in zip(cases, jobs, strict=True)
-        for name in client.figures(job.id)
+        (case, job, name) for case, job in zip(cases, jobs, strict=True) for name in job.figures
     ]
     with progress("fetching figures") as report:
         for done, (case, job, name) in enumerate(wanted):
             report(done / len(wanted), f"{case.label}: {name}")
             folder = output / case.folder
             folder.mkdir(parents=True, exist_ok=True)
-            (folder / f"{name}.png").write_bytes(client.figure(job.id, name))
+            job.figure(name).save(folder / name)
         report(1.0, f"{len(wanted)} files")

@@ -57,6 +57,8 @@ def job_document(
     options
         Fields of the job; those that are None are left as they are.
     """
+    from jointplay.jobs import NotAScene, with_parameters
+
     job, is_whole = _job_of(source)
     changed = {name: value for name, value in options.items() if value is not None}
     if is_whole and "kind" in changed:
@@ -67,8 +69,12 @@ def job_document(
     if "accuracy" in changed:
         job.pop("tolerance", None)
     job.update(changed)
-    if settings:
-        _set_parameters(job, dict(map(_setting, settings)))
+    scene = job.get("scene")
+    if settings and isinstance(scene, dict):  # else admission says what is wrong with it
+        try:
+            job["scene"] = with_parameters(scene, dict(map(_setting, settings)))
+        except NotAScene as error:
+            raise Stopped(Exit.BAD_INPUT, f"--set {error}") from None
     return job
 
 
@@ -120,29 +126,3 @@ def _setting(text: str) -> tuple[str, object]:
         return name, parse(value.encode())
     except MalformedJson:
         return name, value  # a word, such as as-published
-
-
-def _set_parameters(job: dict[str, Any], values: dict[str, object]) -> None:
-    """Put parameter values where the job takes them.
-
-    A scene given whole has no list of values beside it: there the declared defaults are the
-    values.
-    """
-    scene = job.get("scene")
-    if not isinstance(scene, dict):
-        return  # admission will say what is wrong with it, here and below
-    declared = scene.get("parameters", {})
-    if not isinstance(declared, dict):
-        return
-    if not _is_scene(scene):
-        scene["parameters"] = {**declared, **values}
-        return
-    for name, value in values.items():
-        if name not in declared:
-            known = ", ".join(declared) or "none"
-            raise Stopped(
-                Exit.BAD_INPUT,
-                f"--set {name}: the scene declares no such parameter; it has {known}.",
-            )
-        if isinstance(declared[name], dict):
-            declared[name] = {**declared[name], "default": value}

@@ -2,11 +2,13 @@
 
 from datetime import datetime
 from itertools import islice
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from jointplay.command_line import connection
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 
 def ls(
@@ -25,31 +27,30 @@ def ls(
     before: Annotated[
         datetime | None, typer.Option(help="Only jobs submitted before this moment.")
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object for each job.")
-    ] = False,
+    batch: Annotated[
+        str | None, typer.Option(metavar="ID", help="The jobs of a batch, in their order.")
+    ] = None,
+    as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
     """List the jobs of a service, newest first: id, state, progress, when, kind, label.
 
     Example: `jointplay ls -n 50 --state failed --scene seven-bar-press`
     """
-    import json
-
     chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
+    if batch is not None and (any(chosen.values()) or since or before):
+        raise Stopped(Exit.BAD_INPUT, "--batch lists all jobs of a batch; leave the filters out.")
     with connection.connect(url) as client:
-        for job in islice(client.jobs(**chosen, since=since, before=before), count):
-            if as_json:
-                typer.echo(json.dumps(job.to_document()))
-                continue
-            created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
-            done = f"{job.progress.fraction:.0%}"
-            label_or_scene = job.label or scene_name(job.job)
-            row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
-            typer.echo(f"{row}  {label_or_scene}")
-
-
-def scene_name(job: dict[str, Any]) -> str:
-    """Return the name of the scene that a job document simulates."""
-    scene = job["scene"]
-    return str(scene.get("preset") or scene.get("name"))
+        if batch is None:
+            found = client.jobs(**chosen, since=since, before=before)
+        else:
+            found = client.batch(batch).jobs()
+        jobs = list(islice(found, count))
+    if as_json:
+        print_json({"jobs": [job.to_document() for job in jobs]})
+        return
+    for job in jobs:
+        created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
+        done = f"{job.progress.fraction:.0%}"
+        row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
+        typer.echo(f"{row}  {job.label or job.scene_name}")

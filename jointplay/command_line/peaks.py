@@ -1,7 +1,6 @@
 """Peaks of channels as a table."""
 
-from collections.abc import Iterable, Iterator
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import typer
@@ -22,17 +21,8 @@ class Row(NamedTuple):
     maximum_time: float
 
 
-def of_store(source: "Source") -> Iterator[Row]:
-    """Yield the peaks of results at hand, in the order of the channels."""
-    peaks = source.peaks()
-    for channel in source.channels:
-        if (peak := peaks.get(channel.name)) is not None:
-            low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
-            yield Row(channel.name, channel.unit, *low, *high)
-
-
-def of_service(peaks: "dict[str, Peak]") -> Iterator[Row]:
-    """Yield the peaks that a service sent."""
+def rows_of(peaks: Mapping[str, "Peak"]) -> Iterator[Row]:
+    """Yield the peaks of a simulation, in the order of the channels."""
     for name, peak in peaks.items():
         low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
         yield Row(name, peak.unit, *low, *high)
@@ -59,11 +49,8 @@ def print_peaks(rows: Iterable[Row]) -> None:
         typer.echo(f"{row.channel:{width}} {low}  {high}  {row.unit}")
 
 
-def write_peaks(path: Path, rows: Iterable[Row]) -> None:
-    """Write the peaks as CSV, with 17 significant digits."""
-    lines = ["channel,unit,minimum,minimum_time [s],maximum,maximum_time [s]"]
-    lines += [
-        ",".join([channel, unit, *(f"{value:.17g}" for value in values)])
-        for channel, unit, *values in rows
-    ]
-    path.write_text("\n".join(lines) + "\n")
+def peak_lines(rows: Iterable[Row]) -> Iterator[str]:
+    """Yield the peaks as lines of CSV, with 17 significant digits."""
+    yield "channel,unit,minimum,minimum_time [s],maximum,maximum_time [s]\n"
+    for channel, unit, *values in rows:
+        yield ",".join([channel, unit, *(f"{value:.17g}" for value in values)]) + "\n"

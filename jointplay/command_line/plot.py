@@ -1,21 +1,19 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Literal
 
 import typer
 
-from jointplay.command_line import connection, output_folder
-from jointplay.command_line.drawing import Form
+from jointplay.command_line import connection
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.progress import progress
+from jointplay.command_line.json_output import AS_JSON, print_json
 from jointplay.command_line.study_options import listed
+from jointplay.progress import progress
 
 
 def plot(
-    results: Annotated[
-        str, typer.Argument(metavar="OUT|ID", help="Folder of `jointplay run`, or id of a job.")
-    ],
+    results: connection.RESULTS,
     names: Annotated[
         list[str] | None,
         typer.Argument(metavar="[FIGURE]...", help="Figures or channels; default all figures."),
@@ -36,7 +34,8 @@ def plot(
     folder: Annotated[
         Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the files go.")
     ] = Path(),
-    form: Annotated[Form, typer.Option("--format", help="File type.")] = "png",
+    form: Annotated[Literal["png", "svg"], typer.Option("--format", help="File type.")] = "png",
+    as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
     """Draw figures: those of the job's mechanism, of a study, or of any channel.
@@ -44,64 +43,30 @@ def plot(
     Examples: `jointplay plot OUT acceleration A.normal_force --format svg -o figures`,
     `jointplay plot OUT section --start 42 --stop 43` for one value of a bifurcation diagram
     """
-    chosen = {
-        "channels": listed(channels),
-        "joints": listed(joints),
-        "start": start,
-        "stop": stop,
-    }
-    given = {name: value for name, value in chosen.items() if value is not None}
+    chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop}
+    given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
-        line = f"--{next(iter(given))} chooses what a figure shows; name the figure."
-        raise Stopped(Exit.BAD_INPUT, line)
-    if output_folder.is_of_service(results):
-        written = _fetch(results, names, folder, form, given, url)
-    else:
-        written = _draw(Path(results), names, folder, form, given)
-    for path in written:
-        typer.echo(path)
-
-
-def _draw(
-    results: Path, names: list[str] | None, folder: Path, form: Form, chosen: dict[str, Any]
-) -> list[Path]:
-    from jointplay import figures
-    from jointplay.command_line.drawing import draw, draw_all
-    from jointplay.command_line.export import point_range
-
-    source = output_folder.results_in(results)
-    if not names:
-        return draw_all(source, folder, form)
-    start, stop = chosen.get("start"), chosen.get("stop")
-    names_of = (tuple(chosen.get("channels", ())), tuple(chosen.get("joints", ())))
-    if not figures.is_study(source):
-        selection = figures.Selection(*names_of, start=start, stop=stop)
-        return draw(source, names, folder, form, selection)
-    points = point_range(source.points, start, stop)
-    selection = figures.Selection(
-        *names_of,
-        first=None if start is None else points[0],
-        last=None if stop is None else points[-1],
-    )
-    return draw(source, names, folder, form, selection)
-
-
-def _fetch(
-    job_id: str,
-    names: list[str] | None,
-    folder: Path,
-    form: Form,
-    chosen: dict[str, Any],
-    url: str,
-) -> list[Path]:
-    folder.mkdir(parents=True, exist_ok=True)
+        raise Stopped(Exit.BAD_INPUT, f"--{given[0]} chooses what a figure shows; name the figure.")
     written = []
-    with connection.connect(url) as client, progress("figures") as report:
-        wanted = names or client.figures(job_id)
+    with connection.job_of(results, url) as job, progress("figures") as report:
+        wanted = names or job.figures
+        folder.mkdir(parents=True, exist_ok=True)
         for done, name in enumerate(wanted):
             report(done / len(wanted), name)
+            picture = job.figure(
+                name,
+                channel=listed(channels) or (),
+                joint=listed(joints) or (),
+                start=start,
+                stop=stop,
+                form=form,
+            )
             path = folder / f"{name}.{form}"
-            path.write_bytes(client.figure(job_id, name, form, **chosen))
-            written.append(path)
+            path.write_bytes(picture.content)
+            written.append({"name": name, "path": str(path)})
         report(1.0, "")
-    return written
+    if as_json:
+        print_json({"figures": written})
+        return
+    for one in written:
+        typer.echo(one["path"])

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 
 def reproduce(
@@ -19,6 +20,7 @@ def reproduce(
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Default one for each core.")
     ] = None,
+    as_json: AS_JSON = False,
 ) -> None:
     """Compute the published figures of the press again, and set every printed number beside ours.
 
@@ -29,7 +31,7 @@ def reproduce(
     """
     from concurrent.futures.process import BrokenProcessPool
 
-    from jointplay.command_line.progress import progress
+    from jointplay.progress import progress
     from jointplay.reproduce.processes import Interrupted
     from jointplay.reproduce.reproduction import reproduce as whole
     from jointplay.reproduce.runs import RunFailed
@@ -50,4 +52,7 @@ def reproduce(
         raise Stopped(Exit.FAILED, str(error)) from None
     except BrokenProcessPool:
         raise Stopped(Exit.FAILED, "a process that computed a part of it died.") from None
+    if as_json:
+        print_json({"report": str(page), "runs": str(output / "runs")})
+        return
     typer.echo(f"the report is {page}; results of all jobs are in {output / 'runs'}/")

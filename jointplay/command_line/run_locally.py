@@ -1,17 +1,16 @@
 """``jointplay run``: simulate here and now, without any service."""
 
-import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import job_document, output_folder, study_options
+from jointplay.command_line import job_document, study_options
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 if TYPE_CHECKING:
-    from solver.admission import Admission, Study
-    from worker.execute import Outcome
+    from jointplay.client import Job
 
 
 def run(
@@ -42,15 +41,20 @@ def run(
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
+    as_json: AS_JSON = False,
 ) -> None:
     """Simulate here and now, without any service; a study on all cores.
 
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr,
-    peaks.csv, of a study points.csv, and figures.  Ctrl-C ends the run and keeps what was computed.
+    outcome.json, peaks.csv, of a study points.csv, and figures.  Ctrl-C ends the run and keeps
+    what was computed.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
+    from jointplay.local import load
+    from jointplay.local.computing import compute
+    from jointplay.progress import progress
     from solver.admission import Study, admit
 
     document = job_document.job_document(
@@ -82,14 +86,15 @@ def run(
     if processes is not None and not isinstance(admission, Study):
         raise Stopped(Exit.BAD_INPUT, "--processes is of studies; this is one simulation.")
     _make(output)
-    store = output / output_folder.STORE
-    if isinstance(admission, Study):
-        _study(admission, output, processes)
-        return
-    outcome = _simulate(admission, store, output.name)
-    shutil.copyfile(store / "job.json", output / output_folder.JOB_FILE)
-    _summarise(store, output)
-    _tell(outcome)
+    with progress(output.name) as report:
+        compute(admission, output, processes, report)
+    job = load(output)
+    told = (_of_study if isinstance(admission, Study) else _of_simulation)(job, output, as_json)
+    if as_json:
+        print_json({"job": job.to_document(), "peaks": None, "points": None, **told})
+    job.check()
+    if isinstance(admission, Study) and len(told["points"]["failures"]) == admission.points:
+        raise Stopped(Exit.FAILED, "every point failed; the first one says why above")
 
 
 def _make(output: Path) -> None:
@@ -100,66 +105,32 @@ def _make(output: Path) -> None:
         raise Stopped(Exit.BAD_INPUT, line) from None
 
 
-def _study(study: "Study", output: Path, processes: int | None) -> None:
-    """Compute a study and show what became of it, also if it was interrupted."""
-    from jointplay.command_line.progress import progress
-    from jointplay.command_line.run_study import compute
-    from jointplay.command_line.study_summary import summarise
-
-    store = output / output_folder.STORE
-    with progress(output.name) as report:
-        complete = compute(study, store, processes, report)
-    shutil.copyfile(store / "job.json", output / output_folder.JOB_FILE)
-    summarise(output)
-    if not complete:
-        raise Stopped(Exit.CANCELLED, "the study was cancelled; what was computed is kept")
-
-
-def _simulate(admission: "Admission", store: Path, title: str) -> "Outcome":
-    """Run the job; Ctrl-C asks it to end, and it ends between two slices of a quarter second."""
-    import signal
-
-    from jointplay.command_line.progress import progress
-
-    asked_to_end = False
-
-    def end(signal_number: int, frame: object) -> None:
-        nonlocal asked_to_end
-        asked_to_end = True
-
-    with progress(title) as report:
-        report(0.0, "preparing the kernel")
-        from worker.execute import Progress, execute
-
-        def go_on(done: Progress) -> str:
-            report(done.fraction, f"t = {done.time:.4g} s")
-            return "cancel" if asked_to_end else "continue"
-
-        before = signal.signal(signal.SIGINT, end)
-        try:
-            return execute(admission, store, report=go_on)
-        finally:
-            signal.signal(signal.SIGINT, before)
-
-
-def _summarise(store: Path, output: Path) -> None:
-    """Write figures and peaks, and print the peaks."""
+def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
+    """Write figures and peaks, and tell the peaks."""
     from jointplay.command_line.drawing import draw_all
-    from jointplay.command_line.peaks import headline, of_store, print_peaks, write_peaks
-    from storage.results import ResultReader
+    from jointplay.command_line.peaks import headline, peak_lines, print_peaks, rows_of
 
-    reader: ResultReader = ResultReader(store)
-    rows = list(of_store(reader))
-    write_peaks(output / output_folder.PEAKS_FILE, rows)
-    draw_all(reader, output / output_folder.FIGURES, "png")
-    first = headline(reader)
-    print_peaks(row for row in rows if row.channel in first)
-    typer.echo(f"all {len(rows)} channels are in {output / output_folder.PEAKS_FILE}")
+    rows = list(rows_of(job.results.peaks()))
+    table = output / "peaks.csv"
+    table.write_text("".join(peak_lines(rows)))
+    draw_all(job, output / "figures")
+    if not as_json:
+        first = headline(job.results.source(None, None, None))
+        print_peaks(row for row in rows if row.channel in first)
+        typer.echo(f"all {len(rows)} channels are in {table}")
+    return {"peaks": [row._asdict() for row in rows]}
 
 
-def _tell(outcome: "Outcome") -> None:
-    if outcome.error is not None:
-        error = outcome.error
-        raise Stopped(Exit.FAILED, f"the run failed ({error.error_class}): {error.detail}")
-    if outcome.state == "cancelled":
-        raise Stopped(Exit.CANCELLED, "the run was cancelled; what was computed is kept")
+def _of_study(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
+    """Write points and figures, and tell what became of the points."""
+    from jointplay.command_line.drawing import draw_all
+    from jointplay.command_line.study_summary import print_points, summary_of, write_points
+
+    study = job.study()
+    table = output / "points.csv"
+    write_points(study, table)
+    draw_all(job, output / "figures")
+    if not as_json:
+        print_points(study)
+        typer.echo(f"all {study.points} points are in {table}")
+    return {"points": summary_of(study)}

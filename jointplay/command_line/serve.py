@@ -20,6 +20,9 @@ def serve(
     workers: Annotated[
         int, typer.Option(min=1, max=256, help="How many jobs are computed at a time.")
     ] = 2,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print address and data as JSON once it answers.")
+    ] = False,
 ) -> None:
     """Keep the service up: broker, API, relay and workers under one supervisor.
 
@@ -30,4 +33,4 @@ def serve(
     """
     from jointplay.serving import serve as keep_serving
 
-    keep_serving(host, port, data, workers)
+    keep_serving(host, port, data, workers, as_json=as_json)

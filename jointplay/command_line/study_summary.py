@@ -2,12 +2,9 @@
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
-
-from jointplay.command_line import output_folder
-from jointplay.command_line.exits import Exit, Stopped
 
 if TYPE_CHECKING:
     from jointplay.study_source import StudySource
@@ -15,28 +12,32 @@ if TYPE_CHECKING:
 _MOST_FAILURES = 5
 
 
-def summarise(output: Path) -> None:
-    """Write points.csv and figures of a local study, and print what became of its points.
-
-    Raises
-    ------
-    Stopped
-        Not one point was computed, because all failed.
-    """
+def write_points(source: "StudySource", table: Path) -> None:
+    """Write what has one value a point as comma-separated values."""
     from jointplay import study_export
-    from jointplay.command_line.drawing import draw_all
-    from storage.studies import StudyReader
 
-    source = StudyReader(output_folder.store_in(output))
-    table = output / output_folder.POINTS_FILE
     channels = [channel.name for channel in source.channels]
     everything = range(source.points)
     table.write_text("".join(study_export.point_lines(source, channels, everything, units())))
-    draw_all(source, output / output_folder.FIGURES, "png")
-    print_points(source)
-    typer.echo(f"all {source.points} points are in {table}")
-    if len(source.failures) == source.points:
-        raise Stopped(Exit.FAILED, "every point failed; the first one says why above")
+
+
+def summary_of(source: "StudySource") -> dict[str, Any]:
+    """Return how many points ended in which way, the verdicts, and all failures."""
+    from jointplay.study_source import STATUS
+
+    counts = Counter(STATUS[code] for code in source.status)
+    verdicts: Counter[str] | None = None
+    if (codes := source.verdicts) is not None:
+        verdicts = Counter(source.verdict_names[code] for code in codes if code >= 0)
+    return {
+        "number": source.points,
+        "status": {word: counts[word] for word in STATUS},
+        "verdicts": None if verdicts is None else dict(verdicts.most_common()),
+        "failures": [
+            {"point": point, "code": one.code, "detail": one.detail, "time": one.time}
+            for point, one in source.failures.items()
+        ],
+    }
 
 
 def units() -> dict[str, str]:
@@ -50,16 +51,13 @@ def print_points(source: "StudySource") -> None:
     """Print how many points ended in which way, the verdicts, the extremes, the first failures."""
     import numpy as np
 
-    from jointplay.study_source import DONE, STATUS
+    from jointplay.study_source import DONE
 
-    counts = Counter(STATUS[code] for code in source.status)
-    typer.echo(
-        "points    " + ", ".join(f"{counts[word]} {word}" for word in STATUS if counts[word])
-    )
-    codes = source.verdicts
-    if codes is not None:
-        verdicts = Counter(source.verdict_names[code] for code in codes if code >= 0)
-        typer.echo("verdicts  " + ", ".join(f"{n} {word}" for word, n in verdicts.most_common()))
+    summary = summary_of(source)
+    for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):
+        if counts is not None:
+            told = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
+            typer.echo(f"{heading:9} {told}")
     done = source.status == DONE
     width = max((len(channel.name) for channel in source.channels), default=0)
     for channel in source.channels if done.any() else ():

@@ -1,10 +1,12 @@
 """``jointplay submit``: give a job to a service."""
 
+from dataclasses import asdict
 from typing import Annotated
 
 import typer
 
 from jointplay.command_line import connection, job_document, study_options
+from jointplay.command_line.json_output import AS_JSON, print_json
 
 
 def submit(
@@ -36,6 +38,7 @@ def submit(
         bool, typer.Option("--estimate", help="Only say what it will cost; queue nothing.")
     ] = False,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
+    as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
     """Queue a job at a service and print its id; an identical one is not computed again.
@@ -46,7 +49,7 @@ def submit(
     `jointplay submit seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --wait`
     """
     from jointplay.command_line.estimate import print_estimate
-    from jointplay.command_line.waiting import exit_of, wait_for
+    from jointplay.command_line.waiting import wait_for
 
     job = job_document.job_document(
         source,
@@ -77,9 +80,15 @@ def submit(
         job["cache"] = False
     with connection.connect(url) as client:
         if estimate:
-            print_estimate(client.estimate(job))
+            cost = client.estimate(job)
+            print_json(asdict(cost)) if as_json else print_estimate(cost)
             return
         queued = client.submit(job)
-        typer.echo(queued.id)
+        if not as_json:
+            typer.echo(queued.id)
         if wait:
-            exit_of(wait_for(client, queued.id, queued.label or queued.id))
+            wait_for(queued)
+        if as_json:
+            print_json(queued.to_document())
+        if wait:
+            queued.check()

@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from jointplay.figures import page, scene_facts
 from jointplay.figures.bifurcation import BIFURCATION
+from jointplay.figures.choosing import select
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
-from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure
+from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.page import Form
@@ -30,7 +31,6 @@ from jointplay.study_source import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from typing_extensions import TypeIs
 
 __all__ = [
     "ROSTER",
@@ -49,6 +49,7 @@ __all__ = [
     "render",
     "render_mechanism",
     "required",
+    "select",
 ]
 
 ROSTER: Final[tuple[RunFigure, ...]] = (
@@ -132,11 +133,6 @@ def render(
     """Draw a figure and give the bytes of a PNG or SVG file; errors as for `draw`."""
     with page.style():
         return page.save(draw(source, name, selection), form)
-
-
-def is_study(source: Source | StudySource) -> TypeIs[StudySource]:
-    """Tell whether results are those of a study, and not of one run."""
-    return hasattr(source, "observables")
 
 
 def _find(

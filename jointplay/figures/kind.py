@@ -12,6 +12,7 @@ from jointplay.study_source import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from typing_extensions import TypeIs
 
 Results = TypeVar("Results", Source, StudySource)
 
@@ -80,3 +81,8 @@ class FigureKind(Generic[Results]):
 
 RunFigure = FigureKind[Source]
 StudyFigure = FigureKind[StudySource]
+
+
+def is_study(source: Source | StudySource) -> TypeIs[StudySource]:
+    """Tell whether results are those of a study, and not of one run."""
+    return hasattr(source, "observables")

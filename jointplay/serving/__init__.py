@@ -1,6 +1,7 @@
 """Running the service on one machine: broker, API, relay and workers under one supervisor."""
 
 import ipaddress
+import json
 import logging
 import sys
 from pathlib import Path
@@ -12,7 +13,7 @@ from jointplay.serving.supervisor import Supervisor
 __all__ = ["StartFailed", "WrongSetting", "running_service", "serve"]
 
 
-def serve(host: str, port: int, data: Path, workers: int) -> None:
+def serve(host: str, port: int, data: Path, workers: int, *, as_json: bool = False) -> None:
     """Run the service until SIGTERM or SIGINT; print its URL once it answers.
 
     Parameters
@@ -24,6 +25,9 @@ def serve(host: str, port: int, data: Path, workers: int) -> None:
     workers
         How many blocks are computed at a time.
 
+    as_json
+        Print a line of JSON with "url" and "data" instead of a sentence.
+
     Raises
     ------
     StartFailed
@@ -32,6 +36,10 @@ def serve(host: str, port: int, data: Path, workers: int) -> None:
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
 
     def announce(url: str) -> None:
+        if as_json:
+            sys.stdout.write(json.dumps({"url": url, "data": str(data)}) + "\n")
+            sys.stdout.flush()
+            return
         sys.stdout.write(f"jointplay is ready at {url} (data in {data}; Ctrl-C stops it)\n")
         if not _is_loopback(host):
             sys.stdout.write(

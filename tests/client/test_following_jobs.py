@@ -6,7 +6,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from jointplay.client import Client, NotFound, Refused, Unreachable, events
+from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, events
 from service.app import create_app
 from storage.catalogue import BlockState, Catalogue
 from storage.settings import Settings
@@ -35,7 +35,7 @@ def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
         elif not job.is_finished:
             worker.finish(report.claim, BlockState.done)
 
-    job = client.wait(job_id, report)
+    job = client.job(job_id).wait(report=report)
     assert seen == [
         ("queued", 0.0, None),
         ("running", 0.0, None),
@@ -49,10 +49,10 @@ def test_a_lost_service_is_an_error_and_not_an_end(tmp_path, monkeypatch):
     monkeypatch.setattr(events, "_PATIENCE", 0.5)
     with serving(create_app(Settings(data=tmp_path / "data"))) as url:
         client = Client(url)
-        job_id = client.submit(PENDULUM).id
+        job = client.submit(PENDULUM)
     began = time.monotonic()
     with pytest.raises(Unreachable):
-        client.wait(job_id)
+        job.wait()
     assert time.monotonic() - began < 10
     client.close()
 
@@ -77,7 +77,7 @@ def test_a_service_that_comes_back_is_followed_on(tmp_path, monkeypatch):
         monkeypatch.setattr(client._connection, "lines", breaking)
         timer = threading.Timer(0.5, catalogue.request_cancel, [job_id])
         timer.start()
-        assert client.wait(job_id, timeout=30).state == "cancelled"
+        assert client.job(job_id).wait(timeout=30, check=False).state == "cancelled"
         assert len(broken) == 2
         timer.join()
     catalogue.close()
@@ -90,10 +90,10 @@ def test_an_identical_job_is_found_a_key_repeats_and_an_estimate_queues_nothing(
     assert (first.cached, client.submit(job).cached) == (False, True)
     assert client.estimate(job).cached
     anew = job | {"cache": False}
-    repeated = [client.submit(anew, key="from-python").id for _ in range(2)]
+    repeated = [client.submit(anew, idempotency_key="from-python").id for _ in range(2)]
     assert repeated[0] == repeated[1] != first.id
     with pytest.raises(Refused) as caught:
-        client.submit(anew | {"duration": 1.5}, key="from-python")
+        client.submit(anew | {"duration": 1.5}, idempotency_key="from-python")
     assert caught.value.problem == "key-reused"
 
 
@@ -108,8 +108,12 @@ def test_jobs_are_found_by_what_they_are(client, worker):
         job_id
     ]
     assert list(client.jobs(**chosen, since=now + hour)) == []
-    client.delete(job_id)
+    found.delete()
     assert list(client.jobs(**chosen)) == []
-    with pytest.raises(Refused) as caught:
-        client.get(job_id)
-    assert (caught.value.status, isinstance(caught.value, NotFound)) == (410, False)
+    with pytest.raises(Expired):
+        client.job(job_id)
+
+
+def test_a_job_is_not_deleted_before_it_is_finished(client, worker):
+    with pytest.raises(NotFinished, match="cancel it"):
+        client.job(worker.submit()).delete()

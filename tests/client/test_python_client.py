@@ -9,10 +9,13 @@ import pytest
 from jointplay.client import (
     Client,
     ClientError,
+    JobCancelled,
+    JobFailed,
     NotFound,
     Refused,
     ResultsNotReady,
     ServiceFailure,
+    TimedOut,
     Unreachable,
 )
 from storage.catalogue import BlockState, JobError
@@ -30,10 +33,10 @@ def test_a_submitted_job_can_be_looked_at_listed_and_cancelled(client):
     job = client.submit(PENDULUM | {"label": "from Python", "cache": False})
     assert (job.state, job.label, job.error) == ("queued", "from Python", None)
     assert not job.is_finished
-    assert client.get(job.id) == job
+    assert client.job(job.id) == job
     assert next(iter(client.jobs())).id == job.id
-    assert client.cancel(job.id).state == "cancelled"
-    assert client.get(job.id).is_finished
+    assert job.cancel().state == "cancelled"
+    assert client.job(job.id).is_finished
 
 
 def test_jobs_of_several_pages_are_listed_once(fresh_service):
@@ -61,7 +64,7 @@ def test_a_number_that_json_does_not_know_is_refused_by_the_service(client):
 @pytest.mark.parametrize("job_id", ["nope", "../scenes", "a/b", "ü\n"])
 def test_an_unknown_job_is_not_found(client, job_id):
     with pytest.raises(NotFound):
-        client.get(job_id)
+        client.job(job_id)
 
 
 def test_waiting_reports_progress_and_returns_the_finished_job(client, worker):
@@ -76,75 +79,80 @@ def test_waiting_reports_progress_and_returns_the_finished_job(client, worker):
         elif job.state == "running":
             worker.finish(report.claim, BlockState.done)
 
-    assert client.wait(job_id, report).state == "succeeded"
+    assert client.job(job_id).wait(report=report).state == "succeeded"
     assert seen == ["queued", "running", "succeeded"]
 
 
 def test_waiting_ends_at_its_time_limit_and_leaves_the_job_alone(client, worker):
     job_id = worker.submit()
-    with pytest.raises(ClientError, match="still queued"):
-        client.wait(job_id, timeout=0.1)
-    assert client.get(job_id).state == "queued"
+    with pytest.raises(TimedOut, match="still queued"):
+        client.job(job_id).wait(timeout=0.1)
+    assert client.job(job_id).state == "queued"
 
 
 def test_a_failed_job_says_why(client, worker):
     claim = worker.start(worker.submit())
     error = JobError("limit", "step-limit", "Took 10 million steps; loosen the tolerance.")
     worker.finish(claim, BlockState.failed, error)
-    job = client.wait(claim.job.id)
-    assert job.error is not None
+    with pytest.raises(JobFailed, match="loosen the tolerance") as caught:
+        client.job(claim.job.id).wait()
+    job = caught.value.job
     assert (job.error.kind, job.error.detail) == ("limit", error.detail)
+    assert client.job(claim.job.id).wait(check=False).state == "failed"
+    with pytest.raises(JobCancelled):
+        client.job(worker.submit()).cancel().wait()
 
 
-def test_results_come_as_arrays_with_units(client, finished_job):
-    history = client.history(finished_job, ["slider7.x", "A.*"], start=0.0, stop=0.1)
-    assert history.complete
-    assert history.time.shape == history["slider7.x"].shape == (101,)
-    assert history.channels["slider7.x"].unit == "m"
-    assert np.ptp(history["slider7.x"] - history.time) < 1e-12  # stored as column + time
-    section = client.poincare(finished_job, ["A.eccentricity_x"])
-    assert section.time.tolist() == [0.0, 1.0]
-    assert section.note == ""
-    peak = client.peaks(finished_job)["slider7.ax"]
-    assert (peak.unit, peak.minimum, peak.maximum_time) == ("m/s^2", -1.0, 0.75)
-    impacts = client.impacts(finished_job)
-    assert impacts.joint == ["B"]
-    assert np.isnan(impacts.release).all()
+def test_a_window_comes_as_arrays_with_units(client, finished_job):
+    window = client.job(finished_job).window(["slider7.x", "A.*"], 0.0, 0.1)
+    assert (window.complete, window.exact) == (True, True)
+    assert window.time.shape == window["slider7.x"].shape == (101,)
+    assert window.channels["slider7.x"].unit == "m"
+    assert np.ptp(window["slider7.x"] - window.time) < 1e-12  # stored as column + time
+
+
+def test_a_window_at_the_resolution_of_a_screen_keeps_the_extremes(client, finished_job):
+    window = client.job(finished_job).window("slider7.x", points=10)
+    assert not window.exact
+    assert len(window.time) <= 20
+    low, high = window["slider7.x"].reshape(-1, 2).T
+    assert (low <= high).all()
+    whole = client.job(finished_job).window("slider7.x")["slider7.x"]
+    assert (low.min(), high.max()) == (whole.min(), whole.max())
 
 
 def test_results_too_large_for_one_answer_come_whole(client, worker):
     job_id = worker.finished(output_step=1e-4)  # 20 001 samples of 95 channels: 2 answers
-    history = client.history(job_id)
+    history = client.job(job_id).window()
     time = np.linspace(0.0, 2.0, 20_001)
     np.testing.assert_array_equal(history.time, time)
     for column, one in enumerate(history.channels.values()):
         np.testing.assert_array_equal(one.values, column + time)
     with pytest.raises(Refused, match=r"slider7\.vx"):  # other refusals stay what they are
-        client.history(job_id, ["slider7.vX"])
-
-
-def test_sections_and_impacts_of_a_window_can_be_asked_for(client, finished_job):
-    assert client.poincare(finished_job, ["A.force_x"], start=0.5).time.tolist() == [1.0]
-    assert client.impacts(finished_job, start=0.5, stop=0.5).onset.tolist() == [0.5]
-    assert client.impacts(finished_job, stop=0.4).joint == []
+        client.job(job_id).window("slider7.vX")
 
 
 def test_statistics_hold_the_energy_ledger(client, finished_job):
-    assert client.statistics(finished_job)["energy"]["residual"] == 1e-6
+    assert client.job(finished_job).statistics["energy"]["residual"] == 1e-6
 
 
-def test_figures_come_as_files(client, finished_job):
-    names = client.figures(finished_job)
-    assert "orbit" in names
-    assert client.figure(finished_job, "orbit").startswith(b"\x89PNG")
-    assert b"<svg" in client.figure(finished_job, "slider7.x", "svg")
+def test_figures_come_as_files(client, finished_job, tmp_path):
+    job = client.job(finished_job)
+    assert "orbit" in job.figures
+    picture = job.figure("orbit", joint="A")
+    assert picture._repr_png_().startswith(b"\x89PNG")
+    assert picture.save(tmp_path / "orbit").read_bytes() == picture.content
+    assert picture.content != job.figure("orbit", joint=["A", "B"]).content
+    assert "<svg" in job.figure("slider7.x", form="svg")._repr_svg_()
     with pytest.raises(NotFound, match="orbit"):
-        client.figure(finished_job, "obrit")
+        job.figure("obrit")
 
 
 def test_results_of_an_unfinished_job_are_not_ready(client, worker):
-    with pytest.raises(ResultsNotReady, match="is queued"):
-        client.peaks(worker.submit())
+    job = client.job(worker.submit())
+    for ask in (lambda: job.peaks, lambda: job.history, lambda: job.window("slider7.x")):
+        with pytest.raises(ResultsNotReady, match="is queued"):
+            ask()
 
 
 def test_scenes_can_be_fetched_and_run(client):
@@ -158,7 +166,7 @@ def test_nobody_there_is_said_clearly():
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
     with Client(f"http://127.0.0.1:{port}") as client, pytest.raises(Unreachable) as caught:
-        client.get("anything")
+        client.job("anything")
     assert f"http://127.0.0.1:{port}" in str(caught.value)
     assert "jointplay serve" in str(caught.value)
 
@@ -166,7 +174,7 @@ def test_nobody_there_is_said_clearly():
 @pytest.mark.parametrize("url", ["localhost:8000", "ftp://example.org", "http://[::1", ""])
 def test_an_address_that_is_none_is_refused(url):
     with pytest.raises(ClientError, match="is not an address"), Client(url) as client:
-        client.get("anything")
+        client.job("anything")
 
 
 def test_another_server_at_the_address_is_a_typed_error_too():
@@ -187,7 +195,7 @@ def test_another_server_at_the_address_is_a_typed_error_too():
         try:
             with Client(f"http://127.0.0.1:{server.server_port}") as client:
                 with pytest.raises(ServiceFailure, match="502"):
-                    client.get("anything")
+                    client.job("anything")
                 with pytest.raises(Refused, match="Forbidden"):
                     client.scenes()
         finally:

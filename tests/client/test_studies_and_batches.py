@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from jointplay import figures
-from jointplay.client import Client, ClientError, Refused, ResultsNotReady
+from jointplay.client import Client, NotFound, Refused, ResultsNotReady
 from jointplay.study_source import DONE, FAILED, RUNNING, WAITING
 from storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
@@ -19,14 +19,14 @@ def client(service_url):
 
 
 def test_a_study_comes_as_arrays(client, finished_study):
-    study = client.study(finished_study, ["A.eccentricity_*"])
+    study = client.job(finished_study).study(["A.eccentricity_*"])
     assert (study.kind, study.points, study.record, study.complete) == ("bifurcation", 20, 6, True)
     np.testing.assert_array_equal(study.values[:, 0], np.linspace(1e-4, 1e-3, 20))
     assert [(one.name, one.unit) for one in study.parameters] == [("clearance", "m")]
     assert np.flatnonzero(study.status == FAILED).tolist() == [3, 17]
     assert study.failures[17].code == "step-size-underflow"
     assert study.counts.tolist() == [3 if point in (3, 17) else 6 for point in range(20)]
-    names = client.get(finished_study).job["observables"]
+    names = client.job(finished_study).job["observables"]
     column = names.index("A.eccentricity_rate_x")
     rows = study.sections("A.eccentricity_rate_x")
     assert rows.shape == (20, 6)
@@ -42,7 +42,7 @@ def test_a_study_comes_as_arrays(client, finished_study):
 
 
 def test_a_sweep_comes_as_arrays(client, finished_sweep):
-    study = client.study(finished_sweep, channels=["A.normal_force"])
+    study = client.job(finished_sweep).study(channels=["A.normal_force"])
     assert (study.points, study.values.shape) == (6, (6, 2))
     assert study.values[3].tolist() == [2e-4, 0.05]
     peaks = study.peaks("A.normal_force")
@@ -51,9 +51,9 @@ def test_a_sweep_comes_as_arrays(client, finished_sweep):
 
 
 def test_what_comes_can_be_drawn_like_a_store(client, finished_study, finished_sweep):
-    study = client.study(finished_study, ["A.eccentricity_x"])
+    study = client.job(finished_study).study(["A.eccentricity_x"])
     assert figures.render(study, "A.eccentricity_x", "png").startswith(b"\x89PNG")
-    assert figures.render(client.study(finished_sweep), "sweep", "png").startswith(b"\x89PNG")
+    assert figures.render(client.job(finished_sweep).study(), "sweep", "png").startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("most", [150, 30])
@@ -61,9 +61,9 @@ def test_pages_of_points_and_windows_of_sections_are_put_together(
     client, finished_study, monkeypatch, most
 ):
     """150 values are some points of all sections; 30 are not even one point's."""
-    whole = client.study(finished_study, ["A.*", "B.*"])
+    whole = client.job(finished_study).study(["A.*", "B.*"])
     monkeypatch.setattr("service.studies.queries.MOST_VALUES", most)
-    pieces = client.study(finished_study, ["A.*", "B.*"])
+    pieces = client.job(finished_study).study(["A.*", "B.*"])
     np.testing.assert_array_equal(pieces.times, whole.times)
     for one in whole.observables:
         np.testing.assert_array_equal(pieces.sections(one.name), whole.sections(one.name))
@@ -75,9 +75,9 @@ def test_pages_of_points_and_windows_of_sections_are_put_together(
 def test_a_study_can_be_fetched_while_it_runs(client, worker):
     job = worker.submit(**BIFURCATION)
     with pytest.raises(ResultsNotReady, match="is queued"):
-        client.study(job)
+        client.job(job).study()
     worker.compute(worker.start(job, 1), points=3, sections=2)
-    study = client.study(job, ["A.eccentricity_x"])
+    study = client.job(job).study(["A.eccentricity_x"])
     assert not study.complete
     assert study.status.tolist() == [WAITING] * 8 + [DONE] * 2 + [RUNNING] + [WAITING] * 9
     assert study.counts[10] == 2
@@ -86,26 +86,26 @@ def test_a_study_can_be_fetched_while_it_runs(client, worker):
 def test_a_simulation_is_no_study_and_other_refusals_stay_what_they_are(
     client, finished_job, finished_study
 ):
-    with pytest.raises(ClientError, match="is a simulation"):
-        client.study(finished_job)
+    with pytest.raises(NotFound, match="of kind simulate"):
+        client.job(finished_job).study()
     with pytest.raises(Refused, match=r"did you mean A\.eccentricity_x"):
-        client.study(finished_study, ["A.excentricity_x"])
+        client.job(finished_study).study(["A.excentricity_x"])
 
 
 def test_a_figure_of_one_value(client, finished_study):
-    section = client.figure(finished_study, "section", "svg", start=4, stop=5, joints=["A"])
-    assert b"<svg" in section
+    section = client.job(finished_study).figure("section", start=4, stop=5, joint="A", form="svg")
+    assert b"<svg" in section.content
     with pytest.raises(Refused) as caught:
-        client.figure(finished_study, "section")
+        client.job(finished_study).figure("section")
     assert caught.value.fields[0].place == "start"
 
 
 def test_a_batch_is_submitted_looked_at_waited_for_and_cancelled(client, worker):
     batch = client.submit_batch([worker_job(), PENDULUM | {"label": "second"}], label="both")
-    assert (batch.label, batch.jobs, batch.counts["queued"], batch.is_finished) == (
+    assert (batch.label, batch.size, batch.counts["queued"], batch.is_finished) == (
         "both", 2, 2, False,
     )  # fmt: skip
-    first, second = client.batch_jobs(batch.id)
+    first, second = batch.jobs()
     assert (first.batch, second.label) == (batch.id, "second")
 
     def report(seen):
@@ -114,9 +114,9 @@ def test_a_batch_is_submitted_looked_at_waited_for_and_cancelled(client, worker)
             claim = worker.start(first.id)
             worker.store(claim)
             worker.finish(claim, BlockState.done)
-            client.cancel_batch(batch.id)
+            batch.cancel()
 
-    finished = client.wait_batch(batch.id, report)
+    finished = client.batch(batch.id).wait(report=report)
     assert (finished.counts["succeeded"], finished.counts["cancelled"]) == (1, 1)
     assert finished.fraction >= 0.5
 

@@ -34,7 +34,7 @@ def test_local_runs_are_drawn_over_one_another_with_a_table_of_peaks(jointplay, 
     assert "mass=2" in ended.out
     assert b"<svg" in (tmp_path / "both.svg").read_bytes()
     table = jointplay("compare", runs / "a", runs / "b", "-o", tmp_path / "c.png", "--json").out
-    rows = json.loads(table)
+    rows = json.loads(table)["peaks"]
     assert {row["run"] for row in rows} == {"mass=1", "mass=2"}
     for row in rows:
         assert row["minimum"] <= row["maximum"]

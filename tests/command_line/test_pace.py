@@ -2,7 +2,7 @@
 
 import pytest
 
-from jointplay.command_line.pace import Pace, duration
+from jointplay.pace import Pace, duration
 
 
 class Clock:

@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 
-from jointplay.command_line.progress import progress
+from jointplay.progress import progress
 
 
 def test_without_a_terminal_only_the_end_of_something_quick_is_told(capsys):
@@ -19,7 +19,7 @@ def test_without_a_terminal_only_the_end_of_something_quick_is_told(capsys):
 def test_a_terminal_shows_a_bar():
     ours, theirs = os.openpty()
     program = (
-        "from jointplay.command_line.progress import progress\n"
+        "from jointplay.progress import progress\n"
         "with progress('work') as report:\n"
         "    report(0.5, 'half'); report(1.0, 'all of it')\n"
     )
@@ -37,16 +37,16 @@ def test_a_terminal_shows_a_bar():
 def test_interrupted_waiting_says_how_to_come_back_and_leaves_the_job(http, worker, service_url):
     job_id = worker.submit()
     environment = {**os.environ, "JOINTPLAY_URL": service_url}
-    program = (  # the wait has begun once the service was asked
+    program = (  # the wait has begun once the service was asked again
         "import os, signal, sys\n"
-        "from jointplay.client import Client\n"
+        "from jointplay.client import Job\n"
         "from jointplay.command_line.application import run\n"
-        "get = Client.get\n"
-        "def asked(self, job_id):\n"
-        "    job = get(self, job_id)\n"
+        "look = Job.refresh\n"
+        "def asked(self):\n"
+        "    look(self)\n"
         "    os.kill(os.getpid(), signal.SIGINT)\n"
-        "    return job\n"
-        "Client.get = asked\n"
+        "    return self\n"
+        "Job.refresh = asked\n"
         "sys.exit(run(['show', '--wait', sys.argv[1]]))\n"
     )
     ended = subprocess.run(

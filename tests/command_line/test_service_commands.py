@@ -7,6 +7,7 @@ import socket
 
 import pytest
 
+from jointplay.client import retrying
 from storage.catalogue import BlockState, JobError
 
 
@@ -36,7 +37,7 @@ def test_jobs_are_listed_by_what_they_are_and_deleted(jointplay, at, worker):
     chosen = ["--state", "succeeded", "--kind", "simulate", "--scene", "seven-bar-press"]
     chosen += ["--label", "to be found", "--since", "2020-01-01"]
     listed = jointplay("ls", *chosen, "--json", *at)
-    job = json.loads(listed.out)
+    (job,) = json.loads(listed.out)["jobs"]
     assert (job["id"], job["state"], job["progress"]["fraction"]) == (job_id, "succeeded", 1.0)
     assert jointplay("ls", *chosen, "--before", "2020-01-01", *at).out == ""
     wrong = jointplay("ls", "--state", "asleep", *at)
@@ -123,9 +124,10 @@ def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finish
 
 
 @pytest.mark.parametrize(
-    "command", [["ls"], ["show", "x"], ["submit", "pendulum"], ["cancel", "x"]]
+    "command", [["ls"], ["show", "0" * 26], ["submit", "pendulum"], ["cancel", "x"]]
 )
-def test_where_nobody_answers_the_exit_code_is_five(jointplay, command):
+def test_where_nobody_answers_the_exit_code_is_five(jointplay, command, monkeypatch):
+    monkeypatch.setattr(retrying, "sleep", lambda seconds: None)
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
     ended = jointplay(*command, "--url", f"http://127.0.0.1:{port}")

@@ -140,7 +140,7 @@ def test_sections_and_points_are_exported(jointplay, at, finished_study, tmp_pat
     assert header == ["point", "clearance [m]", "section", "time [s]", "A.eccentricity_x [m]"]
     assert [row[0] for row in rows] == ["3"] * 3 + ["4"] * 6
     file = tmp_path / "points.json"
-    points = ["--points", "--format", "json", "-o", file]
+    points = ["--table", "points", "--json", "-o", file]
     assert jointplay("export", finished_study, *points, *at).code == 0
     document = json.loads(file.read_text())
     assert document["verdict"][:3] == ["undecided", "periodic", "quasi-periodic"]
@@ -171,9 +171,9 @@ def test_points_and_observables_that_there_are_not(jointplay, at, finished_study
 def test_of_a_simulation_there_are_no_points_and_no_samples_beyond_its_end(
     jointplay, at, finished_job
 ):
-    ended = jointplay("export", finished_job, "--points", *at)
+    ended = jointplay("export", finished_job, "--table", "points", *at)
     assert ended.code == 2
-    assert "--points" in ended.line()
+    assert "--table points" in ended.line()
     beyond = jointplay("export", finished_job, "--start", "5", *at)
     assert beyond.code == 2
     assert "no samples in this window" in beyond.line()

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from jointplay.client import Client
+from jointplay.client import Client, JobCancelled
 from jointplay.serving import running_service
 from jointplay.study_source import WAITING
 from storage.results import ResultReader
@@ -29,9 +29,9 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
     assert jointplay("run", *PRESS, "-o", tmp_path / "OUT").code == 0
     local = ResultReader(tmp_path / "OUT" / "results.zarr")
     with Client(url) as client:
-        job = client.get(job_id)
+        job = client.job(job_id)
         assert job.job == local.attributes["job"]
-        history, sections = client.history(job_id), client.poincare(job_id)
+        history, sections = job.window(), job.results.sections(None)
         for fetched, (time, columns) in (
             (history, local.history()),
             (sections, local.sections()),
@@ -40,11 +40,11 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
             assert fetched.channels.keys() == columns.keys()
             for name, column in columns.items():
                 assert fetched[name].tobytes() == column.tobytes(), name
-        peaks = {name: (peak.minimum, peak.maximum) for name, peak in client.peaks(job_id).items()}
+        peaks = {name: (peak.minimum, peak.maximum) for name, peak in job.results.peaks().items()}
         assert peaks == {name: (one.minimum, one.maximum) for name, one in local.peaks().items()}
         ledger = local.attributes["summary"]["energy"]
-        assert client.statistics(job_id)["energy"] == ledger
-        impacts, rows = client.impacts(job_id), local.impacts()
+        assert job.statistics["energy"] == ledger
+        impacts, rows = job.results.impacts(), local.impacts()
         assert [local.joints[index] for index in rows["joint"]] == impacts.joint
         assert len(impacts.joint) > 0
         np.testing.assert_array_equal(impacts.release, rows["release"])  # NaN where still open
@@ -59,8 +59,9 @@ def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_pa
     assert jointplay("run", *diagram, "-o", tmp_path / "OUT").code == 0
     local = StudyReader(tmp_path / "OUT" / "results.zarr")
     with Client(url) as client:
-        assert client.get(job_id).job == local.attributes["job"]
-        study = client.study(job_id)
+        job = client.job(job_id)
+        assert job.job == local.attributes["job"]
+        study = job.study()
         assert study.complete
         assert study.values.tobytes() == local.values.tobytes()
         assert study.times.tobytes() == local.section_times().tobytes()
@@ -69,7 +70,7 @@ def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_pa
             assert study.sections(name).tobytes() == local.sections(name).tobytes(), name
         for name, column in local.statistics.items():
             assert study.statistics[name].tobytes() == column.tobytes(), name
-        drawn = client.figure(job_id, "bifurcation")
+        drawn = job.figure("bifurcation").content
     assert drawn == (tmp_path / "OUT" / "figures" / "bifurcation.png").read_bytes()
     assert "20 done" in jointplay("show", job_id, "--url", url).out
 
@@ -79,19 +80,20 @@ def test_a_study_is_read_while_it_runs_and_keeps_what_it_has_when_cancelled(join
     job_id = jointplay("submit", *long, "--settle", "0", "--url", url).out.strip()
     with Client(url) as client:
         seen = None
+        job = client.job(job_id)
 
         def look(job):
             nonlocal seen
             if seen is None and job.progress.fraction > 0.0:
-                seen = client.study(job_id, ["P.eccentricity_x"], sections=(0, 10))
-                client.cancel(job_id)
+                seen = job.study(["P.eccentricity_x"], sections=(0, 10))
+                job.cancel()
 
-        assert client.wait(job_id, look, timeout=120.0).state == "cancelled"
+        assert job.wait(report=look, timeout=120.0, check=False).state == "cancelled"
         assert seen is not None
         assert not seen.complete
         assert (seen.status == WAITING).any()
         assert (seen.counts > 0).any()
-        kept = client.study(job_id, ["P.eccentricity_x"], sections=(0, 10))
+        kept = job.study(["P.eccentricity_x"], sections=(0, 10))
         assert (kept.counts >= seen.counts).all()
         recorded = np.isfinite(seen.times)
         np.testing.assert_array_equal(
@@ -117,10 +119,10 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
     assert states == "4 jobs: 4 succeeded"
     with Client(url) as client:
         assert client.batch(batch).fraction == 1.0
-        _, sweep, poincare, ensemble = client.batch_jobs(batch)
-        assert np.isfinite(client.study(sweep.id).peaks("displacement").maximum).all()
-        assert client.study(poincare.id).counts.tolist() == [3]
-        assert client.study(ensemble.id).counts.tolist() == [3, 3]
+        _, sweep, poincare, ensemble = client.batch(batch).jobs()
+        assert np.isfinite(sweep.study().peaks("displacement").maximum).all()
+        assert poincare.study().counts.tolist() == [3]
+        assert ensemble.study().counts.tolist() == [3, 3]
 
 
 def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):
@@ -135,8 +137,10 @@ def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):
                 assert jointplay("cancel", job_id, "--url", url).code == 0
                 cancelled = True
 
-        assert client.wait(job_id, cancel_once_it_moves, timeout=120.0).state == "cancelled"
-        history = client.history(job_id)
+        job = client.job(job_id)
+        with pytest.raises(JobCancelled):
+            job.wait(report=cancel_once_it_moves, timeout=120.0)
+        history = job.window()
         assert not history.complete
         assert 0 < len(history.time) < 200_001
         assert np.isfinite(history["displacement"]).all()
@@ -150,10 +154,10 @@ def test_a_job_that_fails_says_why_and_keeps_what_it_computed(jointplay, url):
     assert ended.code == 3
     assert "larger tolerance" in ended.err.splitlines()[-1]
     with Client(url) as client:
-        job = client.get(ended.out.strip())
+        job = client.job(ended.out.strip())
         assert job.error is not None
         assert job.error.kind == "solver"
-        history = client.history(job.id, ["displacement"])
+        history = job.window("displacement")
         assert not history.complete
         assert 0.0 < history.time[-1] < 0.05
 

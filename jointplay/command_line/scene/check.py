@@ -5,10 +5,13 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line import job_document
-from jointplay.command_line.scene.assembled import SCENE, assemble_scene
+from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.scene.assembled import SCENE, AssembledScene, assemble_scene
 
 
-def check(source: Annotated[str, SCENE], settings: job_document.SET = None) -> None:
+def check(
+    source: Annotated[str, SCENE], settings: job_document.SET = None, as_json: AS_JSON = False
+) -> None:
     """Check a mechanism before it is run: freedom, redundant constraints, assembly.
 
     Of a mechanism that cannot be run the same is printed, and why; then the exit code is 2.
@@ -19,10 +22,35 @@ def check(source: Annotated[str, SCENE], settings: job_document.SET = None) -> N
 
     scene = assemble_scene(source, settings or ())
     assembly, admission = scene.assembly, scene.admission
+    joints = list(clearances(scene.document))
+    if as_json:
+        print_json(
+            {
+                "scene": scene.document["name"],
+                "bodies": list(scene.document["bodies"]),
+                "joints_with_clearance": joints,
+                "freedom": assembly.freedom_with_play,
+                "ideal_freedom": assembly.freedom,
+                "redundant": assembly.redundant_with_play,
+                "ideal_redundant": assembly.redundant,
+                "residual": assembly.residual,
+                "period": None if admission is None else admission.period,
+                "channels": None if admission is None else len(admission.channels),
+                "problems": [] if scene.refusal is None else list(scene.refusal.problems),
+            }
+        )
+    else:
+        _print(scene, joints)
+    if scene.refusal is not None:
+        raise scene.refusal
+
+
+def _print(scene: AssembledScene, joints: list[str]) -> None:
+    assembly, admission = scene.assembly, scene.admission
     lines = {
         "scene": scene.document["name"],
         "bodies": ", ".join(scene.document["bodies"]),
-        "joints with clearance": ", ".join(clearances(scene.document)) or "none",
+        "joints with clearance": ", ".join(joints) or "none",
         "degrees of freedom": f"{assembly.freedom_with_play} ({assembly.freedom} if ideal)",
         "redundant constraints": f"{assembly.redundant_with_play} ({assembly.redundant} if ideal)",
         "assembly residual": f"{assembly.residual:.2g} m or rad",
@@ -33,5 +61,3 @@ def check(source: Annotated[str, SCENE], settings: job_document.SET = None) -> N
         lines["channels"] = str(len(admission.channels))
     for name, value in lines.items():
         typer.echo(f"{name:22} {value}")
-    if scene.refusal is not None:
-        raise scene.refusal

@@ -8,6 +8,7 @@ import typer
 from jointplay.command_line import job_document
 from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.json_output import AS_JSON, print_json
 from jointplay.command_line.scene.assembled import SCENE, assemble_scene
 
 
@@ -18,6 +19,7 @@ def draw(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg; default NAME.png."),
     ] = None,
+    as_json: AS_JSON = False,
 ) -> None:
     """Draw a mechanism as it stands at t = 0.
 
@@ -34,6 +36,10 @@ def draw(
         raise Stopped(Exit.BAD_INPUT, f"-o {file}: name a file that ends in .png or .svg.")
     form: Form = "svg" if file.suffix == ".svg" else "png"
     file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
-    typer.echo(file)
+    if as_json:
+        problems = [] if scene.refusal is None else list(scene.refusal.problems)
+        print_json({"figure": str(file), "problems": problems})
+    else:
+        typer.echo(file)
     if scene.refusal is not None:
         typer.echo(f"jointplay: drawn, but it cannot be run. {scene.refusal}", err=True)

@@ -4,6 +4,8 @@ from typing import Annotated
 
 import typer
 
+from jointplay.command_line.json_output import print_json
+
 
 def show(
     name: Annotated[str, typer.Argument(metavar="PRESET", help="Name of a preset.")],
@@ -15,13 +17,11 @@ def show(
 
     Example: `jointplay scene show slider-crank --json > mine.json`
     """
-    import json
-
     from solver import presets
 
     scene = presets.document(name, pointer="PRESET")
     if document:
-        typer.echo(json.dumps(scene, indent=2))
+        print_json(scene)
         return
     typer.echo(f"{scene['name']}: {scene['description']}")
     typer.echo(f"source: {scene.get('source') or 'none'}")

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from jointplay.command_line.pace import Pace, duration
+from jointplay.pace import Pace, duration
 
 _QUIET = 5.0  # s between two plain lines: a log stays readable
 

@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import signal
+import sys
 from collections.abc import Callable, Iterator, MutableSequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -10,12 +11,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from jointplay.command_line.exits import Exit, Stopped
+from jointplay.local.interruption import interruption
 
 if TYPE_CHECKING:
     from solver.admission import Study
 
 _POLL = 0.1  # s between two looks at the progress of other processes
+
+
+class ProcessDied(Exception):
+    """A process that computed a part of the study died; what others stored is kept."""
+
+
 Report = Callable[[float, str], None]
 
 
@@ -38,6 +45,11 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     bool
         Whether the study came to its end; not if it was interrupted by Ctrl-C.  The store is
         sealed then, otherwise it keeps what was computed.
+
+    Raises
+    ------
+    ProcessDied
+        One of the processes was ended from outside.
     """
     from worker.study_block import create_store, seal_store
 
@@ -62,7 +74,7 @@ def _here(study: "Study", folder: Path, processes: int, report: Report) -> bool:
     """Compute all blocks in this process, one after the other."""
     from worker.study_block import StudyProgress, run_block
 
-    with _ending() as asked_to_end:
+    with interruption() as asked_to_end:
         for index, (first, count) in enumerate(study.blocks):
 
             def go_on(done: StudyProgress, first: int = first, count: int = count) -> str:
@@ -85,10 +97,11 @@ def _spread(study: "Study", folder: Path, processes: int, report: Report) -> boo
     shared = (study.job, str(folder), fractions, ended, leave)
     counts = [count for _, count in study.blocks]
     with (
-        _ending() as asked_to_end,
+        interruption() as asked_to_end,
         ProcessPoolExecutor(processes, context, _begin, shared) as pool,
     ):
-        running: set[Future[str]] = {pool.submit(_block, i) for i in range(len(study.blocks))}
+        with _without_main():
+            running: set[Future[str]] = {pool.submit(_block, i) for i in range(len(study.blocks))}
         states: list[str] = []
         try:
             while running:
@@ -102,8 +115,7 @@ def _spread(study: "Study", folder: Path, processes: int, report: Report) -> boo
                 if any(fractions):
                     report(weighted / study.points, f"{sum(ended)} of {study.points} points")
         except BrokenProcessPool:
-            line = "a process that computed a part of the study died; what others stored is kept"
-            raise Stopped(Exit.FAILED, line) from None
+            raise ProcessDied from None
         finally:
             leave.value = 1  # after an error too, nobody goes on for nothing
             pool.shutdown(wait=False, cancel_futures=True)
@@ -111,19 +123,18 @@ def _spread(study: "Study", folder: Path, processes: int, report: Report) -> boo
 
 
 @contextmanager
-def _ending() -> Iterator[Callable[[], bool]]:
-    """Turn Ctrl-C into a question: the blocks end between two slices of a quarter second."""
-    asked = False
+def _without_main() -> Iterator[None]:
+    """Start processes that do not begin by running the caller's script again.
 
-    def end(signal_number: int, frame: object) -> None:
-        nonlocal asked
-        asked = True
-
-    before = signal.signal(signal.SIGINT, end)
+    They would look for functions in it; ours are in this module.
+    """
+    main = sys.modules["__main__"]
+    hidden = {name: main.__dict__.pop(name, None) for name in ("__file__", "__spec__")}
+    main.__spec__ = None
     try:
-        yield lambda: asked
+        yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        main.__dict__.update({name: one for name, one in hidden.items() if one is not None})
 
 
 class _Process:

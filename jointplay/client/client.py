@@ -1,0 +1,192 @@
+"""`Client`: jobs, batches and scenes of one service."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from inspect import Parameter, signature
+from types import TracebackType
+from typing import Any, Concatenate, ParamSpec, Self
+
+import httpx
+
+from jointplay import jobs as documents
+from jointplay.client.batches import Batch, batch_of, jobs_of
+from jointplay.client.connection import DEFAULT_URL, Connection, segment
+from jointplay.client.estimates import Estimate
+from jointplay.client.job import Job
+from jointplay.client.keeper import ServiceKeeper
+
+MOST_JOBS = 10_000
+"""Jobs that the service takes in one batch."""
+Given = ParamSpec("Given")
+
+
+def _submitting(
+    describe: Callable[Given, dict[str, Any]],
+) -> Callable[Concatenate["Client", Given], Job]:
+    """Make a method that submits what `describe` describes."""
+
+    def submit(self: "Client", /, *args: Given.args, **kwargs: Given.kwargs) -> Job:
+        return self.submit(describe(*args, **kwargs))
+
+    described = signature(describe)
+    own = Parameter("self", Parameter.POSITIONAL_OR_KEYWORD)
+    told: Any = submit  # for those who ask with help() or a question mark
+    told.__name__, told.__doc__ = describe.__name__, describe.__doc__
+    told.__signature__ = described.replace(
+        parameters=[own, *described.parameters.values()], return_annotation=Job
+    )
+    return submit
+
+
+class Client:
+    """A connection to one service.
+
+    ``client.simulate("seven-bar-press", clearance=5e-4, duration=2)`` submits a job and returns
+    it at once; `bifurcation`, `sweep`, `poincare` and `ensemble` likewise, as `jointplay.jobs`
+    describes them.  A job that equals one that is queued, running or succeeded is not computed
+    again: that one is returned, and ``cached``, unless ``cache=False`` is given.
+
+    Requests are repeated when the service asks for it (429, 503) or the connection was lost; none
+    has its effect twice.
+
+    Parameters
+    ----------
+    url
+        Address of the service; default the variable JOINTPLAY_URL, else this machine.
+    key
+        API key, sent with each request; default the variable JOINTPLAY_KEY.
+    timeout
+        Longest wait for one answer, s.
+    transport
+        Another httpx transport, for example one that speaks to an application in process.
+    """
+
+    def __init__(
+        self,
+        url: str | None = None,
+        *,
+        key: str | None = None,
+        timeout: float = 60.0,
+        transport: httpx.BaseTransport | None = None,
+    ) -> None:
+        address = os.environ.get("JOINTPLAY_URL", DEFAULT_URL) if url is None else url
+        secret = os.environ.get("JOINTPLAY_KEY") if key is None else key
+        self._connection = Connection(address, secret, timeout, transport)
+        self._keeper = ServiceKeeper(self._connection)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"Client({self._connection.url!r})"
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._connection.close()
+
+    simulate = _submitting(documents.simulate)
+    bifurcation = _submitting(documents.bifurcation)
+    sweep = _submitting(documents.sweep)
+    poincare = _submitting(documents.poincare)
+    ensemble = _submitting(documents.ensemble)
+
+    def submit(self, document: Mapping[str, Any], *, idempotency_key: str | None = None) -> Job:
+        """Queue a job that is given as a document; `Refused` names every field that is wrong.
+
+        Parameters
+        ----------
+        document
+            The job, as `jointplay.jobs` makes them or docs/http.md describes them.
+        idempotency_key
+            Sent again with the same job, also by another process, it finds what the first request
+            made; by default every call has its own.
+        """
+        answer = self._connection.post("/v1/jobs", dict(document), idempotency_key)
+        return Job(answer.json(), self._keeper)
+
+    def map(self, jobs: Iterable[Mapping[str, Any]], *, label: str = "") -> Iterator[Job]:
+        """Queue many jobs at once, and yield each when it and those before it are finished.
+
+        The order is that of the documents.  Jobs that failed are yielded, too: look at ``state``
+        or call `Job.check`.  Nothing is queued if a document is wrong (of more than 10 000, which
+        are several batches, nothing from its batch on).
+
+        Parameters
+        ----------
+        jobs
+            Documents, as `jointplay.jobs` makes them.
+        label
+            A name for the batch.
+        """
+        given = list(jobs)
+        batches = [
+            self.submit_batch(given[first : first + MOST_JOBS], label)
+            for first in range(0, len(given), MOST_JOBS)
+        ]
+        return (job.wait(check=False) for batch in batches for job in batch.jobs())
+
+    def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
+        """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""
+        body = {"jobs": [dict(document) for document in jobs], "label": label}
+        return batch_of(self._connection, self._connection.post("/v1/batches", body).json())
+
+    def estimate(self, document: Mapping[str, Any]) -> Estimate:
+        """Return what a job will cost; nothing is queued."""
+        answer = self._connection.post("/v1/estimates", dict(document)).json()
+        return Estimate.from_document(answer)
+
+    def job(self, job_id: str) -> Job:
+        """Return a job by its id, as it is now."""
+        return Job(self._connection.get(f"/v1/jobs/{segment(job_id)}").json(), self._keeper)
+
+    def jobs(
+        self,
+        *,
+        state: str | None = None,
+        kind: str | None = None,
+        label: str | None = None,
+        scene: str | None = None,
+        since: datetime | None = None,
+        before: datetime | None = None,
+    ) -> Iterator[Job]:
+        """Yield jobs, newest first, fetching pages as they are needed.
+
+        Parameters
+        ----------
+        state, kind, label, scene
+            Only jobs with these; a scene by the name of its preset or its own.
+        since, before
+            Only jobs submitted in this time, the end not included.
+        """
+        window = {"since": _text(since), "before": _text(before)}
+        chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
+        yield from jobs_of(self._connection, "/v1/jobs", chosen | window)
+
+    def batch(self, batch_id: str) -> Batch:
+        """Return a batch by its id, as it is now."""
+        found = self._connection.get(f"/v1/batches/{segment(batch_id)}")
+        return batch_of(self._connection, found.json())
+
+    def scenes(self) -> list[dict[str, Any]]:
+        """Return the presets: name, description, source and parameters of each."""
+        scenes: list[dict[str, Any]] = self._connection.get("/v1/scenes").json()["scenes"]
+        return scenes
+
+    def scene(self, name: str) -> dict[str, Any]:
+        """Return the scene document of a preset."""
+        document: dict[str, Any] = self._connection.get(f"/v1/scenes/{segment(name)}").json()
+        return document
+
+
+def _text(moment: datetime | None) -> str | None:
+    """Return a moment as the service takes it; one without a zone is this machine's."""
+    return None if moment is None else moment.astimezone(UTC).isoformat()

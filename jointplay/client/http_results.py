@@ -1,0 +1,149 @@
+"""Results of a job of a service."""
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from jointplay.client import studies
+from jointplay.client.connection import Connection, segment
+from jointplay.client.job_record import JobRecord
+from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
+from jointplay.client.window import Window, floats
+from jointplay.client.windows import pieces
+from jointplay.dataset import Channel, Dataset
+from jointplay.study_dataset import StudyDataset
+
+
+class HttpResults:
+    """The `Results` of a job of a service; what is too large for one answer comes in several."""
+
+    def __init__(self, connection: Connection, job: JobRecord) -> None:
+        self._connection = connection
+        self._job = job
+        self._path = f"/v1/jobs/{segment(job.id)}"
+
+    def store(self) -> Store:
+        """Return the address of the job's store."""
+        session = {
+            "headers": self._connection.headers,
+            "trust_env": self._connection.trusts_environment,
+        }
+        return Store(f"{self._connection.url}{self._path}/zarr", {"client_kwargs": session})
+
+    def window(
+        self,
+        channels: Sequence[str] | None,
+        start: float | None,
+        stop: float | None,
+        points: int | None,
+    ) -> Window:
+        """Return channels from ``start`` to ``stop``, in s."""
+        chosen = {"channels": _joined(channels), "points": points}
+        if points is not None:
+            document = self._document("history", {**chosen, "start": start, "stop": stop})
+            return Window.from_document(document)
+        found = self._windows("history", start, stop, **chosen)
+        return Window.joined([Window.from_document(document) for document in found])
+
+    def sections(self, channels: Sequence[str] | None) -> Window:
+        """Return channels at the Poincare sections of a simulation."""
+        found = self._windows("poincare", None, None, channels=_joined(channels))
+        return Window.joined([Window.from_document(document) for document in found])
+
+    def peaks(self) -> Mapping[str, Peak]:
+        """Return the signed extremes of every channel."""
+        names = ("minimum", "minimum_time", "maximum", "maximum_time")
+        return {
+            channel: Peak(peak["unit"], *floats([peak[name] for name in names]).tolist())
+            for channel, peak in self._document("peaks")["peaks"].items()
+        }
+
+    def impacts(self) -> Impacts:
+        """Return the contacts of the clearance joints."""
+        found = self._windows("impacts", None, None)
+        rows = [row for document in found for row in document["impacts"]]
+        if len(found) > 1:  # windows are of onsets
+            rows.sort(key=lambda row: math.inf if row["release"] is None else row["release"])
+        columns = {name: floats([row[name] for row in rows]) for name in IMPACT_UNITS}
+        return Impacts(joint=[row["joint"] for row in rows], **columns)
+
+    def statistics(self) -> dict[str, Any]:
+        """Return what the run cost, and its energy ledger."""
+        return self._document("statistics")
+
+    def certificate(self) -> dict[str, Any]:
+        """Return how far the run can be believed."""
+        return self._document("certificate")
+
+    def study(
+        self,
+        observables: Sequence[str] | None,
+        channels: Sequence[str] | None,
+        sections: tuple[int, int] | None,
+    ) -> StudyDataset:
+        """Return the points of a study, fetched as they are now."""
+        if "sweep" in self._job.links:
+            fetch = partial(self._query, "sweep", channel=_joined(channels))
+            return studies.with_extremes(self._job, fetch)
+        fetch = partial(self._query, "poincare", channels=_joined(observables))
+        window = sections or (0, int(self._job.job["record"]))
+        return studies.with_sections(self._job, fetch, window)
+
+    def source(
+        self, channels: Sequence[str] | None, start: float | None, stop: float | None
+    ) -> Dataset:
+        """Return a window of a simulation, fetched."""
+        window = self.window(channels, start, stop, None)
+        return Dataset(
+            attributes={},
+            channels=[
+                Channel(name, one.unit, one.long_name) for name, one in window.channels.items()
+            ],
+            time=window.time,
+            values={name: one.values for name, one in window.channels.items()},
+            complete=window.complete,
+        )
+
+    def figures(self) -> list[str]:
+        """Return the names of the figures that can be drawn."""
+        return [figure["name"] for figure in self._document("figures")["figures"]]
+
+    def figure(
+        self,
+        name: str,
+        form: Form,
+        *,
+        channels: Sequence[str],
+        joints: Sequence[str],
+        start: float | None,
+        stop: float | None,
+    ) -> bytes:
+        """Return a figure, drawn by the service."""
+        query = {
+            "channels": _joined(channels or None),
+            "joints": _joined(joints or None),
+            "start": start,
+            "stop": stop,
+        }
+        path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
+        return self._connection.get(path, query).content
+
+    def _windows(
+        self, name: str, start: float | None, stop: float | None, **query: Any
+    ) -> list[dict[str, Any]]:
+        def fetch(start: float | None, stop: float | None) -> dict[str, Any]:
+            return self._document(name, {**query, "start": start, "stop": stop})
+
+        return list(pieces(fetch, start, stop, lambda: float(self._job.job["duration"])))
+
+    def _query(self, name: str, **query: Any) -> dict[str, Any]:
+        return self._document(name, query)
+
+    def _document(self, name: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        document: dict[str, Any] = self._connection.get(f"{self._path}/{name}", query).json()
+        return document
+
+
+def _joined(names: Sequence[str] | None) -> str | None:
+    return None if names is None else ",".join(names)

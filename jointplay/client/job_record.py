@@ -1,0 +1,131 @@
+"""What is known of a job: the service's description of it, as it was last seen."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from datetime import datetime
+from typing import Any
+
+from jointplay.client.errors import ClientError
+
+TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a job is: simulated ``time`` in s, and ``fraction`` of the whole from 0 to 1.
+
+    ``steps`` of the solver are known once it has told.
+    """
+
+    time: float
+    fraction: float
+    steps: int | None = None
+
+
+@dataclass(frozen=True)
+class JobError:
+    """Why a job failed.
+
+    ``kind`` is "user", "solver", "platform" or "limit" (``error.class`` of the service).
+    """
+
+    kind: str
+    detail: str
+
+
+@dataclass
+class JobRecord:
+    """One job; ``job`` is its document with every default filled in.
+
+    ``activity`` says what it is busy with before it advances, such as compiling.  ``cached``: the
+    answer to a submission was a job that was there already.
+    """
+
+    id: str
+    kind: str
+    label: str | None
+    batch: str | None
+    state: str
+    activity: str | None
+    progress: Progress
+    attempt: int
+    created: datetime
+    started: datetime | None
+    finished: datetime | None
+    expires: datetime | None
+    error: JobError | None
+    links: dict[str, str]
+    job: dict[str, Any]
+    solver_version: str | None
+    cached: bool = field(default=False, compare=False)
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether the state will not change any more."""
+        return self.state in TERMINAL_STATES
+
+    @property
+    def scene_name(self) -> str:
+        """Name of the preset, or of the scene that was given whole."""
+        scene = self.job["scene"]
+        return str(scene.get("preset") or scene.get("name"))
+
+    @property
+    def seconds(self) -> float | None:
+        """Time from the start of the computation to its end, s."""
+        if self.started is None or self.finished is None:
+            return None
+        return (self.finished - self.started).total_seconds()
+
+    @property
+    def done_so_far(self) -> str:
+        """How far it is, in words: simulated time, or of a study the part of all its points."""
+        done = f"{self.progress.fraction:.0%}"
+        return done if self.kind != "simulate" else f"t = {self.progress.time:.4g} s ({done})"
+
+    def to_document(self) -> dict[str, Any]:
+        """Return the job as JSON takes it."""
+        return {
+            name: value.isoformat() if isinstance(value, datetime) else value
+            for name, value in asdict(self).items()
+        }
+
+    def renew(self, document: Mapping[str, Any]) -> None:
+        """Take over what the service says now."""
+        for name, value in read_job(document).items():
+            setattr(self, name, value)
+
+    def advance(self, snapshot: Mapping[str, Any]) -> bool:
+        """Take over what an event says, and tell whether that is anything new."""
+        try:
+            news = {
+                "state": snapshot["state"],
+                "activity": snapshot["activity"],
+                "attempt": snapshot["attempt"],
+                "progress": Progress(**snapshot["progress"]),
+            }
+        except (KeyError, TypeError) as error:
+            raise ClientError(f"The service sent an event that is none: {snapshot}") from error
+        changed = any(getattr(self, name) != value for name, value in news.items())
+        for name, value in news.items():
+            setattr(self, name, value)
+        return changed
+
+
+def read_job(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a `JobRecord` from the service's JSON."""
+    error = document["error"]
+    same = ("id", "kind", "label", "batch", "state", "activity", "attempt", "links", "job")
+    moments = ("created", "started", "finished", "expires")
+    return {
+        **{name: document[name] for name in same},
+        **{name: _moment(document[name]) for name in moments},
+        "progress": Progress(**document["progress"]),
+        "error": None if error is None else JobError(error["class"], error["detail"]),
+        "solver_version": document["solver_version"],
+        **({"cached": document["cached"]} if "cached" in document else {}),
+    }
+
+
+def _moment(text: str | None) -> datetime | None:
+    return None if text is None else datetime.fromisoformat(text)

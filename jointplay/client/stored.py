@@ -1,0 +1,49 @@
+"""A job's stored arrays as xarray datasets, through stock Zarr clients."""
+
+from typing import TYPE_CHECKING
+
+from jointplay.client.errors import MissingExtra, NotFound, ResultsNotReady
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from jointplay.client.job import Job
+
+
+def open_group(job: "Job", group: str) -> "xr.Dataset":
+    """Open a group of a job's store; values are read when they are used.
+
+    Raises
+    ------
+    MissingExtra
+        xarray, or what it needs to read over HTTP, is not installed.
+    ResultsNotReady
+        The job has committed nothing yet.
+    NotFound
+        It has no such group, or ended before it committed anything.
+    """
+    store = job.results.store()
+    try:
+        import xarray as xr
+
+        found: xr.Dataset = xr.open_zarr(
+            store.address,
+            group=group or None,
+            chunks=None,  # lazy by itself, without dask
+            storage_options=store.options,
+        )
+    except ImportError as error:
+        raise missing_extra("stored arrays", error) from error
+    except (FileNotFoundError, KeyError) as error:  # of a group: no such key in the metadata
+        if not job.refresh().is_finished:
+            sentence = f"Job {job.id} is {job.state} and has committed nothing yet."
+            raise ResultsNotReady(sentence, status=409, problem="results-not-ready") from error
+        what = f"no group {group!r}" if group else "no results"
+        sentence = f"Job {job.id} is {job.state} and has {what}."
+        raise NotFound(sentence, status=404, problem="no-results") from error
+    return found
+
+
+def missing_extra(what: str, error: ImportError) -> MissingExtra:
+    """Say what to install."""
+    return MissingExtra(f"{what} need an extra: pip install 'jointplay[xarray]' ({error}).")

@@ -1,0 +1,101 @@
+"""Channels over a window of time, as numpy arrays with their units."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ChannelSeries:
+    """One channel over the times of its window: ``values`` (n,), in ``unit``."""
+
+    unit: str
+    long_name: str
+    values: Floats
+
+
+@dataclass(frozen=True)
+class Window:
+    """Channels over shared times; ``window["A.normal_force"]`` are the values of one, (n,).
+
+    Attributes
+    ----------
+    time
+        (n,) in s.
+    channels
+        By name.
+    complete
+        The run reached its end.
+    exact
+        These are all samples of the window.  If there were more than the points asked for, each
+        group of consecutive samples became two entries: its smallest value at the time of its
+        first sample, its largest at that of its last.  A line through them shows every peak;
+        ``values.reshape(-1, 2)`` has minimum and maximum side by side.
+    note
+        Of sections: why there are none, else empty.
+    """
+
+    time: Floats
+    channels: dict[str, ChannelSeries]
+    complete: bool
+    exact: bool = True
+    note: str = ""
+
+    def __getitem__(self, channel: str) -> Floats:
+        """Return the values of ``channel``, (n,)."""
+        return self.channels[channel].values
+
+    @classmethod
+    def from_document(cls, document: dict[str, Any]) -> Self:
+        """Read the service's JSON: samples, or the extremes of groups of samples."""
+        if "bins" in document:
+            bins = document["bins"]
+            return cls(
+                time=pairs(bins["first"], bins["last"]),
+                channels={
+                    name: ChannelSeries(
+                        one["unit"], one["long_name"], pairs(one["minimum"], one["maximum"])
+                    )
+                    for name, one in document["extremes"].items()
+                },
+                complete=document["complete"],
+                exact=False,
+            )
+        return cls(
+            time=floats(document["time"]["values"]),
+            channels={
+                name: ChannelSeries(one["unit"], one["long_name"], floats(one["values"]))
+                for name, one in document["channels"].items()
+            },
+            complete=document["complete"],
+            note=document.get("note", ""),
+        )
+
+    @classmethod
+    def joined(cls, pieces: Sequence[Self]) -> Self:
+        """Put consecutive windows of the same channels together."""
+        if len(pieces) == 1:
+            return pieces[0]
+        return replace(
+            pieces[0],
+            time=np.concatenate([piece.time for piece in pieces]),
+            channels={
+                name: replace(one, values=np.concatenate([piece[name] for piece in pieces]))
+                for name, one in pieces[0].channels.items()
+            },
+        )
+
+
+def floats(values: Sequence[float | None]) -> Floats:
+    """Return numbers as an array; null, where nothing was computed, becomes NaN."""
+    return np.array(values, dtype=np.float64)
+
+
+def pairs(first: Sequence[float | None], second: Sequence[float | None]) -> Floats:
+    """Return (2n,) of two columns, one of each in turn."""
+    return np.column_stack([floats(first), floats(second)]).ravel()

@@ -1,0 +1,27 @@
+"""What commands print for programs: one JSON document, on stdout."""
+
+import json
+import math
+from typing import Annotated, Any
+
+import typer
+
+AS_JSON = Annotated[bool, typer.Option("--json", help="Print one JSON document instead.")]
+
+
+def print_json(document: object) -> None:
+    """Print a document."""
+    typer.echo(json_text(document))
+
+
+def json_text(document: object) -> str:
+    """Return a document as JSON; NaN and infinity, which JSON does not have, become null."""
+    return json.dumps(_finite(document), indent=2, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {name: _finite(one) for name, one in value.items()}
+    return [_finite(one) for one in value] if isinstance(value, list | tuple) else value

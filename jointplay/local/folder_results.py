@@ -1,0 +1,163 @@
+"""Results of a job in a folder."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from jointplay import figures
+from jointplay.channel_choice import NoSuchChannel, choose
+from jointplay.client.errors import FieldProblem, NotFound, Refused
+from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
+from jointplay.client.window import ChannelSeries, Floats, Window
+from jointplay.local.folder import results_in, store_in
+from storage.results import ResultReader
+from storage.studies import StudyReader
+
+
+class FolderResults:
+    """The `Results` of a job in a folder; refusals are those of a service."""
+
+    def __init__(self, folder: Path) -> None:
+        self._store = store_in(folder)
+        self._reader = results_in(folder)
+
+    def store(self) -> Store:
+        """Return the path of the store."""
+        return Store(str(self._store), None)
+
+    def window(
+        self,
+        channels: Sequence[str] | None,
+        start: float | None,
+        stop: float | None,
+        points: int | None,
+    ) -> Window:
+        """Return channels from ``start`` to ``stop``, in s."""
+        run = self._run("history")
+        names = _chosen(channels, run)
+        if start is not None and stop is not None and start > stop:
+            raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
+        if points is not None and points < 1:
+            raise _refused("points", f"points is {points}; it is at least 1.")
+        first, last = run.between(start, stop)
+        if points is None or last - first <= points:
+            return _window(run, *run.history(names, first, last))
+        time, found = run.extremes(names, first, last, points)
+        columns = {name: pair.ravel() for name, pair in found.items()}
+        return _window(run, time.ravel(), columns, exact=False)
+
+    def sections(self, channels: Sequence[str] | None) -> Window:
+        """Return channels at the Poincare sections."""
+        run = self._run("sections in time")
+        return _window(
+            run,
+            *run.sections(_chosen(channels, run)),
+            note=str(run.attributes.get("section_note", "")),
+        )
+
+    def peaks(self) -> Mapping[str, Peak]:
+        """Return the signed extremes of every channel."""
+        run = self._run("peaks")
+        found = run.peaks()
+        return {one.name: Peak(one.unit, *found[one.name]) for one in run.channels if found}
+
+    def impacts(self) -> Impacts:
+        """Return the contacts of the clearance joints."""
+        run = self._run("impacts")
+        rows = run.impacts()
+        joints = [run.joints[index] for index in rows["joint"]]
+        return Impacts(joint=joints, **{name: rows[name].copy() for name in IMPACT_UNITS})
+
+    def statistics(self) -> dict[str, Any]:
+        """Return what the run cost, and its energy ledger."""
+        run = self._run("statistics")
+        return {"complete": run.complete, **run.attributes.get("summary", {})}
+
+    def certificate(self) -> dict[str, Any]:
+        """Return how far the run can be believed."""
+        run = self._run("certificate")
+        found = run.attributes.get("certificate")
+        if not isinstance(found, dict):
+            raise _missing(f"{self._store} was computed without a certificate.")
+        return found
+
+    def study(
+        self,
+        observables: Sequence[str] | None,
+        channels: Sequence[str] | None,
+        sections: tuple[int, int] | None,
+    ) -> StudyReader:
+        """Return the points of a study: all there is, whatever was asked for."""
+        if isinstance(self._reader, StudyReader):
+            return self._reader
+        raise _missing(f"{self._store} is of a simulation; it has a history and no points.")
+
+    def source(
+        self, channels: Sequence[str] | None, start: float | None, stop: float | None
+    ) -> ResultReader:
+        """Return a simulation: all there is, whatever was asked for."""
+        return self._run("history")
+
+    def figures(self) -> list[str]:
+        """Return the names of the figures that can be drawn."""
+        return [one.name for one in figures.available(self._reader)]
+
+    def figure(
+        self,
+        name: str,
+        form: Form,
+        *,
+        channels: Sequence[str],
+        joints: Sequence[str],
+        start: float | None,
+        stop: float | None,
+    ) -> bytes:
+        """Draw a figure."""
+        with _refusals():
+            chosen = figures.select(self._reader, channels, joints, start, stop)
+            return figures.render(self._reader, name, form, chosen)
+
+    def _run(self, what: str) -> ResultReader:
+        if isinstance(self._reader, ResultReader):
+            return self._reader
+        raise _missing(f"{self._store} is of a study; it has points and no {what}.")
+
+
+def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **told: Any) -> Window:
+    described = {channel.name: channel for channel in run.channels}
+    series = {
+        name: ChannelSeries(described[name].unit, described[name].long_name, values)
+        for name, values in columns.items()
+    }
+    return Window(np.asarray(time, np.float64), series, run.complete, **told)
+
+
+def _chosen(channels: Sequence[str] | None, run: ResultReader) -> list[str]:
+    with _refusals():
+        known = [channel.name for channel in run.channels]
+        return choose(None if channels is None else ",".join(channels), known)
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """Say what cannot be as a service does."""
+    try:
+        yield
+    except NoSuchChannel as error:
+        raise _refused("channels", *error.sentences) from None
+    except figures.UnknownFigure as error:
+        raise _missing(str(error), "unknown-figure") from None
+    except figures.NotDrawable as error:
+        raise _refused(error.cause, str(error), problem="not-drawable") from None
+
+
+def _refused(place: str, *sentences: str, problem: str = "invalid-request") -> Refused:
+    fields = [FieldProblem(place, sentence) for sentence in sentences]
+    return Refused(" ".join(sentences), status=422, problem=problem, fields=fields)
+
+
+def _missing(sentence: str, problem: str = "no-results") -> NotFound:
+    return NotFound(sentence, status=404, problem=problem)

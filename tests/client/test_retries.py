@@ -1,0 +1,173 @@
+"""Requests that are repeated: what the service asks for, and what was lost on the way."""
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime, timedelta
+from email.utils import format_datetime
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+
+import httpx
+import pytest
+
+from jointplay.client import Client, NotAllowed, Overloaded, Unreachable, retrying
+
+PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
+
+
+@contextmanager
+def front(answers, behind=None) -> Iterator[tuple[str, list]]:
+    """A server that gives these answers first; what follows goes to the service behind it.
+
+    An answer is a status with headers; "lost": the connection closes without one; "unheard": the
+    service gets the request, and its answer is lost.
+    """
+    heard = []
+
+    class Front(BaseHTTPRequestHandler):
+        protocol_version = "HTTP/1.1"
+
+        def answer(self):
+            body = self.rfile.read(int(self.headers.get("content-length", 0)))
+            heard.append((self.command, self.path, dict(self.headers)))
+            first = answers.pop(0) if answers else None
+            if first == "lost":
+                self.close_connection = True
+            elif isinstance(first, tuple):
+                status, headers = first
+                self.reply(status, headers, b"")
+            else:
+                kept = {k: v for k, v in self.headers.items() if k.lower() != "host"}
+                got = httpx.request(
+                    self.command, behind + self.path, content=body, headers=kept, trust_env=False
+                )
+                if first == "unheard":
+                    self.close_connection = True
+                else:
+                    self.reply(
+                        got.status_code, {"Content-Type": got.headers["content-type"]}, got.content
+                    )
+
+        do_GET = do_POST = do_DELETE = answer  # noqa: N815
+
+        def reply(self, status, headers, body):
+            self.send_response(status)
+            for name, value in {**headers, "Content-Length": str(len(body))}.items():
+                self.send_header(name, value)
+            self.end_headers()
+            self.wfile.write(body)
+
+        def log_message(self, *arguments):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Front) as server:
+        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}", heard
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+@pytest.fixture
+def pauses(monkeypatch):
+    """How long the client would have waited."""
+    seen = []
+    monkeypatch.setattr(retrying, "sleep", seen.append)
+    return seen
+
+
+def number_of_jobs(url):
+    return len(httpx.get(f"{url}/v1/jobs?page_size=1000", trust_env=False).json()["jobs"])
+
+
+@pytest.mark.parametrize("trouble", ["unheard", "lost", (503, {}), (429, {"Retry-After": "1"})])
+def test_a_repeated_submission_queues_one_job(fresh_service, pauses, trouble):
+    with front([trouble, trouble], fresh_service) as (url, heard), Client(url) as client:
+        job = client.submit(PENDULUM)
+    assert job.state == "queued"
+    assert number_of_jobs(fresh_service) == 1
+    keys = [headers["Idempotency-Key"] for _, _, headers in heard]
+    assert len(keys) == 3
+    assert len(set(keys)) == 1
+    assert len(pauses) == 2
+
+
+def test_every_submission_has_a_key_of_its_own(fresh_service):
+    with front([], fresh_service) as (url, heard), Client(url) as client:
+        first, second = client.submit(PENDULUM), client.submit(PENDULUM)
+        assert first.id != second.id
+    assert len({headers["Idempotency-Key"] for _, _, headers in heard}) == 2
+
+
+def test_a_deletion_whose_answer_was_lost_is_done(fresh_service, pauses):
+    with front(["unheard"], fresh_service) as (url, _), Client(fresh_service) as direct:
+        job = direct.submit(PENDULUM).cancel()
+        with Client(url) as client:
+            client._keeper.delete(job)
+    assert number_of_jobs(fresh_service) == 0
+
+
+def test_what_the_service_asks_for_is_waited_and_a_little_more(pauses):
+    soon = format_datetime(datetime.now(UTC) + timedelta(seconds=9), usegmt=True)
+    busy = [(503, {"Retry-After": "3"}), (429, {"Retry-After": soon}), (503, {}), (503, {})]
+    busy.append((503, {"Retry-After": "5"}))
+    with (
+        front(busy) as (url, _),
+        Client(url) as client,
+        pytest.raises(Overloaded, match="503"),
+    ):
+        client.scenes()
+    assert len(pauses) == retrying.ATTEMPTS - 1
+    first, date, third, fourth = pauses
+    assert 3.0 < first < 3.2
+    assert 7.0 < date < 9.2  # whole seconds in the header
+    # no wish of the service: 0.1 s doubled from attempt to attempt, half of it by chance
+    assert 0.2 <= third <= 0.4
+    assert 0.4 <= fourth <= 0.8
+
+
+def test_a_service_that_asks_for_too_much_patience_is_an_error(pauses):
+    with (
+        front([(503, {"Retry-After": "3600"})]) as (url, _),
+        Client(url) as client,
+        pytest.raises(Overloaded),
+    ):
+        client.scenes()
+    assert pauses == []
+
+
+def test_nobody_there_is_looked_for_again_for_about_a_second(monkeypatch):
+    with Client("http://127.0.0.1:9") as client:
+        began = time.monotonic()
+        with pytest.raises(Unreachable, match="jointplay serve"):
+            client.scenes()
+        assert 0.7 < time.monotonic() - began < 5.0  # 0.1 + 0.2 + 0.4 + 0.8 s, half by chance
+
+
+def test_other_refusals_are_not_repeated(pauses):
+    with front([(401, {}), (500, {})]) as (url, heard), Client(url) as client:
+        with pytest.raises(NotAllowed):
+            client.scenes()
+        with pytest.raises(Exception, match="failed with 500"):
+            client.scenes()
+    assert (len(heard), pauses) == (2, [])
+
+
+def test_the_api_key_is_sent_with_each_request(fresh_service, monkeypatch):
+    with front([], fresh_service) as (url, heard), Client(url, key="sk_secret") as client:
+        client.submit(PENDULUM).cancel()
+        assert client._keeper.results(next(iter(client.jobs()))).store().options == {
+            "client_kwargs": {
+                "headers": {"Authorization": "Bearer sk_secret"},
+                "trust_env": False,
+            }
+        }
+        monkeypatch.setenv("JOINTPLAY_KEY", "sk_other")
+        monkeypatch.setenv("JOINTPLAY_URL", url)
+        with Client() as other:
+            other.scenes()
+    sent = [headers["Authorization"] for _, _, headers in heard]
+    assert sent == ["Bearer sk_secret"] * 3 + ["Bearer sk_other"]

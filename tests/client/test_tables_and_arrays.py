@@ -1,0 +1,147 @@
+"""Jobs as notebooks use them: pandas tables, lazy xarray, what is shown without asking."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from jointplay.client import Client, NotFound
+from storage.catalogue import BlockState, JobError
+from tests.service_in_thread import BIFURCATION, known_section
+
+
+@pytest.fixture(scope="module")
+def client(service_url):
+    with Client(service_url) as client:
+        yield client
+
+
+def test_the_history_is_lazy_and_carries_units(client, finished_job):
+    history = client.job(finished_job).history
+    force = history["A.normal_force"]
+    assert not force.variable._in_memory
+    assert (force.attrs["units"], force.sizes) == ("N", {"sample": 2001})
+    window = client.job(finished_job).window("A.normal_force")
+    np.testing.assert_array_equal(force[100:200], window["A.normal_force"][100:200])
+    np.testing.assert_array_equal(history["time"], window.time)
+
+
+def test_any_group_of_the_store_can_be_opened(client, finished_job, finished_study):
+    assert client.job(finished_job).open("impacts").sizes == {"impact": 1}
+    assert client.job(finished_study).open("sections").sizes == {"point": 20, "section": 6}
+    with pytest.raises(NotFound, match="no group 'sections'"):
+        client.job(finished_job).open("sections")
+
+
+def test_tables_of_a_simulation(client, finished_job):
+    job = client.job(finished_job)
+    assert job.peaks.loc["slider7.ax", ["unit", "minimum", "maximum_time"]].tolist() == [
+        "m/s^2",
+        -1.0,
+        0.75,
+    ]
+    assert job.poincare["time"].tolist() == [0.0, 1.0]
+    assert job.poincare.attrs["units"]["A.force_x"] == "N"
+    (impact,) = job.impacts.to_dict("records")
+    assert (impact["joint"], impact["onset"], impact["impulse"]) == ("B", 0.5, 0.2)
+    assert np.isnan(impact["release"])
+    assert job.impacts.attrs["units"]["peak_force"] == "N"
+
+
+def test_tables_of_a_diagram(client, finished_study):
+    job = client.job(finished_study)
+    table = job.poincare
+    assert table.index.names == ["point", "section"]
+    assert len(table) == 18 * 6 + 2 * 3  # of the two that failed, what they recorded
+    names = job.job["observables"]
+    column = names.index("A.eccentricity_rate_x")
+    row = table.loc[(5, 4)]
+    assert row["A.eccentricity_rate_x"] == known_section(5, column, 4)
+    assert row["clearance"] == np.linspace(1e-4, 1e-3, 20)[5]
+    points = job.points
+    assert points["verdict"].tolist()[:3] == ["undecided", "periodic", "quasi-periodic"]
+    assert points.loc[[3, 4], "failure"].tolist() == ["step-size-underflow", ""]
+    assert points.loc[19, "steps"] == 1019.0
+
+
+def test_tables_of_a_sweep(client, finished_sweep):
+    peaks = client.job(finished_sweep).peaks
+    force = peaks.xs("A.normal_force", level="channel")
+    np.testing.assert_array_equal(force["maximum"], [1.0, 2.0, 3.0, 4.0, np.nan, 6.0])
+    assert force["friction"].tolist() == [0.0, 0.05] * 3
+    assert set(force["unit"]) == {"N"}
+    assert client.job(finished_sweep).points["status"].tolist()[4] == "failed"
+
+
+def test_what_a_job_of_another_kind_has_is_not_found(client, finished_job, finished_sweep):
+    for job, name in ((finished_job, "points"), (finished_sweep, "history")):
+        with pytest.raises(NotFound, match=f"has no {name}"):
+            getattr(client.job(job), name)
+    for name in ("poincare", "impacts"):
+        with pytest.raises(NotFound):
+            getattr(client.job(finished_sweep), name)
+    with pytest.raises(NotFound):
+        _ = client.job(finished_job).certificate
+
+
+def test_a_running_job_is_opened_anew_each_time(client, worker):
+    job_id = worker.submit(**BIFURCATION)
+    job = client.job(job_id)
+    worker.compute(worker.start(job_id), points=1, sections=2)
+    assert len(job.poincare) == 2
+    worker.compute(worker.start(job_id, 1), points=1, sections=3)
+    assert len(job.poincare) == 5
+
+
+def test_notebooks_show_what_is_known_without_asking(service_url, worker, monkeypatch):
+    claim = worker.start(worker.submit(label="<b>bold</b>"))
+    worker.finish(claim, BlockState.done)
+    client = Client(service_url)
+    job = client.job(claim.job.id)
+    batch = client.submit_batch([job.job], label="one")
+    client.close()  # from here on nothing can be asked
+    for shown in (job._repr_html_(), repr(job)):
+        assert job.id in shown
+        assert "seven-bar-press" in shown
+        assert "<b>" not in shown
+    assert "succeeded" in job._repr_html_()
+    assert "1 jobs: 1 queued" in batch._repr_html_()
+    assert service_url in repr(client)
+
+
+def test_results_of_many_jobs_come_in_the_order_of_their_documents(client, worker):
+    documents = [
+        {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "label": label}
+        for label in ("a", "b", "c")
+    ]
+    results = client.map(documents, label="mapped")
+    batch = next(job.batch for job in client.jobs(label="c"))
+    a, b, c = client.batch(batch).jobs()
+    worker.finish(worker.start(c.id), BlockState.done)
+    worker.finish(worker.start(a.id), BlockState.failed, JobError("solver", "step-limit", "Long."))
+    first = next(results)
+    assert (first.label, first.state) == ("a", "failed")
+    b.cancel()
+    assert [(job.label, job.state) for job in results] == [("b", "cancelled"), ("c", "succeeded")]
+
+
+@pytest.mark.parametrize(
+    ("ask", "missing"), [("history", "xarray"), ("peaks", "pandas"), ("history", "fsspec")]
+)
+def test_without_the_extra_it_says_what_to_install(service_url, finished_job, ask, missing):
+    program = (
+        "import sys\n"
+        f"sys.modules[{missing!r}] = None\n"  # as if it were not installed
+        "from jointplay.client import Client, MissingExtra\n"
+        "job = Client(sys.argv[1]).job(sys.argv[2])\n"
+        "assert len(job.window('slider7.x').time) == 2001\n"
+        "try:\n"
+        f"    job.{ask}\n"
+        "except MissingExtra as error:\n"
+        "    print(error)\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program, service_url, finished_job], capture_output=True, text=True
+    )
+    assert "pip install 'jointplay[xarray]'" in ended.stdout, ended.stderr
