@@ -1,7 +1,7 @@
 """Job documents by name: what `jointplay.Client` submits and `jointplay.run` computes.
 
 A scene is the name of a preset, a scene document, or the path of one.  Every kind takes the
-options of `COMMON`; every other name is a parameter of the scene, in SI units:
+fields of `COMMON` that it has; every other name is a parameter of the scene, in SI units:
 
 >>> from jointplay import jobs
 >>> jobs.simulate("pendulum", duration=1.0, mass=2.0, label="heavy")["scene"]
@@ -15,8 +15,13 @@ from typing import Any, Final
 
 from jointplay.strict_json import parse
 
-COMMON: Final = frozenset({"tolerance", "accuracy", "formulation", "label", "cache", "expires"})
-"""Fields of a job of any kind."""
+COMMON: Final = frozenset(
+    {
+        *("tolerance", "accuracy", "method", "step", "formulation", "certificate"),
+        *("label", "cache", "expires"),
+    }
+)
+"""Fields that jobs of several kinds have."""
 
 Document = dict[str, Any]
 Scene = str | PathLike[str] | Mapping[str, Any]

@@ -8,6 +8,7 @@ from jointplay.command_line import (
     batch,
     calibrate,
     cancel,
+    certificate,
     cite,
     compare,
     delete,
@@ -46,6 +47,7 @@ application.command()(show.show)
 application.command()(cancel.cancel)
 application.command()(delete.delete)
 application.command()(export.export)
+application.command()(certificate.certificate)
 application.command()(plot.plot)
 application.command()(compare.compare)
 application.command()(cite.cite)

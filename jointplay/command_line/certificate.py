@@ -1,0 +1,38 @@
+"""``jointplay certificate``: how far a result can be believed."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import typer
+
+from jointplay.command_line import connection
+from jointplay.command_line.json_output import AS_JSON, print_json
+
+
+def certificate(
+    results: connection.RESULTS,
+    as_json: AS_JSON = False,
+    url: connection.URL = connection.DEFAULT_URL,
+) -> None:
+    """Print the certificate of a simulation: every number that it has, by name.
+
+    Example: `jointplay certificate OUT`
+    """
+    with connection.job_of(results, url) as job:
+        document = job.certificate
+    if as_json:
+        print_json(document)
+        return
+    for name, value in _numbers("", document):
+        typer.echo(f"{name:48} {value}")
+
+
+def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
+    """Yield what is in a document by dotted names; of a list only its length."""
+    if isinstance(value, dict):
+        for key, one in value.items():
+            yield from _numbers(f"{name}.{key}" if name else key, one)
+    elif isinstance(value, list):
+        yield name, f"{len(value)} values"
+    else:
+        yield name, f"{value:.7g}" if isinstance(value, float) else str(value)
