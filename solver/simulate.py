@@ -11,6 +11,8 @@ import numpy as np
 
 from solver.admission import Admission, section_offset
 from solver.assembly import assemble
+from solver.certificate.certificate import Certificate
+from solver.certificate.survey import Survey
 from solver.compile_loop import ready_kernel
 from solver.ideal.run import IdealRun
 from solver.lanes.account import failure_of, peaks_of, statistics_of
@@ -26,7 +28,7 @@ FIRST_BUDGET = 2000
 LARGEST_BUDGET = 200_000
 """Attempted steps a call."""
 LANE = 0
-"""The lane that a single run uses; the seven others idle, and its bits do not depend on them."""
+"""The lane of the trajectory; its bits do not depend on what the seven others do."""
 
 
 class Simulation:
@@ -68,9 +70,13 @@ class Simulation:
         """Return extremes and statistics of what has been computed so far."""
         return self._run.summary()
 
+    def certificate(self) -> Certificate | None:
+        """Return how far what has been computed can be believed; none if the job wants none."""
+        return self._run.certificate()
+
 
 class DynamicRun:
-    """A run of a scene that moves freely somewhere: lane 0 of a bundle."""
+    """A run of a scene that moves freely somewhere: lane 0 of a bundle, companions beside it."""
 
     def __init__(self, admission: Admission, scene: Scene) -> None:
         self.admission = admission
@@ -90,6 +96,9 @@ class DynamicRun:
             offset,
         )
         self.bundle = Bundle(self.kernel, [problem])
+        self.survey = (
+            Survey(self.bundle, problem, job["formulation"]) if job["certificate"] else None
+        )
         rows = self.kernel.rows
         self.columns = np.array([rows.index(c.name) for c in admission.channels], dtype=np.int64)
         self.seconds = 0.0
@@ -99,9 +108,9 @@ class DynamicRun:
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
         budget = FIRST_BUDGET
-        while self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING:
+        while self._runs():
             begun = time.perf_counter()
-            self.bundle.advance(budget)
+            (self.survey or self.bundle).advance(budget)
             found = self._slice()
             spent = time.perf_counter() - begun
             self.seconds += spent
@@ -118,12 +127,11 @@ class DynamicRun:
             "samples": self.samples_done,
             "sections": self.sections_done,
         }
+        arrays = self.survey.checkpoint() if self.survey else {}
+        arrays["state"] = np.frombuffer(self.bundle.state(), dtype=np.uint8)
+        arrays["facts"] = np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8)
         buffer = io.BytesIO()
-        np.savez(
-            buffer,
-            state=np.frombuffer(self.bundle.state(), dtype=np.uint8),
-            facts=np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8),
-        )
+        np.savez(buffer, allow_pickle=False, **arrays)
         return buffer.getvalue()
 
     def restore(self, checkpoint: bytes) -> None:
@@ -131,6 +139,8 @@ class DynamicRun:
         with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
             facts = json.loads(saved["facts"].tobytes())
             self.bundle.restore(saved["state"].tobytes())
+            if self.survey:
+                self.survey.restore(saved)
         self.seconds = facts["solver_seconds"]
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
 
@@ -139,6 +149,17 @@ class DynamicRun:
         names = [channel.name for channel in self.admission.channels]
         statistics = statistics_of(self.bundle, LANE) | {"solver_seconds": self.seconds}
         return Summary(peaks_of(self.bundle, LANE, names), statistics)
+
+    def certificate(self) -> Certificate | None:
+        """See `Simulation.certificate`."""
+        if self.survey is None:
+            return None
+        return self.survey.certificate(self.admission.channels)
+
+    def _runs(self) -> bool:
+        if self.survey is not None:
+            return self.survey.goes_on
+        return bool(self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING)
 
     def _slice(self) -> Slice:
         counters = self.bundle.counters
@@ -154,10 +175,11 @@ class DynamicRun:
         reached = self.bundle.time(LANE)
         duration = self.admission.job["duration"]
         if self.samples_done == self.admission.samples:
-            sample_time[-1] = reached = duration
+            sample_time[-1:] = reached = duration
+        slowest = min(reached, self.survey.time) if self.survey else reached
         return Slice(
             reached,
-            min(reached / duration, 1.0),
+            min(slowest / duration, 1.0),
             first_sample,
             sample_time,
             samples,

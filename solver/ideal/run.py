@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from solver.admission import Admission, section_offset
+from solver.certificate.certificate import Certificate
 from solver.errors import SimulationFailed
 from solver.extremes import Floats, refine_extreme
 from solver.ideal.motion import IdealMotion
@@ -95,6 +96,12 @@ class IdealRun:
             "energy": None,
         }
         return Summary(peaks, statistics)
+
+    def certificate(self) -> Certificate | None:
+        """See `Simulation.certificate`."""
+        if not self.admission.job["certificate"]:
+            return None
+        return Certificate.of_exact(len(self.names), self.duration)
 
     def channels(self, times: Floats, local: Floats | None = None) -> Floats:
         """Return (instants, channels) at times in s; `local` is the time within the period."""

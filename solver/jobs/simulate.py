@@ -26,3 +26,7 @@ class SimulateJob(Job):
     ] = None
     channels: ChannelChoice = ["*"]
     section: CrankSection = CrankSection()
+    certificate: Annotated[
+        bool,
+        Field(description="say how far the result can be believed; does not change its bits"),
+    ] = True

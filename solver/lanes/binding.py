@@ -10,11 +10,11 @@ import numpy as np
 from solver.assembly import assemble, shortest_link
 from solver.compiler.layout import LANES
 from solver.drive import characteristic_time, common_period
-from solver.lanes.periods import PACE_STEPS
+from solver.lanes.periods import PACE_STEPS, set_clock
 from solver.lanes.problem import Event, LaneProblem
 from solver.lanes.start import mechanism_size, start_state
 from solver.lanes.state import Counter, SectionKind, Setting
-from solver.scene.document import Revolute
+from solver.scene.document import Revolute, Scene
 
 if TYPE_CHECKING:
     from solver.lanes.bundle import Bundle
@@ -29,28 +29,42 @@ FIRST_STEP = 1e-6
 """First step, in periods."""
 
 
-def bind(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
-    """Set a lane's numbers, scales and start."""
+def bind(bundle: Bundle, lane: int, problem: LaneProblem, like: int | None = None) -> None:
+    """Set a lane's numbers, scales and start; `like` is a lane that has the scene's numbers."""
     kernel, scene, work = bundle.kernel, problem.scene, bundle.work.reshape(-1, LANES)
-    for (slot, _), value in zip(kernel.fixed, kernel.fixed_values(scene), strict=True):
-        work[slot, lane] = value
-    if bundle.tangents is not None:
-        values = bundle.tangents.fixed_values(scene)
-        for (slot, _), value in zip(bundle.tangents.fixed, values, strict=True):
-            work[slot, lane] = value
+    if like is None:
+        _number(bundle, lane, scene)
+    else:
+        work[:, lane] = work[:, like]
     length = shortest_link(scene)
     unit = characteristic_time(scene, length)
     common = common_period(scene).seconds
-    period = common or unit
-    _clock(bundle, lane, problem, period, common is not None)
+    _clock(bundle, lane, problem, common or unit, common is not None)
+    _scale(bundle, lane, problem, length, unit)
     if problem.start is None:
         assembly = assemble(scene)
         start = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
         state = np.concatenate(start)
     else:
         state = problem.start.state
+    bundle.table("y0", kernel.states)[:, lane] = state
+
+
+def _number(bundle: Bundle, lane: int, scene: Scene) -> None:
+    """Evaluate what depends on the scene's numbers alone."""
+    kernel, work = bundle.kernel, bundle.work.reshape(-1, LANES)
+    for (slot, _), value in zip(kernel.fixed, kernel.fixed_values(scene), strict=True):
+        work[slot, lane] = value
+    if bundle.tangents is not None:
+        values = bundle.tangents.fixed_values(scene)
+        for (slot, _), value in zip(bundle.tangents.fixed, values, strict=True):
+            work[slot, lane] = value
+
+
+def _scale(bundle: Bundle, lane: int, problem: LaneProblem, length: float, unit: float) -> None:
+    """Set what a lane's errors and first steps in contact are measured by."""
+    kernel, scene = bundle.kernel, problem.scene
     count = len(kernel.coordinates)
-    bundle.table("y0", 2 * count)[:, lane] = state
     clearances = [scene.joints[name].clearance for name in kernel.play]  # type: ignore[union-attr]
     finest = min((c.radial_clearance for c in clearances if c), default=math.inf)
     reach = mechanism_size(scene, length)
@@ -72,21 +86,15 @@ def bind(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
 def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, common: bool) -> None:
     """Set a lane's time, counters and what falls due when."""
     scene = problem.scene
-    for name in (
-        "time",
-        "stage_time",
-        "memory",
-        "steps",
-        "tried",
-        "before_step",
-        "before_time",
-    ):
+    since = 0.0 if problem.start is None else problem.start.time
+    for name in ("memory", "steps", "tried", "before_step"):
         bundle.table(name)[0, lane] = 0.0
+    for name in ("time", "stage_time", "before_time"):
+        bundle.table(name)[0, lane] = since
     bundle.table("pace_at")[0, lane] = PACE_STEPS
     bundle.table("step")[0, lane] = problem.step or FIRST_STEP * period
     bundle.table("largest_step")[0, lane] = problem.step or period / STEPS_IN_A_PERIOD
     bundle.table("smallest_step")[0, lane] = period
-    bundle.table("end")[0, lane] = problem.duration
     setting = bundle.settings[:, lane]
     setting[Setting.PERIOD] = period
     setting[Setting.COMMON] = 1.0 if common else 0.0
@@ -97,8 +105,6 @@ def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, commo
     setting[Setting.SECTION_OFFSET] = problem.section_offset
     setting[Setting.SMALLEST_STEP] = SMALLEST_STEP * period
     for k, driver in enumerate(scene.drivers.values()):
-        bundle.table(f"phase{k}")[0, lane] = driver.position
-        bundle.table(f"wound{k}")[0, lane] = 0.0
         travel = driver.speed * period / (2.0 * math.pi if turning else 1.0)
         setting[Setting.FIRST_DRIVER + 2 * k] = driver.position
         setting[Setting.FIRST_DRIVER + 2 * k + 1] = round(travel) if common else travel
@@ -106,9 +112,11 @@ def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, commo
     setting[Setting.SECTION_KIND], setting[Setting.SECTION_PLACE] = event.kind, event.place
     setting[Setting.SECTION_VALUE], setting[Setting.SECTION_SENSE] = event.value, event.sense
     setting[Setting.SECTION_FROM] = event.not_before
-    setting[Setting.PACE_TIME] = 0.0
     counter = bundle.counters[:, lane]
     counter[:] = 0
+    counter[Counter.PERIOD] = 0 if problem.start is None else problem.start.period
+    setting[Setting.PACE_TIME] = counter[Counter.PERIOD] * period + since
     counter[Counter.LANDING] = -1
     counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
     counter[Counter.SECTION] = problem.first_section
+    set_clock(lane, bundle.slots, bundle.work, bundle.settings, bundle.counters)

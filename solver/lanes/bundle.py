@@ -73,12 +73,14 @@ class Bundle:
         for lane, problem in enumerate(problems):
             self.load(lane, problem)
 
-    def load(self, lane: int, problem: LaneProblem) -> None:
+    def load(self, lane: int, problem: LaneProblem, like: int | None = None) -> None:
         """Give a lane that does not run a problem to compute; the other lanes do not notice.
+
+        `like` is a lane that has the problem's scene already, which saves looking at it again.
 
         Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
-        bind(self, lane, problem)
+        bind(self, lane, problem, like)
         fresh = self.counters[Counter.STATUS] == Status.IDLE
         fresh[lane] = False
         self.work.reshape(-1, LANES)[:, fresh] = self.work.reshape(-1, LANES)[:, [lane]]

@@ -82,14 +82,22 @@ def turn_over(
     """Begin a new period: local time goes back, and phases on where periods are not common."""
     period = settings[Setting.PERIOD, lane]
     counters[Counter.PERIOD, lane] += 1
-    whole = float(counters[Counter.PERIOD, lane])
     work[slots[Slot.TIME] * LANES + lane] -= period
     work[slots[Slot.BEFORE_TIME] * LANES + lane] -= period
-    work[slots[Slot.END] * LANES + lane] = product_difference(
-        settings[Setting.DURATION, lane], 1.0, whole, period
-    )
+    set_clock(lane, slots, work, settings, counters)
     for kind in range(2):
         look_ahead(kind, lane, slots, work, settings, counters)
+
+
+@kernel()
+def set_clock(
+    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
+) -> None:
+    """Set the end and the drivers' phases as they are in a lane's present period."""
+    whole = float(counters[Counter.PERIOD, lane])
+    work[slots[Slot.END] * LANES + lane] = product_difference(
+        settings[Setting.DURATION, lane], 1.0, whole, settings[Setting.PERIOD, lane]
+    )
     for k in range(slots[Slot.DRIVERS]):
         start = settings[Setting.FIRST_DRIVER + 2 * k, lane]
         travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, lane]

@@ -36,6 +36,10 @@ class LaneStart:
     contact: NDArray[np.bool_] | None = None
     """Joints that are in contact already, with their latched impact rates (m/s)."""
     impact_rate: Floats | None = None
+    period: int = 0
+    """Whole periods of the drivers that have passed."""
+    time: float = 0.0
+    """Since then, s."""
 
 
 @dataclass(frozen=True)

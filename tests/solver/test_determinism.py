@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solver.admission import Admission, admit, sample_count
+from solver.certificate.certificate import Certificate
 from solver.compiler.kernel import compile_kernel
 from solver.integrators import TSITOURAS5
 from solver.lanes.bundle import Bundle
@@ -169,6 +170,14 @@ def assert_same_conclusion(one: Run, two: Run) -> None:
     }
 
 
+def assert_same_certificate(one: Certificate | None, two: Certificate | None) -> None:
+    assert one is not None
+    assert two is not None
+    assert one.facts == two.facts
+    for name in ("time", "error", "until", "extremes", "edges", "share", "spread"):
+        assert getattr(one, name).tobytes() == getattr(two, name).tobytes(), name
+
+
 def test_two_runs_of_a_job_have_the_same_bits() -> None:
     assert_same(whole(job()), whole(job()))
 
@@ -192,6 +201,9 @@ def test_a_run_restarted_from_any_checkpoint_has_the_bits_of_an_undisturbed_one(
         simulation = Simulation(admission, simulation.checkpoint())
     assert count >= 5
     assert_same(collect(admission, slices, simulation), undisturbed)
+    once = Simulation(admission)
+    list(once.slices())
+    assert_same_certificate(simulation.certificate(), once.certificate())
 
 
 def test_a_checkpoint_does_not_disturb_the_run_it_is_taken_from() -> None:
@@ -216,6 +228,11 @@ def test_outputs_do_not_change_the_motion() -> None:
             == one.last("slider7.x", "slider7.vx", "A.penetration").tobytes()
         )
         assert_same_conclusion(one, other)
+
+
+def test_a_certificate_does_not_change_a_bit() -> None:
+    for changes in ({}, {"formulation": "lagrange", "duration": 0.2}):
+        assert_same(whole(job(**changes)), whole(job(**changes, certificate=False)))
 
 
 def test_a_longer_run_begins_with_the_bits_of_a_shorter_one() -> None:
