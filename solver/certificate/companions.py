@@ -70,8 +70,11 @@ class Companions:
             sections=0,
             start=LaneStart(start.state),
         )
+        order = bundle.kernel.tableau.order
         for lane, factor in enumerate(LADDER, start=1):
-            bundle.load(lane, replace(coarse, tolerance=problem.tolerance * factor), like=RUN)
+            step = problem.step and problem.step * factor ** (1.0 / order)
+            rung = replace(coarse, tolerance=problem.tolerance * factor, step=step)
+            bundle.load(lane, rung, like=RUN)
         half = len(start.state) // 2
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         for member, lane in enumerate(PERTURBED, start=1):
