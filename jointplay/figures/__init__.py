@@ -24,6 +24,7 @@ from jointplay.figures.orbit import ORBIT
 from jointplay.figures.page import Form
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
 from jointplay.figures.section import SECTION
+from jointplay.figures.spectrum import SPECTRUM
 from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
 from jointplay.source import Source
@@ -57,6 +58,7 @@ ROSTER: Final[tuple[RunFigure, ...]] = (
     CONTACT_FORCE,
     ORBIT,
     PHASE_PORTRAIT,
+    SPECTRUM,
     MECHANISM,
     TIME_HISTORY,
 )

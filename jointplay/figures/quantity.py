@@ -38,8 +38,7 @@ def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
     """
     if unit == "1":
         return Scale(1.0, "")
-    pretty = re.sub(r"\^(-?\d+)", lambda found: found[1].translate(_SUPERSCRIPTS), unit)
-    pretty = pretty.replace(" ", "·")
+    pretty = _pretty(unit)
     largest = max((_largest(array) for array in values), default=0.0)
     plain = _SMALLEST_PLAIN <= largest < _LARGEST_PLAIN
     if plain or largest == 0.0 or not _SCALABLE.fullmatch(unit):
@@ -53,6 +52,24 @@ def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
     if factor > 1.0 and unit in _NEVER_LARGER:
         factor, prefix = 1.0, ""
     return Scale(factor, prefix + pretty)
+
+
+def per_hertz(unit: str) -> str:
+    """Return the unit of a power spectral density: that of the channel squared, a hertz."""
+    if unit == "1":
+        return "1/Hz"
+    pretty = _pretty(unit)
+    return f"{pretty}²/Hz" if pretty.isalpha() else f"({pretty})²/Hz"
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return a power of ten as text."""
+    return f"10{str(exponent).translate(_SUPERSCRIPTS)}"
+
+
+def _pretty(unit: str) -> str:
+    raised = re.sub(r"\^(-?\d+)", lambda found: found[1].translate(_SUPERSCRIPTS), unit)
+    return raised.replace(" ", "·")
 
 
 def _largest(values: NDArray[np.float64]) -> float:

@@ -34,7 +34,8 @@ def _chosen(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, selection.channels)
 
 
-def _declared(source: Source, selection: Selection) -> tuple[str, ...]:
+def declared(source: Source, selection: Selection) -> tuple[str, ...]:
+    """Name the chosen channels, by default the declared outputs; `NotDrawable` without any."""
     names = selection.channels or scene_facts.outputs(source)[:MOST_PANELS]
     if not names:
         raise NotDrawable("The scene declares no outputs, or the job did not store them.")
@@ -107,8 +108,6 @@ OUTPUTS = RunFigure(
     name="outputs",
     title="The scene's declared outputs over time",
     uses=("channels", "start", "stop"),
-    channels=_declared,
-    draw=lambda source, selection: panels_over_time(
-        source, _declared(source, selection), selection
-    ),
+    channels=declared,
+    draw=lambda source, selection: panels_over_time(source, declared(source, selection), selection),
 )

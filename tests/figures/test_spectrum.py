@@ -1,0 +1,91 @@
+"""The spectrum figure: lines where they are, and as much power as the signal has."""
+
+import numpy as np
+import pytest
+
+from jointplay import figures
+from jointplay.dataset import Channel, Dataset
+from jointplay.figures import Selection, page
+from jointplay.figures.quantity import per_hertz
+
+PERIOD = 0.5  # s, of the drivers
+
+
+def sampled(samples, rate, **signals):
+    """Channels over time [s], at so many samples a second."""
+    time = np.arange(samples) / rate
+    values = {name: signal(time) for name, signal in signals.items()}
+    channels = [Channel(name, "m", name) for name in values]
+    return Dataset({"scene": {}, "period": PERIOD}, channels, time, values)
+
+
+def curve(source, name, **window):
+    """Frequencies and power that are drawn of a channel, and the marked frequencies."""
+    with page.style():
+        figure = figures.draw(source, "spectrum", Selection((name,), **window))
+    (axes,) = figure.axes
+    line, *marked = axes.lines
+    return *line.get_data(), [float(np.unique(one.get_xdata())[0]) for one in marked]
+
+
+def test_a_line_stands_at_its_frequency_and_the_drivers_are_marked():
+    source = sampled(8000, 100.0, tone=lambda t: 3.0 * np.sin(2.0 * np.pi * 7.0 * t))
+    frequency, power, marked = curve(source, "tone")
+    resolution = frequency[1] - frequency[0]
+    assert frequency[power.argmax()] == pytest.approx(7.0, abs=resolution)
+    assert marked == [1.0 / PERIOD]
+    assert frequency[-1] == pytest.approx(50.0)  # half the sampling frequency
+    # Parseval: the area is the variance, of a sine half its amplitude squared
+    assert power.sum() * resolution == pytest.approx(4.5, rel=0.01)
+
+
+def test_noise_is_flat_and_its_average_settles():
+    noise = np.random.default_rng(1).normal(size=40_000)
+    _, power, _ = curve(sampled(40_000, 100.0, noise=lambda t: noise), "noise")
+    # the density of white noise of variance 1: one over half the sampling frequency; of 15
+    # segments the ordinates scatter by about a quarter of it, their mean by far less
+    assert power.mean() == pytest.approx(1.0 / 50.0, rel=0.05)
+    assert np.std(power) < 0.4 / 50.0
+
+
+def test_a_long_history_is_drawn_by_its_extremes():
+    tone = 2.0 * np.pi * 1234.5
+    source = sampled(400_000, 1e4, tone=lambda t: np.sin(tone * t) + 1e-6 * np.sin(40.0 * t))
+    frequency, power, _ = curve(source, "tone")
+    assert len(frequency) < 2500
+    assert frequency[power.argmax()] == pytest.approx(1234.5, rel=0.01)  # a column of the page
+
+
+def test_a_window_chooses_the_part_of_the_motion():
+    source = sampled(
+        8000, 100.0, tone=lambda t: np.sin(2.0 * np.pi * np.where(t < 40.0, 5.0, 20.0) * t)
+    )
+    for window, line in (({"stop": 39.9}, 5.0), ({"start": 40.0}, 20.0)):
+        frequency, power, _ = curve(source, "tone", **window)
+        assert frequency[power.argmax()] == pytest.approx(line, abs=0.3)
+
+
+@pytest.mark.parametrize(("samples", "name"), [(20, "tone"), (500, "still"), (500, "lost")])
+def test_what_has_no_spectrum_says_so(samples, name):
+    source = sampled(samples, 100.0, tone=np.sin, still=np.ones_like, lost=lambda t: np.nan * t)
+    with page.style():
+        (axes,) = figures.draw(source, "spectrum", Selection((name,))).axes
+    assert len(axes.lines) == 0
+    assert [text.get_text() for text in axes.texts] == ["fewer than 32 samples, or no change"]
+
+
+def test_what_was_not_computed_is_left_out():
+    source = sampled(
+        8000, 100.0, tone=lambda t: np.where(t < 40.0, np.sin(2.0 * np.pi * 7.0 * t), np.nan)
+    )
+    frequency, power, _ = curve(source, "tone")
+    assert frequency[power.argmax()] == pytest.approx(7.0, abs=0.3)
+
+
+def test_units_of_the_power_are_those_of_the_channel_squared_a_hertz():
+    assert [per_hertz(unit) for unit in ("m", "m/s^2", "N m", "1")] == [
+        "m²/Hz",
+        "(m/s²)²/Hz",
+        "(N·m)²/Hz",
+        "1/Hz",
+    ]
