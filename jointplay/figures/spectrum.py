@@ -98,7 +98,7 @@ def _spectrum(values: Floats, step: float, drive: float) -> tuple[Floats, Floats
 
     if len(values) < _FEWEST_SAMPLES or np.ptp(values) == 0.0:
         return np.empty(0), np.empty(0)
-    apart = drive * step * len(values) / _PERIODS if drive > 0.0 else _MOST_SEGMENTS
+    apart = drive * step * len(values) / _PERIODS  # without drivers 0: one window, sharp lines
     segments = int(np.clip(2.0 * apart - 1.0, 1, min(_MOST_SEGMENTS, len(values) // 16)))
     frequency, power = signal.welch(
         values,
