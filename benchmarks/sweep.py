@@ -40,7 +40,7 @@ def document(values: int = VALUES, settle: int = SETTLE, record: int = RECORD) -
     }
 
 
-def over_http(workers: int) -> list[float]:
+def over_http(workers: int, values: int = VALUES) -> list[float]:
     """Return the seconds from request to finished array of repeated jobs."""
     seconds = []
     with (
@@ -50,7 +50,7 @@ def over_http(workers: int) -> list[float]:
     ):
         client.submit(document(16 * workers, 2, 2)).wait()
         for _ in range(REPEATS):
-            job = document() | {"cache": False}  # computed each time, not found
+            job = document(values) | {"cache": False}  # computed each time, not found
             begun = time.perf_counter()
             found = client.submit(job).wait()
             seconds.append(time.perf_counter() - begun)
@@ -115,7 +115,13 @@ def main() -> None:
             f"{workers} worker{'s' if workers > 1 else ' '} over HTTP: {medians[workers]:6.2f} s"
             f" ({min(seconds):.2f}); in kernels {share:.0%}"
         )
-    print(f"two workers are {medians[1] / medians[2]:.2f} times as fast as one")
+    octets = -(-VALUES // 8)
+    print(
+        f"two workers are {medians[1] / medians[2]:.2f} times as fast as one; {octets} octets allow"
+        f" {octets / -(-octets // 2):.2f}"
+    )
+    one, two = (statistics.median(over_http(workers, 2 * VALUES)) for workers in (1, 2))
+    print(f"with {2 * VALUES} values: {one:.2f} and {two:.2f} s, {one / two:.2f} times")
 
 
 if __name__ == "__main__":
