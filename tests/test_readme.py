@@ -1,5 +1,6 @@
-"""The commands and programs of the documentation, run as they stand, against a real service."""
+"""The commands, programs and notebooks that explain, run as they stand, against a real service."""
 
+import json
 import os
 import re
 import shutil
@@ -14,8 +15,9 @@ from jointplay.serving import running_service
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
-PAGES = [README, (ROOT / "docs" / "http.md").read_text()]
+PAGES = [README, *((ROOT / "docs" / name).read_text() for name in ("http.md", "python.md"))]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 BLOCKS = [block for page in PAGES for block in BLOCK.findall(page)]
 
 
@@ -44,6 +46,31 @@ def test_what_the_documentation_says_works(language, text, service, tmp_path):
     assert ended.returncode == 0, ended.stderr
     for made in re.findall(r"(?:-o|>) ([\w-]+(?:\.\w+)?)(?=[;\s]|$)", text):
         assert (tmp_path / made).exists(), made
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_runs_from_its_first_to_its_last_cell(notebook, service, tmp_path):
+    written = json.loads(notebook.read_text())
+    cells = [cell for cell in written["cells"] if cell["cell_type"] == "code"]
+    assert all((cell["outputs"], cell["execution_count"]) == ([], None) for cell in cells)
+    program = (
+        "import sys, nbclient, nbformat\n"
+        "notebook = nbformat.read(sys.argv[1], as_version=4)\n"
+        "nbformat.validate(notebook)\n"
+        "nbclient.execute(notebook, cwd='.', kernel_name='python3')\n"
+        "nbformat.write(notebook, 'executed.ipynb')\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program, str(notebook)],
+        cwd=tmp_path,
+        env=os.environ | {"JOINTPLAY_URL": service},
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+    assert ended.returncode == 0, ended.stderr
+    executed = (tmp_path / "executed.ipynb").read_text()
+    assert executed.count('"image/png"') >= 2  # figures are shown
 
 
 def test_every_file_that_the_readme_names_is_there():
