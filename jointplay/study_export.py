@@ -163,8 +163,11 @@ def _columns_of_points(
         columns[f"{name} minimum at [s]"] = peaks.minimum_time
         columns[f"{name} maximum [{described[name]}]"] = peaks.maximum
         columns[f"{name} maximum at [s]"] = peaks.maximum_time
+        columns[f"{name} range [{described[name]}]"] = peaks.maximum - peaks.minimum
+    left_out = described.keys() - set(channels)
     for name, one in {**source.indicators, **source.statistics}.items():
-        if name != "verdict":  # it is there as a word
+        # a verdict is there as a word
+        if name != "verdict" and name.rpartition(".")[0] not in left_out:
             columns[f"{name} [{units.get(name, '1')}]"] = one
     return columns
 

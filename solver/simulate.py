@@ -15,11 +15,11 @@ from solver.certificate.certificate import Certificate
 from solver.certificate.survey import Survey
 from solver.compile_loop import ready_kernel
 from solver.ideal.run import IdealRun
-from solver.lanes.account import failure_of, peaks_of, statistics_of
+from solver.lanes.account import contacts_of, failure_of, peaks_of, statistics_of
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Setting, Status
-from solver.results import IMPACT, Floats, Slice, Summary
+from solver.results import Floats, Slice, Summary
 from solver.scene.document import Scene
 
 SLICE_SECONDS = 0.1
@@ -162,13 +162,8 @@ class DynamicRun:
         return bool(self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING)
 
     def _slice(self) -> Slice:
-        counters = self.bundle.counters
         samples, sample_time = self._observe(self.bundle.sample_rows, Counter.SAMPLE_ROWS)
         sections, section_time = self._observe(self.bundle.section_rows, Counter.SECTION_ROWS)
-        rows = self.bundle.impact_rows[LANE, : counters[Counter.IMPACT_ROWS, LANE]]
-        impacts = np.zeros(len(rows), dtype=IMPACT)
-        for column, name in enumerate(IMPACT.names or ()):
-            impacts[name] = rows[:, column]
         first_sample, first_section = self.samples_done, self.sections_done
         self.samples_done += len(samples)
         self.sections_done += len(sections)
@@ -186,7 +181,7 @@ class DynamicRun:
             first_section,
             section_time,
             sections,
-            impacts,
+            contacts_of(self.bundle, LANE),
         )
 
     def _observe(self, buffer: Floats, counter: Counter) -> tuple[Floats, Floats]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from service.app import create_app
 from solver.admission import Admission, Study, admit
+from solver.study.meanings import own_meanings
 from solver.study.results import PointEnd, SectionRows, StudySlice
 from storage.catalogue import BlockState, Catalogue, Claim, JobError
 from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
@@ -46,6 +47,7 @@ SWEEP: dict[str, Any] = {
     "kind": "sweep",
     "grid": {"clearance": [1e-4, 2e-4, 3e-4], "friction": [0.0, 0.05]},
     "periods": 1,
+    "statistics": ["mean", "contact_share"],
 }
 
 
@@ -215,7 +217,8 @@ class Worker:
             "The step fell below 1e-15 s." if failed else "",
             0.7,
             np.full_like(peaks, np.nan) if failed else peaks,
-            {"steps": 1000.0 + point},
+            {"steps": 1000.0 + point}
+            | ({} if failed else dict.fromkeys(own_meanings(study), 0.5 * point)),
             indicators if study.indicators and not failed else {},
         )
 

@@ -3,13 +3,13 @@
 import json
 import logging
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 from solver.nonlinear.settling import SETTLINGS
 from solver.nonlinear.verdict import VERDICTS
+from solver.study.meanings import MEANINGS, own_meanings
 from solver.study.plan import Study
 from solver.study.results import StudySlice
 from solver.study.run import StudyRun
@@ -19,31 +19,6 @@ from storage.studies import StudyBlock, StudyLayout, create, seal
 from worker.execute import JOB_FILE, Answer, Outcome
 
 _log = logging.getLogger(__name__)
-MEANINGS: Final[Mapping[str, tuple[str, str]]] = {
-    "steps": ("1", "accepted steps"),
-    "rejections": ("1", "rejected steps"),
-    "onsets": ("1", "beginnings of contact"),
-    "smallest_step": ("s", "smallest accepted step"),
-    "driver_work": ("J", "work of the drivers"),
-    "contact_loss": ("J", "energy lost in normal contact"),
-    "friction_loss": ("J", "energy lost in friction"),
-    "energy_residual": ("J", "what the energy ledger lacks"),
-    "settled_periods": ("1", "periods left out before the first recorded section"),
-    "settling": ("1", "how settling ended, a position in the attribute settlings"),
-    "from_neighbour": ("1", "1 if it started from its neighbour's last state, else 0"),
-    "lyapunov": ("1/s", "largest Lyapunov exponent"),
-    "lyapunov_error": ("1/s", "standard error of the largest Lyapunov exponent"),
-    "zero_one": ("1", "growth rate of the 0-1 test"),
-    "zero_one_error": ("1", "standard error of the growth rate of the 0-1 test"),
-    "period": ("1", "sections after which the motion recurs; 0: none"),
-    "rotation": ("1", "rotation number, in turns a section"),
-    "rotation_error": ("1", "standard error of the rotation number"),
-    "line_frequency": ("Hz", "frequency of the strongest line of the power spectrum"),
-    "line_share": ("1", "share of that line in the power"),
-    "flatness": ("1", "flatness of the power spectrum"),
-    "verdict": ("1", "a position in the attribute verdicts"),
-}
-"""Units and long names of the numbers that a point may have."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +44,7 @@ class StudyProgress:
 
 def layout_of(study: Study) -> StudyLayout:
     """Return what a study's store holds."""
-    declared = study.scene["parameters"]
+    declared, own = study.scene["parameters"], own_meanings(study)
     return StudyLayout(
         parameters=tuple(
             ArraySpec(name, unit, str(declared[name]["help"]))
@@ -87,8 +62,9 @@ def layout_of(study: Study) -> StudyLayout:
             "solver_version": SOLVER_VERSION,
             "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
             "settlings": sorted(SETTLINGS, key=SETTLINGS.__getitem__),
+            **({"meanings": own} if own else {}),
         },
-        meanings={name: ArraySpec(name, *meaning) for name, meaning in MEANINGS.items()},
+        meanings={name: ArraySpec(name, *meaning) for name, meaning in (MEANINGS | own).items()},
     )
 
 

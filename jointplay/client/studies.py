@@ -118,7 +118,13 @@ def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDa
         codes = np.array([-1 if word is None else names.index(word) for word in words], np.int64)
     scene = job.job["scene"]
     return StudyDataset(
-        attributes={"job": job.job, "scene": scene if "bodies" in scene else {}},
+        attributes={
+            "job": job.job,
+            "scene": scene if "bodies" in scene else {},
+            "meanings": {
+                name: (one["unit"], one["long_name"]) for name, one in first["statistics"].items()
+            },
+        },
         parameters=parameters,
         values=np.array(values).reshape(len(parameters), len(status)).T,
         status=np.array(status, np.uint8),

@@ -143,8 +143,8 @@ def _study(job: "Job", asked: Asked) -> Text:
         names = _chosen(asked.channels, [one.name for one in source.channels])
         values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
         if asked.form == "json":
-            return Text(formats.point_json(source, names, chosen, units()), values)
-        lines = formats.point_lines(source, names, chosen, units(), _comments(source))
+            return Text(formats.point_json(source, names, chosen, units(source)), values)
+        lines = formats.point_lines(source, names, chosen, units(source), _comments(source))
         return Text(lines, values)
     names = _chosen(asked.channels, [one.name for one in source.observables])
     values = int(source.counts[chosen.start : chosen.stop].sum()) * (len(names) + 3)

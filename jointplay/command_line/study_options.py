@@ -27,6 +27,13 @@ ENSEMBLE = Annotated[
 PERIODS = Annotated[
     float | None, typer.Option(help="Of a sweep: duration of each point in its periods.")
 ]
+STATISTICS = Annotated[
+    str | None,
+    typer.Option(
+        metavar="A,B",
+        help="Of a sweep, beside the extremes: mean, root_mean_square, contact_share and others.",
+    ),
+]
 SETTLE = Annotated[
     str | None, typer.Option(metavar="PERIODS", help="What is left out before, or `auto`.")
 ]
@@ -60,6 +67,7 @@ def study_fields(
     poincare: bool,
     ensemble: int | None,
     settle: str | None,
+    statistics: str | None,
     section: str | None,
     observables: str | None,
     indicators: str | None,
@@ -84,6 +92,7 @@ def study_fields(
     return fields | {
         "members": ensemble,
         "settle": None if settle is None else _number("--settle", settle, word="auto"),
+        "statistics": listed(statistics),
         "section": None if section is None else _section(section),
         "observables": listed(observables),
         "indicators": "all" if indicators == "all" else listed(indicators),

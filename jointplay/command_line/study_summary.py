@@ -18,7 +18,7 @@ def write_points(source: "StudySource", table: Path) -> None:
 
     channels = [channel.name for channel in source.channels]
     everything = range(source.points)
-    table.write_text("".join(study_export.point_lines(source, channels, everything, units())))
+    table.write_text("".join(study_export.point_lines(source, channels, everything, units(source))))
 
 
 def summary_of(source: "StudySource") -> dict[str, Any]:
@@ -40,11 +40,12 @@ def summary_of(source: "StudySource") -> dict[str, Any]:
     }
 
 
-def units() -> dict[str, str]:
+def units(source: "StudySource") -> dict[str, str]:
     """Return the units of the statistics and indicators of points, by name."""
-    from solver.study.meanings import INDICATORS, STATISTICS
+    from solver.study.meanings import MEANINGS
 
-    return {name: unit for name, (unit, _) in (STATISTICS | INDICATORS).items()}
+    own = source.attributes.get("meanings", {})
+    return {name: unit for name, (unit, _) in {**MEANINGS, **own}.items()}
 
 
 def print_points(source: "StudySource") -> None:

@@ -1,6 +1,6 @@
 """From a study's store to the columns that the API shows."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -19,12 +19,11 @@ from service.studies.queries import (
     points_of,
     sections_of,
 )
-from solver.study.meanings import INDICATORS, STATISTICS
+from solver.study.meanings import MEANINGS
 from storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
 STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")
-MEANINGS = STATISTICS | INDICATORS
 NO_MEANING = ("1", "")
 VERDICT = "verdict"
 _READ = 4_000_000
@@ -78,7 +77,8 @@ def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:
             range=(found.maximum - found.minimum)[part].tolist(),
             **{which: column[part].tolist() for which, column in found._asdict().items()},
         )
-    return schemas.Sweep.model_construct(**_points(store, points, following), peaks=peaks)
+    left_out = described.keys() - set(names)
+    return schemas.Sweep.model_construct(**_points(store, points, following, left_out), peaks=peaks)
 
 
 def _columns(store: StudyReader) -> int:
@@ -86,7 +86,10 @@ def _columns(store: StudyReader) -> int:
     return len(store.parameters) + len(store.statistics) + len(store.indicators) + 3
 
 
-def _points(store: StudyReader, points: range, following: int | None) -> dict[str, Any]:
+def _points(
+    store: StudyReader, points: range, following: int | None, left_out: Collection[str] = ()
+) -> dict[str, Any]:
+    """Return what every study has; without statistics of the channels that are left out."""
     part = slice(points.start, points.stop)
     return {
         "complete": store.complete,
@@ -107,7 +110,15 @@ def _points(store: StudyReader, points: range, following: int | None) -> dict[st
             for point, one in sorted(store.failures.items())
             if point in points
         ],
-        "statistics": _described(store.statistics, part),
+        "statistics": _described(
+            store,
+            {
+                name: column
+                for name, column in store.statistics.items()
+                if name.rpartition(".")[0] not in left_out
+            },
+            part,
+        ),
     }
 
 
@@ -116,18 +127,19 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
     codes, names = store.verdicts, store.verdict_names
     return {
         **_points(store, points, following),
-        "indicators": _described(store.indicators, part),
+        "indicators": _described(store, store.indicators, part),
         "verdicts": None
         if codes is None
         else [None if code < 0 else names[code] for code in codes[part]],
     }
 
 
-def _described(columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
+def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
+    meanings = {**MEANINGS, **store.meanings}
     return {
         name: Series.model_construct(
-            unit=MEANINGS.get(name, NO_MEANING)[0],
-            long_name=MEANINGS.get(name, NO_MEANING)[1],
+            unit=meanings.get(name, NO_MEANING)[0],
+            long_name=meanings.get(name, NO_MEANING)[1],
             values=one[part].tolist(),
         )
         for name, one in columns.items()

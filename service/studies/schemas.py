@@ -36,7 +36,8 @@ class StudyPoints(BaseModel):
     )
     failures: list[PointFailure] = Field(description="Of the points that failed.")
     statistics: dict[str, Series] = Field(
-        description="By name: steps, onsets, energy_residual and others."
+        description="By name: steps, onsets, energy_residual and others; of a sweep, what the job "
+        "chose of the shown channels and of joints, such as A.normal_force.mean, A.contact_share."
     )
 
 
@@ -91,6 +92,6 @@ class PeakColumns(BaseModel):
 
 
 class Sweep(StudyPoints):
-    """Extremes of channels over the parameters."""
+    """Extremes and statistics of channels over the parameters."""
 
     peaks: dict[str, PeakColumns]

@@ -7,7 +7,7 @@ INTERNAL: Final = "pyramid/"
 """Group of what the service reads itself and no client is shown."""
 
 _KEY: Final = re.compile(
-    r"(?:(?!\.)[A-Za-z0-9_.-]{1,64}/){0,4}(?:zarr\.json|c(?:/\d{1,9}){0,4})", re.ASCII
+    r"(?:(?!\.)[A-Za-z0-9_.-]{1,96}/){0,4}(?:zarr\.json|c(?:/\d{1,9}){0,4})", re.ASCII
 )
 
 

@@ -9,7 +9,7 @@ from typing import Final
 from service.jobs.results_of_kinds import is_study
 from service.results.stores import committed_so_far
 from service.zarr.content import Content
-from solver.study.meanings import INDICATORS, STATISTICS
+from solver.study.meanings import MEANINGS
 from storage.catalogue import Catalogue, Job
 from storage.results import ArraySpec, NotAStore
 from storage.results.layout import MANIFEST
@@ -20,9 +20,7 @@ from storage.studies.live import LiveStudy
 
 _FRESH: Final = 0.5
 """Seconds for which the parts of a running study are not read again."""
-_MEANINGS: Final = {
-    name: ArraySpec(name, *meaning) for name, meaning in (STATISTICS | INDICATORS).items()
-}
+_MEANINGS: Final = {name: ArraySpec(name, *meaning) for name, meaning in MEANINGS.items()}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
 

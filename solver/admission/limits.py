@@ -19,5 +19,9 @@ LONGEST_SETTLING = 2000
 """Periods after which "settle": "auto" stops waiting."""
 EVENT_PATIENCE = 20
 """Periods per section that is not taken at a crank angle, before a run ends without it."""
+MOST_STATISTICS = 512
+"""Of channels and contacts, a point: each is an array of its own."""
+MOST_SAMPLES_OF_STATISTICS = 1e10
+"""Of all points of a study together: some hours of looking at them."""
 BYTES_PER_POINT = 512.0
 """Of a study beside sections and peaks: status, statistics, indicators."""

@@ -132,10 +132,12 @@ def check_limits(
     record: int = 0,
     observables: int = 0,
     channels: int = 0,
+    statistics: int = 0,
 ) -> int:
     """Refuse what takes too long or too much space; return the bytes that it takes.
 
-    `run` is the longest run of a point in periods, `place` where the job says so.
+    `run` is the longest run of a point in periods, `place` where the job says so; the others count
+    what a point keeps.
 
     Raises
     ------
@@ -159,7 +161,8 @@ def check_limits(
                 f" limit of a study is {MOST_PERIODS:g}. Ask for fewer points or periods.",
             )
         )
-    per_point = BYTES_PER_VALUE * (record * (observables + 1) + 4 * channels) + BYTES_PER_POINT
+    numbers = record * (observables + 1) + 4 * channels + statistics
+    per_point = BYTES_PER_VALUE * numbers + BYTES_PER_POINT
     stored = points * per_point
     if stored > MOST_BYTES:
         problems.append(

@@ -1,4 +1,4 @@
-"""Admission of the kind ``sweep``: peaks over any number of parameters."""
+"""Admission of the kind ``sweep``: peaks and statistics over any number of parameters."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from solver.admission import documents
 from solver.admission.observables import chosen, coordinate_channels, peak_channels
 from solver.admission.points import Axis, Points, product
 from solver.admission.spans import periods
+from solver.admission.statistics import check_samples, check_statistics
 from solver.admission.studies import check_count, check_limits, make_study
 from solver.admission.varied import check_points
 from solver.admission.written import axis
@@ -42,9 +43,12 @@ def admit_sweep(job: SweepJob, *, thorough: bool = True) -> Study:
             for point, note in units.notes.items()
         )
     second = units.seconds if job.periods is not None else np.ones(points.count)
-    longest = float((length * second / units.seconds).max())
+    settle, duration = job.settle * second, length * second
+    longest = float((duration / units.seconds).max())
     place = "/periods" if job.periods is not None else "/duration"
-    stored = check_limits(points.count, longest, place, channels=len(channels))
+    numbers = check_statistics(job, checked, channels)
+    check_samples(job, units.seconds, settle, duration)
+    stored = check_limits(points.count, longest, place, channels=len(channels), statistics=numbers)
     filled = documents.filled(
         job, checked.document, checked.echo, channels=[channel.name for channel in channels]
     )
@@ -56,8 +60,8 @@ def admit_sweep(job: SweepJob, *, thorough: bool = True) -> Study:
         channels=channels,
         period=units.seconds,
         offset=np.zeros(points.count),
-        settle=job.settle * second,
-        duration=length * second,
+        settle=settle,
+        duration=duration,
         stored_bytes=stored,
     )
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from solver.compiler.kernel import LEDGER
 from solver.errors import SimulationFailed
 from solver.lanes.bundle import Bundle
 from solver.lanes.prescribed import prescribed_peaks
 from solver.lanes.state import Counter, Status
-from solver.results import Peak
+from solver.results import IMPACT, Peak
 
 
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:
@@ -42,6 +45,15 @@ def statistics_of(bundle: Bundle, lane: int) -> dict[str, Any]:
         "smallest_step": float(bundle.table("smallest_step")[0, lane]) if steps else None,
         "energy": ledger_of(bundle, lane),
     }
+
+
+def contacts_of(bundle: Bundle, lane: int) -> NDArray[np.void]:
+    """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
+    rows = bundle.impact_rows[lane, : bundle.counters[Counter.IMPACT_ROWS, lane]]
+    contacts = np.zeros(len(rows), dtype=IMPACT)
+    for column, name in enumerate(IMPACT.names or ()):
+        contacts[name] = rows[:, column]
+    return contacts
 
 
 def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:

@@ -119,4 +119,5 @@ def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, commo
     counter[Counter.LANDING] = -1
     counter[Counter.SAMPLES], counter[Counter.SECTIONS] = problem.samples, problem.sections
     counter[Counter.SECTION] = problem.first_section
+    counter[Counter.SAMPLE] = problem.first_sample
     set_clock(lane, bundle.slots, bundle.work, bundle.settings, bundle.counters)

@@ -59,3 +59,5 @@ class LaneProblem:
     start: LaneStart | None = None
     step: float | None = None
     """Of a method with a fixed step, s."""
+    first_sample: int = 0
+    """Index of the first sample; sample i lies at i * output_step, the last one at the end."""

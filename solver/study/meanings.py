@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from solver.statistics import Meaning, meanings
+from solver.study.plan import Study
+
 STATISTICS = {
     "steps": ("1", "accepted steps"),
     "rejections": ("1", "rejected steps"),
@@ -12,7 +15,7 @@ STATISTICS = {
     "friction_loss": ("J", "energy lost in friction"),
     "energy_residual": ("J", "what the energy ledger lacks"),
     "settled_periods": ("1", "periods left out before the first recorded section"),
-    "settling": ("1", "why it was settled: 0 as the job said, 1 it recurs, 2 steady statistics"),
+    "settling": ("1", "how settling ended, a position in the attribute settlings"),
     "from_neighbour": ("1", "1 if it started from its neighbour's last state, else 0"),
 }
 INDICATORS = {
@@ -26,5 +29,12 @@ INDICATORS = {
     "line_frequency": ("Hz", "frequency of the strongest line of the section's spectrum"),
     "line_share": ("1", "share of the power in that line, 0 to 1"),
     "flatness": ("1", "flatness of the spectrum: 0 lines, 1 white noise"),
-    "verdict": ("1", "code of the verdict, see the attribute verdicts"),
+    "verdict": ("1", "a position in the attribute verdicts"),
 }
+MEANINGS = STATISTICS | INDICATORS
+
+
+def own_meanings(study: Study) -> dict[str, Meaning]:
+    """Return what the statistics mean that a job chose of channels and of joints."""
+    joints = tuple(name for name, joint in study.scene["joints"].items() if joint.get("clearance"))
+    return meanings(study.statistics, study.channels, joints)

@@ -73,6 +73,11 @@ class Study:
         """Local error tolerance."""
         return float(self.job["tolerance"])
 
+    @property
+    def statistics(self) -> tuple[str, ...]:
+        """Names of the statistics of channels and contacts that a sweep keeps per point."""
+        return tuple(self.job.get("statistics", ()))
+
     def point_scene(self, point: int) -> Scene:
         """Return the scene of a point with its parameters set, as checked on admission."""
         return self.scenes.scene(point)

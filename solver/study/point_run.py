@@ -18,6 +18,7 @@ from solver.nonlinear.settling import SETTLINGS, Settling
 from solver.study.indicators import RECURS, unwound
 from solver.study.plan import Study
 from solver.study.starts import perturbed_start, start_scales
+from solver.study.window import begin_tallies, window_of
 
 Floats = NDArray[np.float64]
 
@@ -47,6 +48,10 @@ class PointRun:
     """States at sections, (sections, states) each, that settling or indicators still need."""
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
+    tallies: list[Floats] = field(default_factory=list)
+    """Of the job's statistics, in its order; see `solver.study.window`."""
+    sampled: int = 0
+    """Samples that they have had."""
     settling: Settling | None = field(default=None, repr=False)
 
     def has_settled(self, scales: Floats, angles: NDArray[np.bool_], most: int) -> bool:
@@ -76,7 +81,21 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         settle = float(study.settle[point])
         first_leg = settle if settle > 0.0 else float(study.duration[point])
         run.settled = 0 if settle == 0.0 else -1
-        return LaneProblem(scene, first_leg, study.tolerance, first_leg, 0, 0, 0.0, start=start)
+        if not study.statistics:
+            return LaneProblem(scene, first_leg, study.tolerance, first_leg, 0, 0, 0.0, start=start)
+        begin_tallies(study, run, len(kernel.play))
+        window = window_of(study, point)
+        return LaneProblem(
+            scene,
+            first_leg,
+            study.tolerance,
+            window.step,
+            window.first + window.grid.samples + 1,  # the last one is taken at the end
+            0,
+            0.0,
+            start=start,
+            first_sample=window.first,
+        )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
     if waits:

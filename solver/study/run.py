@@ -22,7 +22,7 @@ from solver.compiler.kernel import Kernel
 from solver.compiler.layout import LANES
 from solver.compiler.tangents import Tangents, compile_tangents
 from solver.errors import SimulationFailed
-from solver.lanes.account import failure_of, peaks_of, statistics_of
+from solver.lanes.account import contacts_of, failure_of, peaks_of, statistics_of
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneStart
 from solver.lanes.state import Counter, Status
@@ -38,10 +38,11 @@ from solver.study.point_run import (
     scales_of,
 )
 from solver.study.results import PointEnd, SectionRows, StudySlice
+from solver.study.window import statistics_in, take_contacts, take_samples
 
 Floats = NDArray[np.float64]
 
-SERIES = ("seen", "growth")
+SERIES = ("seen", "growth", "tallies")
 """Of a point's run: lists of arrays that a restart point needs."""
 
 
@@ -69,7 +70,8 @@ class StudyRun:
         self.ended = 0
         self.structure = -1
         self.bundle: Bundle | None = None
-        self.columns = np.zeros(0, dtype=np.int64)
+        self.columns = self.sampled = np.zeros(0, dtype=np.int64)
+        """Rows of the observables, and of the channels, in the kernel's block of channels."""
         if checkpoint is not None:
             self._restore(checkpoint)
             return
@@ -121,8 +123,9 @@ class StudyRun:
         kernel, tangents = kernel_of(study, structure)
         self.structure = structure
         self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
-        self.columns = np.array(
-            [kernel.rows.index(channel.name) for channel in study.observables], dtype=np.int64
+        self.columns, self.sampled = (
+            np.array([kernel.rows.index(channel.name) for channel in chosen], dtype=np.int64)
+            for chosen in (study.observables, study.channels)
         )
 
     def _collect(self) -> tuple[list[SectionRows], list[PointEnd]]:
@@ -136,6 +139,8 @@ class StudyRun:
             if run.settled >= 0:
                 run.growth.append(self.bundle.growth(lane).copy())
             handed_out += self._rows(lane, run)
+            if run.tallies:
+                self._tally(lane, run)
             status = Status(self.bundle.counters[Counter.STATUS, lane])
             if status == Status.DONE and self._goes_on(lane, run):
                 continue
@@ -162,6 +167,16 @@ class StudyRun:
         first = run.taken
         run.taken += len(rows)
         return [SectionRows(run.point, first, times, values)]
+
+    def _tally(self, lane: int, run: PointRun) -> None:
+        """Take a lane's new samples, and the contacts that ended after settling."""
+        bundle, study = self.bundle, self.study
+        assert bundle is not None  # noqa: S101  (it has just advanced)
+        rows = bundle.sample_rows[lane, : bundle.counters[Counter.SAMPLE_ROWS, lane]]
+        if len(rows):
+            take_samples(study, run, bundle.observe(lane, rows, self.sampled))
+        if run.settled >= 0 and bundle.counters[Counter.IMPACT_ROWS, lane]:
+            take_contacts(study, run, contacts_of(bundle, lane))
 
     def _goes_on(self, lane: int, run: PointRun) -> bool:
         """Whether a lane at the end of a leg was given the next one."""
@@ -202,7 +217,7 @@ class StudyRun:
             failure.detail if failure else "",
             bundle.time(lane),
             np.array([list(asdict(peak).values()) for peak in peaks]).reshape(-1, 4),
-            self._statistics(lane, run),
+            self._statistics(lane, run, whole=failure is None),
             {} if failure or not study.indicators else self._indicators(run),
         )
         order = study.chain_order[run.chain]
@@ -222,7 +237,8 @@ class StudyRun:
         by_period = growth_by_period(growth, period, run.settled)
         return indicators_of(study.indicators, states, scales, angles, by_period, period)
 
-    def _statistics(self, lane: int, run: PointRun) -> dict[str, float]:
+    def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
+        """Return what every point has; those of channels and contacts too if it ran to its end."""
         assert self.bundle is not None  # noqa: S101  (it has just advanced)
         found: dict[str, Any] = statistics_of(self.bundle, lane)
         energy = found.pop("energy")
@@ -234,6 +250,8 @@ class StudyRun:
             "settling": run.settling.result.code if run.settling and run.settling.result else 0,
             "from_neighbour": float(run.start is not None),
         }
+        if run.tallies and whole:
+            found |= statistics_in(self.study, run, self.bundle.kernel.play)
         return {name: float(value) for name, value in found.items()}
 
     def _fraction(self) -> float:
@@ -305,7 +323,7 @@ def kernel_of(study: Study, structure: int) -> tuple[Kernel, Tangents | None]:
 
 
 def _facts(run: PointRun) -> dict[str, Any]:
-    names = ("point", "chain", "position", "settled", "reached", "taken")
+    names = ("point", "chain", "position", "settled", "reached", "taken", "sampled")
     facts = {name: getattr(run, name) for name in names}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
     return facts | {"starts": run.start is not None}

@@ -30,7 +30,7 @@ class LiveStudy:
     folder
         Of the store.
     meanings
-        Units and long names of statistics and indicators.
+        Units and long names of statistics and indicators that any study may have.
 
     Raises
     ------
@@ -47,7 +47,10 @@ class LiveStudy:
             record=reader.record,
             channels=reader.channels,
             blocks=tuple((int(first), int(count)) for first, count in reader.attributes["blocks"]),
-            meanings=meanings,
+            meanings={
+                **meanings,
+                **{name: ArraySpec(name, *meaning) for name, meaning in reader.meanings.items()},
+            },
         )
         self._codes = sorted({failure.code for failure in reader.failures.values()})
         names = {group: sorted(getattr(reader, group)) for group in _NUMBERS}

@@ -113,6 +113,12 @@ class StudyReader:
         return self._numbers.indicators
 
     @property
+    def meanings(self) -> Mapping[str, tuple[str, str]]:
+        """Unit and long name of statistics that this study has and others need not, by name."""
+        found: dict[str, list[str]] = self.attributes.get("meanings", {})
+        return {name: (unit, long_name) for name, (unit, long_name) in found.items()}
+
+    @property
     def verdicts(self) -> NDArray[np.int64] | None:
         """(points,) codes into `verdict_names`, -1 where there is none yet; None: not asked for."""
         found = self.indicators.get("verdict")

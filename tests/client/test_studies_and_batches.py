@@ -48,6 +48,10 @@ def test_a_sweep_comes_as_arrays(client, finished_sweep):
     peaks = study.peaks("A.normal_force")
     np.testing.assert_array_equal(peaks.maximum, [1.0, 2.0, 3.0, 4.0, np.nan, 6.0])
     assert (study.status == DONE).sum() == 5
+    mean = study.statistics["A.normal_force.mean"]
+    np.testing.assert_array_equal(mean, [0.0, 0.5, 1.0, 1.5, np.nan, 2.5])
+    assert study.attributes["meanings"]["A.normal_force.mean"][0] == "N"
+    assert "displacement.mean" not in study.statistics
 
 
 def test_what_comes_can_be_drawn_like_a_store(client, finished_study, finished_sweep):

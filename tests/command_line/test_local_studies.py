@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import zarr
 
 from jointplay.command_line.application import run
 from storage.studies import StudyReader
@@ -98,6 +99,28 @@ def test_every_kind_of_study_runs_locally(jointplay, tmp_path, options, points):
     assert reader.complete
     assert reader.points == points
     assert list((output / "figures").iterdir()) != []
+
+
+def test_statistics_of_a_sweep_are_in_the_store_and_in_the_table(jointplay, tmp_path):
+    chosen = ["--statistics", "mean,root_mean_square,contact_share", "--channels", "P.*_force"]
+    output = tmp_path / "OUT"
+    sweep = [*CRANK, "--sweep", "clearance=1e-4,3e-4", "--periods", "2", "--settle", "1"]
+    ended = jointplay(*sweep, *chosen, "-o", output)
+    assert ended.code == 0, ended.err
+    reader = StudyReader(output / "results.zarr")
+    reader.verify()
+    mean = zarr.open_group(output / "results.zarr", mode="r")["statistics/P.normal_force.mean"]
+    assert mean.attrs["units"] == "N"
+    assert mean.attrs["long_name"] == "mean of normal contact force (joint P)"
+    square = reader.statistics["P.normal_force.root_mean_square"]
+    assert (square > mean[:]).all()
+    assert (reader.peaks("P.normal_force").maximum > square).all()
+    with (output / "points.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["P.normal_force.mean [N]"]) for row in rows] == mean[:].tolist()
+    share = reader.statistics["P.contact_share"]
+    assert [float(row["P.contact_share [1]"]) for row in rows] == share.tolist()
+    assert ((share > 0.0) & (share <= 1.0)).all()
 
 
 def test_points_that_fail_are_named_and_the_others_stand(jointplay, tmp_path):

@@ -42,7 +42,10 @@ ASKED = {
         },
     ),
     "a sweep": (
-        ["--sweep", "clearance=1e-4:5e-4:3", "--sweep", "friction=0,0.1", "--periods", "2"],
+        [
+            *["--sweep", "clearance=1e-4:5e-4:3", "--sweep", "friction=0,0.1"],
+            *["--periods", "2", "--statistics", "mean,contact_share"],
+        ],
         {
             "kind": "sweep",
             "grid": {
@@ -50,6 +53,7 @@ ASKED = {
                 "friction": [0.0, 0.1],
             },
             "periods": 2.0,
+            "statistics": ["mean", "contact_share"],
         },
     ),
     "sections": (
@@ -152,6 +156,10 @@ def test_extremes_of_a_sweep_are_exported(jointplay, at, finished_sweep):
     header, *rows = csv.reader(io.StringIO(text))
     maximum = header.index("A.normal_force maximum [N]")
     assert [row[maximum] for row in rows] == ["1", "2", "3", "4", "nan", "6"]
+    assert rows[1][header.index("A.normal_force range [N]")] == "4"
+    assert rows[1][header.index("A.normal_force.mean [N]")] == "0.5"
+    assert rows[1][header.index("A.contact_share [1]")] == "0.5"
+    assert "displacement.mean [m]" not in header
 
 
 @pytest.mark.parametrize(

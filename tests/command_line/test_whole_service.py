@@ -108,7 +108,13 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
     scene = {"preset": "slider-crank"}
     jobs = [
         {"kind": "simulate", "scene": scene, "duration": 0.01},
-        {"kind": "sweep", "scene": scene, "grid": {"clearance": [1e-4, 2e-4]}, "periods": 1},
+        {
+            "kind": "sweep",
+            "scene": scene,
+            "grid": {"clearance": [1e-4, 2e-4]},
+            "periods": 1,
+            "statistics": ["median", "impacts"],
+        },
         {"kind": "poincare", "scene": scene, "settle": 1, "record": 3},
         {"kind": "ensemble", "scene": scene, "members": 2, "settle": 1, "record": 3},
     ]
@@ -120,7 +126,11 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
     with Client(url) as client:
         assert client.batch(batch).fraction == 1.0
         _, sweep, poincare, ensemble = client.batch(batch).jobs()
-        assert np.isfinite(sweep.study().peaks("displacement").maximum).all()
+        swept = sweep.study()
+        peaks, median = swept.peaks("displacement"), swept.statistics["displacement.median"]
+        assert (peaks.minimum < median).all()
+        assert (median < peaks.maximum).all()
+        assert (swept.statistics["P.impacts"] <= swept.statistics["onsets"]).all()
         assert poincare.study().counts.tolist() == [3]
         assert ensemble.study().counts.tolist() == [3, 3]
 

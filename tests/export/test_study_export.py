@@ -66,6 +66,7 @@ def test_extremes_of_a_sweep_stand_beside_its_parameters():
         "stroke minimum at [s]",
         "stroke maximum [m]",
         "stroke maximum at [s]",
+        "stroke range [m]",
     ]
     assert [int(row[0]) for row in rows] == list(range(2, 8))
     maxima = [float(row[7]) for row in rows]

@@ -5,6 +5,7 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
+import zarr
 
 from service.studies import schemas
 from storage.catalogue import BlockState, JobError
@@ -123,6 +124,33 @@ def test_a_sweep_has_extremes_and_ranges_at_every_point(http, finished_sweep):
     assert force["range"][5] == 12.0
     assert (force["minimum_time"][0], force["maximum_time"][0]) == (0.25, 0.75)
     assert found["status"][4] == "failed"
+
+
+def test_a_sweep_has_the_statistics_that_it_was_asked_for(http, finished_sweep):
+    whole = get(http, f"/v1/jobs/{finished_sweep}/sweep")
+    assert whole["statistics"]["displacement.mean"] == {
+        "unit": "m",
+        "long_name": f"mean of {whole['peaks']['displacement']['long_name']}",
+        "values": [0.0, 0.5, 1.0, 1.5, None, 2.5],
+    }
+    found = get(http, f"/v1/jobs/{finished_sweep}/sweep", channel="A.*")["statistics"]
+    of_others = {name for name in whole["statistics"] if name.startswith(("displ", "vel", "acc"))}
+    assert of_others == {"displacement.mean", "velocity.mean", "acceleration.mean"}
+    assert found.keys() == {"steps", "A.normal_force.mean", "A.penetration.mean"} | {
+        "A.contact_share",
+        "B.contact_share",
+    }
+    assert found["B.contact_share"]["long_name"].startswith("share of the time in contact")
+
+
+def test_statistics_of_a_running_sweep_are_arrays_with_units(http, service_url, worker):
+    job = worker.submit(**SWEEP)
+    worker.compute(worker.start(job), points=3)
+    store = zarr.open_group(f"{service_url}/v1/jobs/{job}/zarr", mode="r", zarr_format=3)
+    mean = store["statistics/A.normal_force.mean"]
+    assert mean.attrs["units"] == "N"
+    assert mean[:3].tolist() == [0.0, 0.5, 1.0]
+    assert np.isnan(mean[3:]).all()
 
 
 def test_many_points_come_in_pages(http, worker, monkeypatch):

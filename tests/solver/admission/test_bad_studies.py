@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
 from solver.admission import admit
 from solver.errors import InvalidInput, LimitExceeded
+from solver.jobs.sweep import StatisticName
 from tests.solver.study.jobs_of_studies import BIFURCATION, ENSEMBLE, POINCARE, SWEEP
 
 
@@ -22,6 +23,7 @@ def values(**changes: Any) -> dict[str, Any]:
 
 PENDULUM = {"preset": "pendulum"}
 B, S, P, E = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE
+EVERY_STATISTIC = list(get_args(StatisticName))
 LISTED = {**SWEEP, "grid": None}
 WITHOUT_UNIT = {key: value for key, value in SWEEP.items() if key != "periods"}
 
@@ -196,6 +198,33 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
     "neither grid nor points": (LISTED, {}, "/grid", "one of 'grid' and 'points'"),
     "duration and periods": (S, {"duration": 1.0}, "/duration", "not both"),
     "neither duration nor periods": (WITHOUT_UNIT, {}, "/duration", "'periods'"),
+    "unknown statistic": (S, {"statistics": ["avarage"]}, "/statistics/0", "'median'"),
+    "statistics by a word": (S, {"statistics": "mean"}, "/statistics", "must be a list"),
+    "statistic listed twice": (
+        S,
+        {"statistics": ["mean", "median", "mean"]},
+        "/statistics/2",
+        "'mean' is listed twice",
+    ),
+    "contacts without clearance": (
+        {"kind": "sweep", "scene": PENDULUM, "points": [{"angle": 1.0}], "duration": 1.0},
+        {"statistics": ["mean", "contact_share"]},
+        "/statistics/1",
+        "this scene has none",
+    ),
+    "statistics of another kind of study": (B, {"statistics": ["mean"]}, "/statistics", "no field"),
+    "few samples a period": (
+        S,
+        {"samples_per_period": 8},
+        "/samples_per_period",
+        "at least 16",
+    ),
+    "less than two samples": (
+        S,
+        {"statistics": ["mean"], "settle": 1.9999},
+        "/samples_per_period",
+        "less than two samples",
+    ),
     "settling for all of it": (S, {"settle": 2.0}, "/settle", "must be shorter"),
     "periods without a period": (
         S,
@@ -289,6 +318,18 @@ TOO_LARGE: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         {},
         "/duration",
         "5000000 periods",
+    ),
+    "statistics of every channel": (
+        S,
+        {"statistics": EVERY_STATISTIC, "channels": ["*"]},
+        "/statistics",
+        "the limit is 512",
+    ),
+    "samples of statistics": (
+        S,
+        {"statistics": ["mean"], "periods": 9e5, "samples_per_period": 4096},
+        "/samples_per_period",
+        "the limit is 1e+10",
     ),
     "periods of a sweep": (S, {"periods": 1e7}, "/periods", "the limit is 1e+06"),
 }

@@ -1,0 +1,26 @@
+"""The root of the mean square: about zero, not about the mean."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.statistics.of_channels.statistic import Floats, Grid
+from solver.statistics.running import add_in_order
+
+
+class RootMeanSquare:
+    """Of the samples."""
+
+    long_name = "root mean square"
+
+    def begin(self, grid: Grid, channels: int) -> Floats:
+        """Return the sum of squares."""
+        return np.zeros((1, channels))
+
+    def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
+        """Add the squares."""
+        add_in_order(tally[0], values * values)
+
+    def value(self, tally: Floats, count: int) -> Floats:
+        """Return the root of the mean."""
+        return np.asarray(np.sqrt(tally[0] / count), np.float64)

@@ -1,0 +1,22 @@
+"""How many contacts began."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.statistics.of_contacts.statistic import Contacts, Floats
+
+
+class ImpactCount:
+    """Onsets after the start of the stretch."""
+
+    unit = "1"
+    long_name = "beginnings of contact"
+
+    def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
+        """Count the onsets."""
+        np.add.at(tally, contacts["joint"][contacts["onset"] > start], 1.0)
+
+    def value(self, tally: Floats, start: float, end: float) -> Floats:
+        """Return the count."""
+        return tally

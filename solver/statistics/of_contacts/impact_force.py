@@ -1,0 +1,23 @@
+"""The largest normal force of an impact: of a contact that began in the stretch, not before."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from solver.statistics.of_contacts.statistic import Contacts, Floats
+
+
+class LargestImpactForce:
+    """N; zero if no contact began."""
+
+    unit = "N"
+    long_name = "largest normal force of a contact that began; 0: none did"
+
+    def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
+        """Take the peaks of the new contacts."""
+        begun = contacts[contacts["onset"] > start]
+        np.maximum.at(tally, begun["joint"], begun["peak_force"])
+
+    def value(self, tally: Floats, start: float, end: float) -> Floats:
+        """Return the largest."""
+        return tally

@@ -1,0 +1,38 @@
+"""What every statistic of contacts provides."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Contacts = NDArray[np.void]
+"""Contacts that ended, of dtype `solver.results.IMPACT`."""
+
+
+class ContactStatistic(Protocol):
+    """A statistic of the contacts of each joint with clearance over a stretch of time.
+
+    Contacts that began before the stretch, or last beyond it, are part of it as far as they reach.
+    The tally begins with zeros, (joints,).
+    """
+
+    @property
+    def unit(self) -> str:
+        """Of the statistic."""
+        ...
+
+    @property
+    def long_name(self) -> str:
+        """What it is, in words."""
+        ...
+
+    def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
+        """Take contacts into the (joints,) tally; the stretch is from start to end, s."""
+        ...
+
+    def value(self, tally: Floats, start: float, end: float) -> Floats:
+        """Return the statistic, (joints,)."""
+        ...
