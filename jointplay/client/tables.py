@@ -94,6 +94,7 @@ def points(job: "Job") -> "pd.DataFrame":
     numbers = {**study.indicators, **study.statistics}
     columns |= {name: one for name, one in numbers.items() if name != "verdict"}
     units = {one.name: one.unit for one in study.parameters}
+    units |= {name: unit for name, (unit, _) in study.attributes.get("meanings", {}).items()}
     return _table(columns, units).rename_axis("point")
 
 
