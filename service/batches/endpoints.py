@@ -1,6 +1,6 @@
 """``/v1/batches``: submit, look at and cancel many jobs at once."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Path, Query, Response
 
@@ -12,7 +12,7 @@ from service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDep
 from service.idempotency import RepeatableRequest
 from service.jobs.paging import PageQuery
 from service.jobs.schemas import JobPage, JobResource
-from service.problems import ErrorDetail, RequestRefused, kinds, problems
+from service.problems import ErrorDetail, RequestRefused, header, kinds, problems
 from service.problems.document import clipped
 from storage.catalogue import Batch, BatchNotFound
 from worker.bell import wake_relay
@@ -23,6 +23,9 @@ REQUEST_BODY = {
     "required": True,
     "description": "The jobs; each as it is sent to /v1/jobs.",
     "content": {"application/json": {"schema": {"$ref": "#/components/schemas/BatchDocument"}}},
+}
+MADE: dict[int | str, dict[str, Any]] = {
+    202: {"headers": {"Location": header("Path of the batch.")}}
 }
 BatchId = Annotated[str, Path(description="Id of the batch, as POST /v1/batches returned it.")]
 
@@ -45,7 +48,8 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
     "",
     status_code=202,
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=problems(
+    responses=MADE
+    | problems(
         kinds.MALFORMED_JSON,
         kinds.BODY_TOO_LARGE,
         kinds.NOT_JSON,

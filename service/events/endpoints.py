@@ -20,11 +20,22 @@ _QUIET = 15.0
 """Seconds after which a comment is sent: proxies cut connections that say nothing."""
 _COME_BACK = 1000  # ms after which a browser connects anew
 
+_FIELDS: dict[str, Any] = {
+    "type": "object",
+    "description": "The fields of each event.",
+    "properties": {
+        "event": {"type": "string", "description": "Its type: progress, or one of the history."},
+        "id": {"type": "string", "description": "Its number in the history; progress has none."},
+        "data": {"type": "string", "description": "JSON: JobProgress, or JobEvent."},
+    },
+    "required": ["event", "data"],
+}
+
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 STREAM: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "Events until the job is finished.",
-        "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+        "content": {MEDIA_TYPE: {"schema": _FIELDS}},
     },
     204: {"description": "The job is finished, and the client has all its events."},
 }

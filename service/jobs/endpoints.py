@@ -12,16 +12,19 @@ from service.idempotency import Repeatable, RepeatableRequest
 from service.jobs.listing import JobQuery
 from service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from service.jobs.submission import REQUEST_BODY, submit
-from service.problems import kinds, problems
+from service.problems import header, kinds, problems
 from storage.catalogue import Catalogue, Submitted
 from storage.settings import Settings
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
-FOUND: dict[int | str, dict[str, Any]] = {
+_LOCATION = {"headers": {"Location": header("Path of the job.")}}
+MADE_OR_FOUND: dict[int | str, dict[str, Any]] = {
     200: {
         "model": SubmittedJob,
         "description": "An identical job was there, or the job was waited for and is finished.",
     }
+    | _LOCATION,
+    202: _LOCATION,
 }
 
 
@@ -29,7 +32,7 @@ FOUND: dict[int | str, dict[str, Any]] = {
     "",
     status_code=202,
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=FOUND
+    responses=MADE_OR_FOUND
     | problems(
         kinds.MALFORMED_JSON,
         kinds.BODY_TOO_LARGE,

@@ -1,14 +1,25 @@
 """Which jobs a list holds."""
 
+import re
 from datetime import UTC, datetime
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import AwareDatetime, Field
+from pydantic import AwareDatetime, BeforeValidator, Field
 
 from service.jobs.paging import PageQuery
 from service.problems import ErrorDetail, RequestRefused, kinds
 from solver.jobs import KINDS
 from storage.catalogue import JobState
+
+
+def _written(moment: object) -> object:
+    if isinstance(moment, str) and not _DATE.match(moment):
+        raise ValueError("Give a moment as RFC 3339 has it, such as 2026-01-01T00:00:00Z")
+    return moment
+
+
+_DATE = re.compile(r"\d{4}-\d{2}-\d{2}[Tt ]", re.ASCII)  # and no number of seconds
+Moment = Annotated[AwareDatetime, BeforeValidator(_written)]
 
 
 class JobQuery(PageQuery):
@@ -24,10 +35,10 @@ class JobQuery(PageQuery):
     scene: str | None = Field(
         default=None, max_length=200, description="Only jobs of this preset, or scene's name."
     )
-    since: AwareDatetime | None = Field(
+    since: Moment | None = Field(
         default=None, description="Only jobs submitted from this moment on, RFC 3339 with offset."
     )
-    before: AwareDatetime | None = Field(
+    before: Moment | None = Field(
         default=None, description="Only jobs submitted before this moment."
     )
 

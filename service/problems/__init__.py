@@ -4,7 +4,13 @@
 every layer into them, `endpoints` serves the page that each problem's ``type`` points to.
 """
 
-from service.problems.document import ErrorDetail, ProblemDocument, RequestRefused, problems
+from service.problems.document import (
+    ErrorDetail,
+    ProblemDocument,
+    RequestRefused,
+    header,
+    problems,
+)
 from service.problems.handlers import install
 
-__all__ = ["ErrorDetail", "ProblemDocument", "RequestRefused", "install", "problems"]
+__all__ = ["ErrorDetail", "ProblemDocument", "RequestRefused", "header", "install", "problems"]

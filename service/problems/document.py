@@ -74,5 +74,20 @@ def problems(*kinds: Kind) -> dict[int | str, dict[str, Any]]:
             "description": "; ".join(lines),
             "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}},
         }
+        | _HEADERS.get(status, {})
         for status, lines in titles.items()
     }
+
+
+def header(description: str, *, always: bool = True) -> dict[str, Any]:
+    """Return how the OpenAPI document describes a header of an answer."""
+    return {"description": description, "required": always, "schema": {"type": "string"}}
+
+
+_AGAIN = header("Seconds after which to ask again.", always=False)
+_HEADERS: dict[int, dict[str, Any]] = {
+    409: {"headers": {"Retry-After": _AGAIN}},
+    416: {"headers": {"Content-Range": header("`bytes */` and the size.")}},
+    503: {"headers": {"Retry-After": header("Seconds after which to ask again.")}},
+}
+"""Headers of the problems that have a status."""

@@ -8,6 +8,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from sqlalchemy.exc import OperationalError
 from starlette.exceptions import HTTPException
+from starlette.routing import compile_path
 
 from jointplay.strict_json import MalformedJson
 from service.problems import kinds
@@ -44,6 +45,9 @@ def install(app: FastAPI) -> None:
 
 async def _answer(request: Request, error: Exception) -> Response:
     refused = refusal(error)
+    if refused.kind is kinds.METHOD_NOT_ALLOWED:
+        known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))
+        refused.headers["Allow"] = ", ".join(sorted(known - {""}))
     if refused.kind.status >= 500:
         _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
     document = ProblemDocument(
@@ -60,6 +64,16 @@ async def _answer(request: Request, error: Exception) -> Response:
         headers=refused.headers,
         media_type=MEDIA_TYPE,
     )
+
+
+def _methods_at(request: Request) -> set[str]:
+    """Return what all operations at an address know; its first route names only its own."""
+    return {
+        method.upper()
+        for template, operations in request.app.openapi()["paths"].items()
+        if compile_path(template.replace("{key}", "{key:path}"))[0].match(request.url.path)
+        for method in operations
+    }
 
 
 @singledispatch

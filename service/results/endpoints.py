@@ -39,6 +39,7 @@ router = APIRouter(
     tags=["results"],
     responses=problems(
         kinds.UNKNOWN_JOB,
+        kinds.EXPIRED_JOB,
         kinds.WRONG_KIND,
         kinds.NO_RESULTS,
         kinds.RESULTS_NOT_READY,

@@ -17,6 +17,7 @@ router = APIRouter(
     tags=["studies"],
     responses=problems(
         kinds.UNKNOWN_JOB,
+        kinds.EXPIRED_JOB,
         kinds.WRONG_KIND,
         kinds.NO_RESULTS,
         kinds.RESULTS_NOT_READY,

@@ -12,7 +12,7 @@ from service.dependencies import (
     JobOfThePath,
     SettingsDependency,
 )
-from service.problems import ErrorDetail, RequestRefused, kinds, problems
+from service.problems import ErrorDetail, RequestRefused, header, kinds, problems
 from service.problems.document import clipped
 from service.zarr import ranges
 from service.zarr.content import Content
@@ -24,9 +24,15 @@ router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
 
 _DOCUMENT: Final = "zarr.json"
 _FOREVER: Final = "public, max-age=31536000, immutable"
+_TAG: Final = {
+    "ETag": header("Strong entity tag of the key's bytes."),
+    "Cache-Control": header("`no-cache`, or `immutable` once the job is finished."),
+    "Accept-Ranges": header("`bytes`."),
+}
 _SERVED: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The bytes of the key.",
+        "headers": _TAG,
         "content": {
             "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
             "application/json": {"schema": {"type": "object"}},
@@ -34,17 +40,22 @@ _SERVED: dict[int | str, dict[str, Any]] = {
     },
     206: {
         "description": "The bytes of the range.",
+        "headers": _TAG | {"Content-Range": header("Which bytes of how many.")},
         "content": {
             "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
             "application/json": {"schema": {"type": "string", "format": "binary"}},
         },
     },
-    304: {"description": "It is what If-None-Match names."},
+    304: {"description": "It is what If-None-Match names.", "headers": _TAG},
 }
 
 
 @router.get(
-    "", dependencies=[NO_PARAMETERS], responses=problems(kinds.UNKNOWN_JOB, kinds.NOT_FOUND)
+    "",
+    dependencies=[NO_PARAMETERS],
+    responses=problems(
+        kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.NOT_FOUND, kinds.INVALID_REQUEST
+    ),
 )
 def show_root(
     job: JobOfThePath, catalogue: CatalogueDependency, settings: SettingsDependency
@@ -64,7 +75,14 @@ def show_root(
 @router.get(
     "/{key:path}",
     response_class=Response,
-    responses=_SERVED | problems(kinds.UNKNOWN_JOB, kinds.NOT_FOUND, kinds.RANGE_NOT_SATISFIABLE),
+    responses=_SERVED
+    | problems(
+        kinds.UNKNOWN_JOB,
+        kinds.EXPIRED_JOB,
+        kinds.NOT_FOUND,
+        kinds.RANGE_NOT_SATISFIABLE,
+        kinds.INVALID_REQUEST,
+    ),
     dependencies=[NO_PARAMETERS],
 )
 def show_stored(

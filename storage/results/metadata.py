@@ -7,6 +7,7 @@ cannot list a folder (over HTTP) show an empty dataset.
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any, Final
 
 import numpy as np
@@ -107,7 +108,7 @@ def array(
         "zarr_format": 3,
         "node_type": "array",
         "shape": list(shape),
-        "data_type": dtype.name,
+        "data_type": _name(dtype),
         "chunk_grid": grid,
         "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
         "fill_value": "NaN" if dtype.kind == "f" else fill(dtype),
@@ -126,6 +127,11 @@ def group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Doc
         "attributes": attributes,
         "consolidated_metadata": below,
     }
+
+
+@cache
+def _name(dtype: np.dtype[Any]) -> str:
+    return dtype.name  # numpy spells it anew each time, which is most of the cost of a document
 
 
 def _column(column: Column, table: Table, rows: int) -> Document:
