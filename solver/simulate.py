@@ -81,7 +81,7 @@ class DynamicRun:
     def __init__(self, admission: Admission, scene: Scene) -> None:
         self.admission = admission
         job = admission.job
-        self.kernel = ready_kernel(scene, job["formulation"])
+        self.kernel = ready_kernel(scene, job["formulation"], admission.method)
         offset = 0.0
         if admission.period is not None:
             angle = job["section"]["crank_angle"]
@@ -94,6 +94,7 @@ class DynamicRun:
             admission.samples,
             admission.sections,
             offset,
+            step=job["step"],
         )
         self.bundle = Bundle(self.kernel, [problem])
         self.survey = (
@@ -147,7 +148,10 @@ class DynamicRun:
     def summary(self) -> Summary:
         """See `Simulation.summary`."""
         names = [channel.name for channel in self.admission.channels]
-        statistics = statistics_of(self.bundle, LANE) | {"solver_seconds": self.seconds}
+        statistics = statistics_of(self.bundle, LANE) | {
+            "method": self.kernel.tableau.name,
+            "solver_seconds": self.seconds,
+        }
         return Summary(peaks_of(self.bundle, LANE, names), statistics)
 
     def certificate(self) -> Certificate | None:

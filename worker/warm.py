@@ -28,7 +28,7 @@ def warm(name: str) -> float:
     for _ in Simulation(admission).slices():
         pass
     scene = Scene.model_validate(admission.scene)
-    compile_tangents(ready_kernel(scene, admission.job["formulation"]))
+    compile_tangents(ready_kernel(scene, admission.job["formulation"], admission.method))
     return time.perf_counter() - began
 
 

@@ -110,7 +110,9 @@ def _facts(job: dict[str, Any]) -> dict[str, Any]:
     scene = job["scene"]
     found = {"scene": scene.get("preset") or scene.get("name")}
     found |= scene.get("parameters", {}) if "preset" in scene else {}
-    return found | {name: job.get(name) for name in ("tolerance", "formulation", "duration")}
+    return found | {
+        name: job.get(name) for name in ("method", "tolerance", "formulation", "duration")
+    }
 
 
 def _short(value: object) -> str:

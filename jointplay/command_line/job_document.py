@@ -27,8 +27,16 @@ TOLERANCE = Annotated[
     float | None, typer.Option(help="Error that one step may make, relative to the scene.")
 ]
 ACCURACY = Annotated[
-    str | None, typer.Option(help="A named tolerance instead, such as standard (1e-6).")
+    str | None,
+    typer.Option(help="Instead: draft, standard (default), fine or reference."),
 ]
+METHOD = Annotated[
+    str | None,
+    typer.Option(
+        help="auto (default), bogacki-shampine, tsitouras, dormand-prince-853, or rk4 with --step."
+    ),
+]
+STEP = Annotated[float | None, typer.Option(metavar="SECONDS", help="Fixed step of rk4.")]
 OUTPUT_STEP = Annotated[
     float | None,
     typer.Option(metavar="SECONDS", help="Spacing of the stored samples; default duration/2000."),
@@ -68,6 +76,7 @@ def job_document(
         job.pop("accuracy", None)
     if "accuracy" in changed:
         job.pop("tolerance", None)
+        job.pop("method", None)
     job.update(changed)
     scene = job.get("scene")
     if settings and isinstance(scene, dict):  # else admission says what is wrong with it

@@ -11,8 +11,9 @@ from pydantic import ValidationError
 
 from solver import presets
 from solver.admission.mechanism import Echo
+from solver.admission.methods import chosen
 from solver.errors import InvalidInput, Problem
-from solver.jobs import KINDS, TOLERANCES, Job, PresetScene
+from solver.jobs import KINDS, Job, PresetScene
 from solver.scene.near import did_you_mean
 from solver.scene.sentences import schema_problems
 
@@ -42,21 +43,6 @@ def parse(document: object) -> Job:
         raise InvalidInput(schema_problems(error, model)) from None
 
 
-def tolerance(job: Job) -> float:
-    """Return the tolerance that a job asks for, by number or by name.
-
-    Raises
-    ------
-    InvalidInput
-        It asks both ways.
-    """
-    if job.tolerance is not None and job.accuracy is not None:
-        raise InvalidInput(
-            [Problem("/accuracy", "Give a tolerance or a named accuracy, not both.")]
-        )
-    return job.tolerance if job.tolerance is not None else TOLERANCES[job.accuracy or "standard"]
-
-
 def filled(job: Job, scene_document: Mapping[str, Any], echo: Echo, **found: Any) -> dict[str, Any]:
     """Return the job's document with defaults filled in; `found` overrides its fields.
 
@@ -67,7 +53,7 @@ def filled(job: Job, scene_document: Mapping[str, Any], echo: Echo, **found: Any
         document["scene"] = {"preset": job.scene.preset, "parameters": echo}
     else:
         document["scene"] = scene_document
-    document["tolerance"] = tolerance(job)
+    document["method"], document["tolerance"] = chosen(job)
     return document | found
 
 

@@ -16,12 +16,14 @@ from solver.admission.limits import (
     MOST_SAMPLES,
 )
 from solver.admission.mechanism import check, offered, resolve
+from solver.admission.methods import chosen
 from solver.assembly import shortest_link
 from solver.channels import Channel, select
 from solver.compiler.length import check_length
 from solver.drive import Period, characteristic_time, common_period, section_offset
 from solver.errors import LimitExceeded, Problem
-from solver.jobs import SimulateJob
+from solver.integrators import method_for
+from solver.jobs import ACCURACIES, SimulateJob
 from solver.scene.document import Scene
 
 
@@ -52,8 +54,13 @@ class Admission:
 
     @property
     def tolerance(self) -> float:
-        """Local error tolerance."""
-        return float(self.job["tolerance"])
+        """Local error tolerance; where the step is fixed, the standard one as a scale."""
+        return float(self.job["tolerance"] or ACCURACIES["standard"][1])
+
+    @property
+    def method(self) -> str:
+        """Name of the integration method, of `solver.integrators.METHODS`."""
+        return method_for(self.job["method"], self.job["tolerance"])
 
 
 def admit_simulate(job: SimulateJob) -> Admission:
@@ -75,7 +82,7 @@ def admit_simulate(job: SimulateJob) -> Admission:
     longest = LONGEST_RUN
     if period.seconds is None and assembly.freedom_with_play == 0:
         longest = LONGEST_IDEAL_RUN
-    documents.tolerance(job)
+    chosen(job)
     output_step = job.output_step or job.duration / DEFAULT_SAMPLES
     samples = sample_count(job.duration, output_step)
     sections = section_count(scene, period, job)

@@ -18,6 +18,7 @@ from solver.admission.limits import (
     MOST_PERIODS,
     MOST_POINTS,
 )
+from solver.admission.methods import check_study
 from solver.admission.observables import chosen, coordinate_channels
 from solver.admission.points import Points
 from solver.admission.sections import check_section
@@ -49,7 +50,7 @@ def section_study(
     LimitExceeded
         The study is sound but too large; the sentence gives the estimate.
     """
-    documents.tolerance(job)
+    check_study(job, tangents="lyapunov" in indicators_of(job))
     checked = check_points(job, points, thorough=thorough)
     observables = chosen(checked, job.observables, coordinate_channels(checked), "/observables")
     units = periods(checked)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from solver.admission import documents
+from solver.admission.methods import check_study
 from solver.admission.observables import chosen, coordinate_channels, peak_channels
 from solver.admission.points import Axis, Points, product
 from solver.admission.spans import periods
@@ -30,7 +31,7 @@ def admit_sweep(job: SweepJob, *, thorough: bool = True) -> Study:
     LimitExceeded
         The study is sound but too large; the sentence gives the estimate.
     """
-    documents.tolerance(job)
+    check_study(job, tangents=False)
     length = _length(job)
     points = _points(job)
     checked = check_points(job, points, thorough=thorough)

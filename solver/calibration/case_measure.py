@@ -101,7 +101,7 @@ class CaseMeasure:
 
     def _kernel(self, form: tuple[int, ...], scene: Scene) -> Kernel:
         if form not in self._bundles:
-            kernel = ready_kernel(scene, self.formulation)
+            kernel = ready_kernel(scene, self.formulation, self.case.study.method)
             self._bundles[form] = Bundle(kernel, watch=bool(self.windows.watched))
         return self._bundles[form].kernel
 

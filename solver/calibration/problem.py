@@ -9,9 +9,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from solver.admission import Study, admit
-from solver.admission.documents import digest, filled, tolerance
+from solver.admission.documents import digest, filled
 from solver.admission.limits import MOST_PERIODS
 from solver.admission.mechanism import declared, resolve
+from solver.admission.methods import check_study, chosen
 from solver.calibration.document import CalibrationJob, CalibrationTarget
 from solver.calibration.space import Space, space_of, space_problems
 from solver.calibration.targets import Goals, goals_of, target_problems
@@ -82,7 +83,7 @@ def admit_calibration(document: object) -> Calibration:
         The calibration is sound but too large; the sentence gives the estimate.
     """
     job = _parse(document)
-    tolerance(job)
+    check_study(job, tangents=False)
     written, scene, _ = declared(job)
     problems = [*space_problems(job.parameters, scene), *_target_problems(job)]
     problems += _twice_set(job)
@@ -139,13 +140,15 @@ def _check_case(job: CalibrationJob, index: int, space: Space) -> CheckedCase:
     """Check a case as a sweep over the corners of the box, and its targets' channels."""
     case = job.cases[index]
     corners = space.corners()
+    method, tolerance = chosen(job)
     sweep: dict[str, Any] = {
         "kind": "sweep",
         "scene": _scene_of(job, index),
         "points": corners,
         "duration": max(target.stop for target in case.targets),
         "formulation": job.formulation,
-        "tolerance": tolerance(job),
+        "method": method,
+        "tolerance": tolerance,
         "channels": ["*"],
     }
     try:

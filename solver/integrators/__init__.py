@@ -10,3 +10,11 @@ METHODS: dict[str, Tableau] = {
     tableau.name: tableau
     for tableau in (BOGACKI_SHAMPINE3, TSITOURAS5, DORMAND_PRINCE853, RUNGE_KUTTA4)
 }
+
+
+def method_for(method: str, tolerance: float | None) -> str:
+    """Return the method of `METHODS` that a filled-in job means."""
+    if method != "auto":
+        return method
+    within = tolerance is None or tolerance <= METHODS["tsitouras"].largest_tolerance
+    return "tsitouras" if within else "dormand-prince-853"

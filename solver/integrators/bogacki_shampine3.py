@@ -12,6 +12,7 @@ BOGACKI_SHAMPINE3 = Tableau(
     order=3,
     error_order=3,
     dense_order=3,
+    largest_tolerance=1e-4,
     nodes=(0.0, 0.5, 0.75, 1.0),
     matrix=((), (0.5,), (0.0, 0.75), _WEIGHTS),
     error=(-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0),

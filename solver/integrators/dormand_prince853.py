@@ -67,6 +67,7 @@ DORMAND_PRINCE853 = Tableau(
     order=8,
     error_order=8,
     dense_order=6,
+    largest_tolerance=1e-3,
     nodes=(
         0.0,
         0.05260015195876773,

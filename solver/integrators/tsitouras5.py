@@ -10,6 +10,7 @@ TSITOURAS5 = Tableau(
     order=5,
     error_order=5,
     dense_order=4,
+    largest_tolerance=3e-5,
     nodes=(0.0, 0.161, 0.327, 0.9, 0.9800255409045097, 1.0, 1.0),
     matrix=(
         (),

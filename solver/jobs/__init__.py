@@ -9,7 +9,7 @@ from pydantic import Field
 
 from solver.jobs.bifurcation import BifurcationJob
 from solver.jobs.ensemble import EnsembleJob
-from solver.jobs.job import TOLERANCES, Job, PresetScene
+from solver.jobs.job import ACCURACIES, Job, PresetScene
 from solver.jobs.poincare import PoincareJob
 from solver.jobs.section import ChannelSection, CrankSection, OnsetSection, Section
 from solver.jobs.simulate import SimulateJob
@@ -30,9 +30,9 @@ AnyJob = Annotated[
 """A job of any kind, for schemas."""
 
 __all__ = [
+    "ACCURACIES",
     "INDICATORS",
     "KINDS",
-    "TOLERANCES",
     "AnyJob",
     "BifurcationJob",
     "ChannelSection",

@@ -8,8 +8,16 @@ from solver.scene.document import Scene
 from solver.scene.forms import form, has, told_by
 from solver.scene.quantities import Name, Strict
 
-TOLERANCES = {"standard": 1e-6}
-"""Named accuracies and the tolerance each stands for."""
+Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rk4"]
+Accuracy = Literal["draft", "standard", "fine", "reference"]
+
+ACCURACIES: dict[Accuracy, tuple[Method, float]] = {
+    "draft": ("dormand-prince-853", 3e-4),
+    "standard": ("auto", 1e-6),
+    "fine": ("auto", 1e-8),
+    "reference": ("dormand-prince-853", 1e-11),
+}
+"""Method and tolerance of the named accuracies, chosen from work-precision measurements."""
 
 ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
 ChannelChoice = Annotated[
@@ -48,13 +56,32 @@ class Job(Strict):
         float | None,
         Field(
             ge=1e-13,
-            le=1e-5,
+            le=1e-2,
             description="local error per step, relative to the scene's own scales",
             json_schema_extra={"unit": "1"},
         ),
     ] = None
     accuracy: Annotated[
-        Literal["standard"] | None, Field(description="a named tolerance: standard is 1e-6")
+        Accuracy | None,
+        Field(description="or a named method and tolerance; the default is standard, 1e-6"),
+    ] = None
+    method: Annotated[
+        Method,
+        Field(
+            description=(
+                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it; rk4: a"
+                " fixed step, without error control or located onsets"
+            )
+        ),
+    ] = "auto"
+    step: Annotated[
+        float | None,
+        Field(
+            ge=1e-12,
+            le=1e3,
+            description="of the method rk4, its fixed step",
+            json_schema_extra={"unit": "s"},
+        ),
     ] = None
     formulation: Annotated[
         Literal["reduced", "lagrange"],

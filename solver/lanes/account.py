@@ -79,6 +79,13 @@ def failure_of(bundle: Bundle, lane: int, tolerance: float) -> SimulationFailed:
     at = bundle.time(lane)
     step = float(bundle.table("next_step")[0, lane])
     steps = int(bundle.table("steps")[0, lane])
+    if not bundle.kernel.tableau.error:
+        return SimulationFailed(
+            "fixed-step-too-long",
+            f"With its fixed step the motion grew beyond all numbers by t = {at:.9g} s. Choose a"
+            " smaller 'step', or a method that controls its error.",
+            at,
+        )
     if status == Status.UNDERFLOW:
         return SimulationFailed(
             "step-size-underflow",

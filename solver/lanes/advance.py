@@ -56,8 +56,7 @@ def attend(
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
     if flag & REJECTED:
         counters[Counter.REJECTIONS, lane] += 1
-        counters[Counter.LANDING, lane] = -1
-        counters[Counter.LANDINGS, lane] = 0
+        counters[Counter.LANDING, lane] = -1  # its attempts count on, or they might go in circles
         if work[slots[Slot.NEXT_STEP] * LANES + lane] < settings[Setting.SMALLEST_STEP, lane]:
             stop(lane, Status.UNDERFLOW, slots, work, counters)
         return False

@@ -14,7 +14,9 @@ from solver.lanes.state import Counter, Status
 LANDED = 1e-13
 """Largest penetration, m, at which an onset counts as located."""
 MOST_LANDINGS = 12
-"""Attempts to land on one onset."""
+"""Attempts to land on one onset before it is approached in shorter steps."""
+MOST_APPROACHES = 30
+"""Times that the step is shortened to a quarter for one onset."""
 BISECTIONS = 40
 LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
@@ -58,8 +60,12 @@ def land(
         near = abs(gap) <= LANDED or (last and abs(gap) <= LANDED_AT_LAST)
         if near and (joint < 0 or joint == target):
             return True
-        if last:
-            stop(lane, Status.ONSET_LOST, slots, work, counters)
+        if last:  # steps so long that the end of one hardly tells of the end of another
+            counters[Counter.LANDING, lane] = -1
+            counters[Counter.LANDINGS, lane] += 1
+            work[slots[Slot.NEXT_STEP] * LANES + lane] = 0.25 * tried
+            if counters[Counter.LANDINGS, lane] > MOST_LANDINGS + MOST_APPROACHES:
+                stop(lane, Status.ONSET_LOST, slots, work, counters)
             return False
         if gap < 0.0 and rate <= 0.0 and joint < 0:
             counters[Counter.LANDING, lane] = -1  # it only came near, and is on its way back

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.channels import Channel
+from solver.integrators import method_for
 from solver.scene.document import Scene
 from solver.study.scenes import PointScenes
 
@@ -77,6 +78,11 @@ class Study:
     def statistics(self) -> tuple[str, ...]:
         """Names of the statistics of channels and contacts that a sweep keeps per point."""
         return tuple(self.job.get("statistics", ()))
+
+    @property
+    def method(self) -> str:
+        """Name of the integration method, of `solver.integrators.METHODS`."""
+        return method_for(self.job["method"], self.tolerance)
 
     def point_scene(self, point: int) -> Scene:
         """Return the scene of a point with its parameters set, as checked on admission."""

@@ -316,7 +316,7 @@ def kernel_of(study: Study, structure: int) -> tuple[Kernel, Tangents | None]:
         while len(_kernels) >= MOST_KEPT:
             _kernels.pop(next(iter(_kernels)))
         point = int(np.flatnonzero(study.structure == structure)[0])
-        kernel = ready_kernel(study.point_scene(point), study.job["formulation"])
+        kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
         wanted = "lyapunov" in study.indicators
         _kernels[key] = kernel, compile_tangents(kernel) if wanted else None
     return _kernels[key]
