@@ -9,11 +9,9 @@ fields of `COMMON` that it has; every other name is a parameter of the scene, in
 """
 
 from collections.abc import Mapping, Sequence
-from os import PathLike
-from pathlib import Path
 from typing import Any, Final
 
-from jointplay.strict_json import parse
+from jointplay.scene_choice import Scene, scene_document, with_parameters
 
 COMMON: Final = frozenset(
     {
@@ -24,14 +22,9 @@ COMMON: Final = frozenset(
 """Fields that jobs of several kinds have."""
 
 Document = dict[str, Any]
-Scene = str | PathLike[str] | Mapping[str, Any]
 Names = str | Sequence[str]
 Values = Mapping[str, Any] | Sequence[float]
 """Values of a parameter: any sequence, or ``{"from", "to", "count", "spacing"}``."""
-
-
-class NotAScene(ValueError):
-    """What was given is no scene, or has no such parameter; a sentence says what is wrong."""
 
 
 def simulate(
@@ -112,6 +105,8 @@ def sweep(
     periods: float | None = None,
     settle: float | None = None,
     channels: Names | None = None,
+    statistics: Names | None = None,
+    samples_per_period: int | None = None,
     **given: Any,
 ) -> Document:
     """Signed extremes of channels over every combination of values, or at given points.
@@ -129,7 +124,10 @@ def sweep(
     settle
         What of that does not count, in the same unit.
     channels
-        Whose extremes are kept, names or globs.
+        Whose extremes and statistics are kept, names or globs.
+    statistics, samples_per_period
+        Beside the extremes: "mean", "root_mean_square", "contact_share" and others, of so many
+        samples in a period.
     """
     fields = {
         "grid": None if grid is None else {name: _values(one) for name, one in grid.items()},
@@ -138,6 +136,8 @@ def sweep(
         "periods": periods,
         "settle": settle,
         "channels": _listed(channels),
+        "statistics": _listed(statistics),
+        "samples_per_period": samples_per_period,
     }
     return _document("sweep", scene, fields, given)
 
@@ -186,50 +186,13 @@ def ensemble(
     return _document("ensemble", scene, fields, given)
 
 
-def with_parameters(scene: Mapping[str, Any], values: Mapping[str, Any]) -> Document:
-    """Return a scene, or a preset by name, with some parameters set; nothing else is checked.
-
-    A scene given whole has no list of values beside it: there the declared defaults are the
-    values.
-
-    Raises
-    ------
-    NotAScene
-        It declares no such parameter.
-    """
-    declared = scene.get("parameters", {})
-    if not values or not isinstance(declared, Mapping):
-        return dict(scene)  # admission says what is wrong with it, here and below
-    if "bodies" not in scene:
-        return {**scene, "parameters": {**declared, **values}}
-    if unknown := [name for name in values if name not in declared]:
-        known = ", ".join(declared) or "none"
-        raise NotAScene(f"{unknown[0]}: the scene declares no such parameter; it has {known}.")
-    told = {
-        name: {**one, "default": values[name]} if name in values and isinstance(one, dict) else one
-        for name, one in declared.items()
-    }
-    return {**scene, "parameters": told}
-
-
 def _document(
     kind: str, scene: Scene, fields: Mapping[str, Any], given: Mapping[str, Any]
 ) -> Document:
     common = {name: value for name, value in given.items() if name in COMMON}
     values = {name: _plain(value) for name, value in given.items() if name not in COMMON}
     told = {name: value for name, value in {**fields, **common}.items() if value is not None}
-    return {"kind": kind, "scene": with_parameters(_scene(scene), values), **told}
-
-
-def _scene(scene: Scene) -> Mapping[str, Any]:
-    if isinstance(scene, str):
-        return {"preset": scene}
-    if isinstance(scene, Mapping):
-        return scene
-    document = parse(Path(scene).read_bytes())
-    if not isinstance(document, dict):
-        raise NotAScene(f"{scene}: a scene is a JSON object.")
-    return document
+    return {"kind": kind, "scene": with_parameters(scene_document(scene), values), **told}
 
 
 def _of_sections(

@@ -8,6 +8,7 @@ import pytest
 
 from jointplay import jobs
 from jointplay.client import Client
+from jointplay.scene_choice import NotAScene
 from solver import presets
 from solver.admission import admit
 from solver.jobs import KINDS
@@ -56,7 +57,7 @@ def test_a_scene_may_be_a_name_a_document_or_a_file(tmp_path):
     assert jobs.simulate(tmp_path / "mine.json", duration=1, mass=2.5)["scene"] == whole
     assert whole["parameters"]["mass"]["default"] == 2.5
     assert scene["parameters"]["mass"]["default"] != 2.5
-    with pytest.raises(jobs.NotAScene, match="weight: the scene declares no such parameter"):
+    with pytest.raises(NotAScene, match="weight: the scene declares no such parameter"):
         jobs.simulate(scene, duration=1, weight=2.5)
 
 

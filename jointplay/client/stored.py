@@ -7,10 +7,10 @@ from jointplay.client.errors import MissingExtra, NotFound, ResultsNotReady
 if TYPE_CHECKING:
     import xarray as xr
 
-    from jointplay.client.job import Job
+    from jointplay.client.readable_job import ReadableJob
 
 
-def open_group(job: "Job", group: str) -> "xr.Dataset":
+def open_group(job: "ReadableJob", group: str) -> "xr.Dataset":
     """Open a group of a job's store; values are read when they are used.
 
     Raises
@@ -35,7 +35,7 @@ def open_group(job: "Job", group: str) -> "xr.Dataset":
     except ImportError as error:
         raise missing_extra("stored arrays", error) from error
     except (FileNotFoundError, KeyError) as error:  # of a group: no such key in the metadata
-        if not job.refresh().is_finished:
+        if not job.is_finished:
             sentence = f"Job {job.id} is {job.state} and has committed nothing yet."
             raise ResultsNotReady(sentence, status=409, problem="results-not-ready") from error
         what = f"no group {group!r}" if group else "no results"

@@ -13,20 +13,20 @@ from jointplay.study_source import STATUS, StudySource
 if TYPE_CHECKING:
     import pandas as pd
 
-    from jointplay.client.job import Job
+    from jointplay.client.readable_job import ReadableJob
 
 STUDIES: Final = ("bifurcation", "sweep", "poincare", "ensemble")
 _EXTREMES: Final = ("minimum", "minimum_time", "maximum", "maximum_time")
 
 
-def insist(job: "Job", what: str, *kinds: str) -> None:
+def insist(job: "ReadableJob", what: str, *kinds: str) -> None:
     """Raise `NotFound` if jobs of this kind have no such results."""
     if job.kind not in kinds:
         sentence = f"Job {job.id} is of kind {job.kind} and has no {what}."
         raise NotFound(sentence, status=404, problem="wrong-kind")
 
 
-def sections(job: "Job") -> "pd.DataFrame":
+def sections(job: "ReadableJob") -> "pd.DataFrame":
     """Return channels at the Poincare sections."""
     insist(job, "sections", "simulate", *(kind for kind in STUDIES if kind != "sweep"))
     if job.kind == "simulate":
@@ -44,7 +44,7 @@ def sections(job: "Job") -> "pd.DataFrame":
     return _table(columns, units | {"time": "s"}, {"point": point, "section": section})
 
 
-def peaks(job: "Job") -> "pd.DataFrame":
+def peaks(job: "ReadableJob") -> "pd.DataFrame":
     """Return signed extremes with their times."""
     insist(job, "extremes", "simulate", "sweep")
     if job.kind == "simulate":
@@ -69,7 +69,7 @@ def peaks(job: "Job") -> "pd.DataFrame":
     return _table(columns, {one.name: one.unit for one in study.parameters}, index)
 
 
-def impacts(job: "Job") -> "pd.DataFrame":
+def impacts(job: "ReadableJob") -> "pd.DataFrame":
     """Return the contacts of the clearance joints."""
     insist(job, "impacts", "simulate")
     found = job.results.impacts()
@@ -77,7 +77,7 @@ def impacts(job: "Job") -> "pd.DataFrame":
     return _table(columns, IMPACT_UNITS).rename_axis("impact")
 
 
-def points(job: "Job") -> "pd.DataFrame":
+def points(job: "ReadableJob") -> "pd.DataFrame":
     """Return what has one value a point."""
     insist(job, "points", *STUDIES)
     # one section of each: they are not in this table

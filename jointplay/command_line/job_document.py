@@ -65,7 +65,7 @@ def job_document(
     options
         Fields of the job; those that are None are left as they are.
     """
-    from jointplay.jobs import NotAScene, with_parameters
+    from jointplay.scene_choice import NotAScene, with_parameters
 
     job, is_whole = _job_of(source)
     changed = {name: value for name, value in options.items() if value is not None}

@@ -13,13 +13,14 @@ from jointplay.client.errors import FieldProblem, Refused
 from jointplay.client.job import Job
 from jointplay.local.loading import load
 from jointplay.progress import progress as shown
+from jointplay.scene_choice import Scene
 
 if TYPE_CHECKING:
     from solver.admission import Admission, Study
 
 
 def run(
-    job: jobs.Scene,
+    job: Scene,
     *,
     output: Path | str | None = None,
     processes: int | None = None,
@@ -67,7 +68,7 @@ def run(
     return found
 
 
-def _document(job: jobs.Scene, given: Mapping[str, Any]) -> Mapping[str, Any]:
+def _document(job: Scene, given: Mapping[str, Any]) -> Mapping[str, Any]:
     if isinstance(job, Mapping) and "kind" in job:
         if given:
             name = next(iter(given))

@@ -1,0 +1,175 @@
+"""What a job gives, as notebooks want it: arrays, tables, windows and pictures."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from jointplay.client import tables
+from jointplay.client.job_record import JobRecord, read_job
+from jointplay.client.picture import Picture
+from jointplay.client.results import Form, Results
+from jointplay.client.stored import open_group
+from jointplay.client.window import Window
+from jointplay.study_source import StudySource
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+Names = str | Sequence[str]
+
+
+class ReadableJob(JobRecord):
+    """A job's record with the ways to its results."""
+
+    def __init__(
+        self, document: Mapping[str, Any], results: Callable[[JobRecord], Results]
+    ) -> None:
+        super().__init__(**read_job(document))
+        self._results = results
+        self._opened: dict[str, xr.Dataset] = {}
+
+    @cached_property
+    def results(self) -> Results:
+        """The results as plain numbers, without pandas and xarray."""
+        return self._results(self)
+
+    @property
+    def history(self) -> "xr.Dataset":
+        """Of a simulation: all channels over the samples, read from the store as they are used."""
+        tables.insist(self, "history", "simulate")
+        return self.open()
+
+    def open(self, group: str = "") -> "xr.Dataset":
+        """Open a group of the job's Zarr store, lazily; by default the root.
+
+        Groups of a simulation are ``poincare``, ``impacts`` and ``peaks``, of a study ``values``,
+        ``statistics``, ``indicators``, ``sections`` and ``peaks``.
+        """
+        if group in self._opened:
+            return self._opened[group]
+        final = self.is_finished
+        found = open_group(self, group)
+        if final:
+            self._opened[group] = found
+        return found
+
+    def window(
+        self,
+        channels: Names | None = None,
+        start: float | None = None,
+        stop: float | None = None,
+        *,
+        points: int | None = None,
+    ) -> Window:
+        """Return channels in a window of time; with ``points``, at the resolution of a screen.
+
+        Parameters
+        ----------
+        channels
+            Names or globs; all if None.
+        start, stop
+            Both included, s; None is unbounded.
+        points
+            Most pairs of smallest and largest values; see `Window`.
+        """
+        return self.results.window(_listed(channels), start, stop, points)
+
+    @property
+    def poincare(self) -> "pd.DataFrame":
+        """The Poincare sections: ``time`` and channels of each.
+
+        Of a study one row for each section of each point, with the values of the parameters.
+        """
+        return tables.sections(self)
+
+    @property
+    def peaks(self) -> "pd.DataFrame":
+        """Signed extremes with their times, one row a channel; of a sweep of each point."""
+        return tables.peaks(self)
+
+    @property
+    def impacts(self) -> "pd.DataFrame":
+        """Of a simulation: contacts in order of release, one row each."""
+        return tables.impacts(self)
+
+    @property
+    def points(self) -> "pd.DataFrame":
+        """Of a study: values, status, verdict, indicators and statistics, one row a point."""
+        return tables.points(self)
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """Of a simulation: what it cost, and its energy ledger with the residual, in J."""
+        return self.results.statistics()
+
+    @property
+    def certificate(self) -> dict[str, Any]:
+        """Of a simulation: how far it can be believed; `NotFound` where there is none."""
+        return self.results.certificate()
+
+    def study(
+        self,
+        observables: Names | None = None,
+        channels: Names | None = None,
+        sections: tuple[int, int] | None = None,
+    ) -> StudySource:
+        """Return the points of a study as they are now, as arrays; it need not be finished.
+
+        Parameters
+        ----------
+        observables
+            Names or globs of channels whose values at the sections to fetch; all if None.
+        channels
+            Of a sweep, names or globs of channels whose extremes to fetch; all if None.
+        sections
+            First section of each point, and the one before which to end; all if None.
+        """
+        tables.insist(self, "points", *tables.STUDIES)
+        return self.results.study(_listed(observables), _listed(channels), sections)
+
+    @property
+    def figures(self) -> list[str]:
+        """Names of the figures that can be drawn; the name of any channel is one, too."""
+        return self.results.figures()
+
+    def figure(
+        self,
+        name: str,
+        *,
+        channel: Names = (),
+        joint: Names = (),
+        start: float | None = None,
+        stop: float | None = None,
+        form: Form = "png",
+    ) -> Picture:
+        """Draw a figure; notebooks show it, and ``save`` writes it to a file.
+
+        Parameters
+        ----------
+        name
+            One of `figures`, or a channel.
+        channel, joint
+            What to show, one or several; all if not given.
+        start, stop
+            Window of time, s; of a study the first point, and the one before which to end.
+        form
+            "png" or "svg".
+        """
+        return Picture(
+            self.results.figure(
+                name,
+                form,
+                channels=_listed(channel) or (),
+                joints=_listed(joint) or (),
+                start=start,
+                stop=stop,
+            ),
+            form,
+        )
+
+
+def _listed(names: Names | None) -> list[str] | None:
+    if names is None:
+        return None
+    return [names] if isinstance(names, str) else list(names)

@@ -1,0 +1,58 @@
+"""A scene as it is named: a preset, a document or the path of one; and its parameters set."""
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from jointplay.strict_json import parse
+
+Scene = str | PathLike[str] | Mapping[str, Any]
+
+
+class NotAScene(ValueError):
+    """What was given is no scene, or has no such parameter; a sentence says what is wrong."""
+
+
+def scene_document(scene: Scene) -> Mapping[str, Any]:
+    """Return a scene as a job has it: a preset by name, or the document that was given or named.
+
+    Raises
+    ------
+    NotAScene
+        The file holds something else.
+    """
+    if isinstance(scene, str):
+        return {"preset": scene}
+    if isinstance(scene, Mapping):
+        return scene
+    document = parse(Path(scene).read_bytes())
+    if not isinstance(document, dict):
+        raise NotAScene(f"{scene}: a scene is a JSON object.")
+    return document
+
+
+def with_parameters(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a scene, or a preset by name, with some parameters set; nothing else is checked.
+
+    A scene given whole has no list of values beside it: there the declared defaults are the
+    values.
+
+    Raises
+    ------
+    NotAScene
+        It declares no such parameter.
+    """
+    declared = scene.get("parameters", {})
+    if not values or not isinstance(declared, Mapping):
+        return dict(scene)  # admission says what is wrong with it, here and below
+    if "bodies" not in scene:
+        return {**scene, "parameters": {**declared, **values}}
+    if unknown := [name for name in values if name not in declared]:
+        known = ", ".join(declared) or "none"
+        raise NotAScene(f"{unknown[0]}: the scene declares no such parameter; it has {known}.")
+    told = {
+        name: {**one, "default": values[name]} if name in values and isinstance(one, dict) else one
+        for name, one in declared.items()
+    }
+    return {**scene, "parameters": told}
