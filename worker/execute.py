@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Any, Literal
 
 from solver.admission import Admission
+from solver.certificate.certificate import Certificate
 from solver.errors import InvalidInput, SimulationFailed
 from solver.results import Summary
 from solver.simulate import Simulation
 from solver.version import SOLVER_VERSION
 from storage.catalogue import JobError
 from storage.results import ArraySpec, Peak, ResultLayout, ResultWriter
+from worker.certificates import appendix_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
 JOB_FILE = "job.json"
@@ -113,7 +115,7 @@ def execute(
     if outcome.state == "left":
         return outcome
     summary = simulation.summary()
-    _seal(writer, summary, complete=outcome.state == "succeeded")
+    _seal(writer, summary, simulation.certificate(), complete=outcome.state == "succeeded")
     return replace(outcome, statistics=summary.statistics)
 
 
@@ -189,6 +191,9 @@ def _layout(admission: Admission) -> ResultLayout:
     )
 
 
-def _seal(writer: ResultWriter, summary: Summary, *, complete: bool) -> None:
+def _seal(
+    writer: ResultWriter, summary: Summary, certificate: Certificate | None, *, complete: bool
+) -> None:
     peaks = {name: Peak(**asdict(peak)) for name, peak in summary.peaks.items()}
-    writer.seal(peaks=peaks, summary=summary.statistics, complete=complete)
+    appendix = None if certificate is None else appendix_of(certificate)
+    writer.seal(peaks=peaks, summary=summary.statistics, complete=complete, certificate=appendix)

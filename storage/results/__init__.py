@@ -4,6 +4,7 @@
 what it holds. The package stores named columns over time and knows nothing of their meaning.
 """
 
+from storage.results.appendix import Appendix, SmallArray
 from storage.results.errors import (
     CheckpointMismatch,
     CorruptStore,
@@ -22,6 +23,7 @@ from storage.results.writer import ResultWriter
 
 __all__ = [
     "IMPACT",
+    "Appendix",
     "ArraySpec",
     "CheckpointMismatch",
     "CorruptStore",
@@ -34,6 +36,7 @@ __all__ = [
     "ResultReader",
     "ResultWriter",
     "ResultsError",
+    "SmallArray",
     "StoreExists",
     "StoreSealed",
     "UnknownChannel",

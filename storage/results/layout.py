@@ -12,7 +12,7 @@ from storage.results.errors import InvalidLayout
 from storage.results.partition import Partition
 
 TIME: Final = "time"
-GROUPS: Final = ("poincare", "peaks", "impacts", "pyramid")
+GROUPS: Final = ("poincare", "peaks", "impacts", "pyramid", "certificate")
 MANIFEST: Final = "MANIFEST.json"
 SCHEMA_VERSION: Final = 1
 

@@ -8,6 +8,7 @@ cannot list a folder (over HTTP) show an empty dataset.
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -23,7 +24,10 @@ _BYTES_CODEC: Final = {"name": "bytes", "configuration": {"endian": "little"}}
 
 
 def documents(
-    layout: ResultLayout, rows: Sequence[int], attributes: Mapping[str, Any]
+    layout: ResultLayout,
+    rows: Sequence[int],
+    attributes: Mapping[str, Any],
+    more: Mapping[str, Document] = MappingProxyType({}),
 ) -> dict[str, Document]:
     """Make every document of a store by its key; the root's comes last.
 
@@ -35,9 +39,11 @@ def documents(
         Rows that each of `tables(layout)` shows.
     attributes
         Root attributes that the layout does not know.
+    more
+        Nodes that no table has, by path.
     """
-    written: dict[str, Document] = {}
-    members: dict[str, Document] = {}
+    written: dict[str, Document] = {f"{path}/{FILE}": node for path, node in more.items()}
+    members: dict[str, Document] = dict(more)
     groups: dict[str, Document] = {}
     for table, count in zip(tables(layout), rows, strict=True):
         arrays = {column.name: _column(column, table, count) for column in table.columns}

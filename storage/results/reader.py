@@ -10,6 +10,7 @@ import zarr
 from numpy.typing import NDArray
 
 from storage.results import manifest
+from storage.results.appendix import CERTIFICATE, Appendix, read_appendix
 from storage.results.envelope import Envelope
 from storage.results.errors import NotAStore, UnknownChannel
 from storage.results.layout import (
@@ -182,6 +183,10 @@ class ResultReader:
             name: Peak(*values)
             for name, *values in zip(self.attributes["channels"], *columns, strict=True)
         }
+
+    def certificate(self) -> Appendix | None:
+        """Read what is known of the rows' errors; none before the store is sealed, or at all."""
+        return read_appendix(self._root, CERTIFICATE) if self.sealed else None
 
     def verify(self) -> None:
         """Compare every file with the manifest.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from storage.results import manifest, metadata
+from storage.results.appendix import CERTIFICATE, Appendix
 from storage.results.durable import PARTIAL, DurableFolder
 from storage.results.errors import InvalidAppend, StoreExists, StoreSealed
 from storage.results.growing_table import GrowingTable
@@ -193,6 +194,7 @@ class ResultWriter:
         peaks: Mapping[str, Peak],
         summary: Mapping[str, Any],
         complete: bool = True,
+        certificate: Appendix | None = None,
     ) -> None:
         """Finish the store: it is durable, and never changes, when this returns.
 
@@ -204,6 +206,8 @@ class ResultWriter:
             JSON document for the root attribute `summary`; numbers must be finite.
         complete
             False for a run that failed or was cancelled; what was appended is kept.
+        certificate
+            What is known of the rows' errors, for a group of that name.
 
         Raises
         ------
@@ -232,10 +236,14 @@ class ResultWriter:
             "impacts": self.impacts,
             "summary": dict(summary),
         }
+        more = {} if certificate is None else certificate.documents(CERTIFICATE)
         try:
             metadata.serialise(attributes)
+            metadata.serialise(more)
         except (TypeError, ValueError) as error:
-            raise InvalidAppend(f"the summary must be finite JSON values: {error}") from error
+            raise InvalidAppend(
+                f"summary and certificate must be finite JSON values: {error}"
+            ) from error
         names = [channel.name for channel in self._layout.channels]
         if unknown := peaks.keys() - set(names):
             raise InvalidAppend(f"peaks of channels that the layout lacks: {sorted(unknown)}")
@@ -248,7 +256,9 @@ class ResultWriter:
         for litter in self._path.rglob(f"*{PARTIAL}"):
             litter.unlink()
         shown = [table.rows for table in self._tables]
-        documents = metadata.documents(self._layout, shown, attributes)
+        for key, content in (certificate.chunks(CERTIFICATE) if certificate else {}).items():
+            self._folder.write(key, content)
+        documents = metadata.documents(self._layout, shown, attributes, more)
         for key, document in (self._pyramid.documents() | documents).items():
             self._folder.write(key, metadata.serialise(document))
         self._folder.commit()

@@ -1,0 +1,68 @@
+"""A trajectory's certificate as records of its store: arrays with units, and a document."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from solver.certificate.certificate import Certificate
+from storage.results import Appendix, SmallArray
+
+IN_ITS_UNIT = "in the unit of its channel"
+EXTREMES = ("lowest minimum", "highest minimum", "lowest maximum", "highest maximum")
+
+
+def appendix_of(certificate: Certificate) -> Appendix:
+    """Return what a store keeps of a certificate."""
+    columns = {
+        "time": (certificate.time, ("instant",), "s", "time"),
+        "error": (
+            certificate.error,
+            ("instant", "channel"),
+            None,
+            "estimated error of each channel; where the motion is not converged, how far"
+            " companions are apart",
+        ),
+        "until": (
+            certificate.until,
+            ("channel",),
+            "s",
+            "time until which the estimated error is a small share of the channel's scale",
+        ),
+        "extremes": (
+            certificate.extremes,
+            ("channel", "extreme"),
+            None,
+            f"over several lanes: {', '.join(EXTREMES)}",
+        ),
+        "edges": (certificate.edges, ("edge", "channel"), None, "edges of the histograms' bins"),
+        "share": (certificate.share, ("bin", "channel"), "1", "share of time in a bin"),
+        "spread": (
+            certificate.spread,
+            ("bin", "channel"),
+            "1",
+            "standard deviation over companions of the share of time in a bin",
+        ),
+    }
+    arrays = {
+        name: SmallArray(values, dimensions, _meaning(unit, long_name))
+        for name, (values, dimensions, unit, long_name) in columns.items()
+    }
+    return Appendix(_finite(certificate.facts), arrays)
+
+
+def _meaning(unit: str | None, long_name: str) -> dict[str, Any]:
+    if unit is None:
+        return {"long_name": f"{long_name}, {IN_ITS_UNIT}"}
+    return {"units": unit, "long_name": long_name}
+
+
+def _finite(value: Any) -> Any:
+    """Return a document with null where a number is not finite, which JSON has not."""
+    if isinstance(value, dict):
+        return {key: _finite(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(one) for one in value]
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else None
+    return value
