@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.source import Columns, Floats
+from jointplay.source import CertificateLike, Columns, Floats
 
 IMPACT = np.dtype(
     [
@@ -69,6 +69,8 @@ class Dataset:
         Names that the `joint` of a contact points to.
     complete
         The run came to its end.
+    certified
+        What is known of the errors.
     """
 
     attributes: Mapping[str, Any]
@@ -81,6 +83,7 @@ class Dataset:
     contacts: NDArray[Any] = field(default_factory=_no_impacts)
     joints: Sequence[str] = ()
     complete: bool = True
+    certified: CertificateLike | None = None
 
     @property
     def samples(self) -> int:
@@ -111,6 +114,10 @@ class Dataset:
     def peaks(self) -> Mapping[str, Peak]:
         """Give the signed extremes by channel."""
         return self.extremes
+
+    def certificate(self) -> CertificateLike | None:
+        """Give what is known of the errors."""
+        return self.certified
 
     def impacts(self) -> NDArray[Any]:
         """Give the contacts in order of release."""

@@ -54,6 +54,32 @@ class PeakLike(Protocol):
         ...
 
 
+class NumbersLike(Protocol):
+    """An array of a certificate."""
+
+    @property
+    def values(self) -> Floats:
+        """Its numbers."""
+        ...
+
+
+class CertificateLike(Protocol):
+    """What is known of the errors of one run: a document, and arrays by name.
+
+    The arrays are those that `jointplay.certificate` names, their columns in the order of channels.
+    """
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """The document: "horizon" and "converged" among others."""
+        ...
+
+    @property
+    def arrays(self) -> Mapping[str, NumbersLike]:
+        """Times, errors, extremes, histograms."""
+        ...
+
+
 class Source(Protocol):
     """Results of one run; a reader of the results store is one as it is."""
 
@@ -106,4 +132,8 @@ class Source(Protocol):
         Fields: joint (index), onset and release [s] (NaN where contact had not ended),
         approach_rate [m/s], peak_force [N], impulse [N s].
         """
+        ...
+
+    def certificate(self) -> CertificateLike | None:
+        """Give what is known of the errors; none where nobody asked for it, or not yet."""
         ...

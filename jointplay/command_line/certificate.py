@@ -1,5 +1,6 @@
 """``jointplay certificate``: how far a result can be believed."""
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -36,3 +37,13 @@ def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
         yield name, f"{len(value)} values"
     else:
         yield name, f"{value:.7g}" if isinstance(value, float) else str(value)
+
+
+def print_headline(document: dict[str, Any]) -> None:
+    """Print horizon and exponent, a line each."""
+    spans = [f"{start:.4g} to {stop:.4g} s" for start, stop in document["converged"]]
+    typer.echo(f"converged {', '.join(spans)}")
+    if (found := document.get("exponent")) is not None:
+        error = math.inf if found["error"] is None else found["error"]
+        spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"
+        typer.echo(f"exponent  {found['value']:.3g} ± {error:.2g} 1/s, {spread}")

@@ -113,6 +113,7 @@ def _make(output: Path) -> None:
 
 def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
     """Write figures and peaks, and tell the peaks."""
+    from jointplay.command_line.certificate import print_headline
     from jointplay.command_line.drawing import draw_all
     from jointplay.command_line.peaks import headline, peak_lines, print_peaks, rows_of
 
@@ -123,6 +124,8 @@ def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
     if not as_json:
         first = headline(job.results.source(None, None, None))
         print_peaks(row for row in rows if row.channel in first)
+        if job.job.get("certificate") and job.is_finished:
+            print_headline(job.certificate)
         typer.echo(f"all {len(rows)} channels are in {table}")
     return {"peaks": [row._asdict() for row in rows]}
 

@@ -24,6 +24,7 @@ def show(
 
     Example: `jointplay show 01M7YCD368E9VM5RM0B9JY3SGA --job > job.json`
     """
+    from jointplay.command_line.certificate import print_headline
     from jointplay.command_line.study_summary import print_points, summary_of
     from jointplay.command_line.waiting import wait_for
 
@@ -43,6 +44,8 @@ def show(
             if job.is_finished and not any(found.values()):
                 typer.echo("Nothing was computed.")
             _print_simulation(found)
+            if found["statistics"] is not None and job.job.get("certificate"):
+                print_headline(job.certificate)
             if found["points"] is not None:
                 print_points(found["points"])
     if wait:

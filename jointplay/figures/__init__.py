@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from jointplay.figures import page, scene_facts
 from jointplay.figures.bifurcation import BIFURCATION
+from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.choosing import select
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
@@ -61,6 +62,7 @@ ROSTER: Final[tuple[RunFigure, ...]] = (
     SPECTRUM,
     MECHANISM,
     TIME_HISTORY,
+    CERTIFICATE,
 )
 """Figures of one run."""
 STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION)

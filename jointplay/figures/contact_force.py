@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import horizon, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
@@ -32,7 +32,10 @@ def _draw(source: Source, selection: Selection) -> Figure:
     impacts = [_between_samples(source, joint, selection, step) for joint in joints]
     newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
     seconds = scale("s", *(time for time, _ in curves))
-    legend_height = page.LEGEND_HEIGHT if any(len(onset) for onset, _ in impacts) else 0.0
+    time = curves[0][0]
+    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
+    explained = spans or any(len(onset) for onset, _ in impacts)
+    legend_height = page.LEGEND_HEIGHT if explained else 0.0
     height = _PANEL_HEIGHT * len(joints) + _AXIS_HEIGHT + legend_height
     figure, grid = page.panels(len(joints), 1, height, share_x=True)
     for (axes,), joint, (time, force), (onset, peak) in zip(
@@ -46,8 +49,9 @@ def _draw(source: Source, selection: Selection) -> Figure:
             color=page.VERMILION,
             linewidth=0.5,
             zorder=1.5,
-            label="peaks of impacts between samples",
+            label="impacts between samples",
         )
+        horizon.shade(axes, spans, seconds.factor)
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(newtons.label("normal force"))
         page.corner_text(axes, f"joint {joint}")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import horizon, page, sampling, scene_facts
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
@@ -48,7 +48,10 @@ def panels_over_time(source: Source, names: tuple[str, ...], selection: Selectio
     missed = [
         _missed_extremes(source, name, curve) for name, curve in zip(names, curves, strict=True)
     ]
-    legend_height = page.LEGEND_HEIGHT if any(len(time) for time, _ in missed) else 0.0
+    time = curves[0][0]
+    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
+    explained = spans or any(len(time) for time, _ in missed)
+    legend_height = page.LEGEND_HEIGHT if explained else 0.0
     height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + legend_height
     figure, grid = page.panels(len(names), 1, height, share_x=True)
     seconds = scale("s", *(time for time, _ in curves))
@@ -66,6 +69,7 @@ def panels_over_time(source: Source, names: tuple[str, ...], selection: Selectio
             markeredgewidth=0.7,
             label="extreme between samples",
         )
+        horizon.shade(axes, spans, seconds.factor)
         axes.set_ylabel(shown.label(name))
     grid[-1][0].set_xlabel(seconds.label("time"))
     figure.align_ylabels()

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from jointplay import figures
+from jointplay.certificate import certificate_document
 from jointplay.channel_choice import NoSuchChannel, choose
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
@@ -79,10 +80,10 @@ class FolderResults:
     def certificate(self) -> dict[str, Any]:
         """Return how far the run can be believed."""
         run = self._run("certificate")
-        found = run.attributes.get("certificate")
-        if not isinstance(found, dict):
+        found = run.certificate()
+        if found is None:
             raise _missing(f"{self._store} was computed without a certificate.")
-        return found
+        return certificate_document(run, found)
 
     def study(
         self,

@@ -4,7 +4,10 @@ from service.problems import RequestRefused, kinds
 from storage.catalogue import Job
 
 RESULTS = {
-    "simulate": ("history", "peaks", "poincare", "impacts", "statistics", "figures", "zarr"),
+    "simulate": (
+        *("history", "peaks", "poincare", "impacts", "statistics", "certificate"),
+        *("figures", "zarr"),
+    ),
     "bifurcation": ("bifurcation", "poincare", "figures", "zarr"),
     "sweep": ("sweep", "figures", "zarr"),
     "poincare": ("poincare", "figures", "zarr"),

@@ -122,7 +122,8 @@ def _links(job: Job) -> dict[str, str]:
     links = {"self": base, "cancel": f"{base}/cancel", "events": f"{base}/events"}
     if job.batch is not None:
         links["batch"] = f"/v1/batches/{job.batch}"
-    return links | {name: f"{base}/{name}" for name in RESULTS[job.kind]}
+    lacking = {"certificate"} if job.spec.get("certificate") is False else set()
+    return links | {name: f"{base}/{name}" for name in RESULTS[job.kind] if name not in lacking}
 
 
 def moment(epoch_seconds: float) -> datetime:

@@ -7,6 +7,7 @@ import numpy as np
 from fastapi import APIRouter, Query, Response
 from numpy.typing import NDArray
 
+from jointplay.certificate import certificate_document
 from service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
@@ -17,8 +18,10 @@ from service.jobs.results_of_kinds import insist, is_study
 from service.problems import RequestRefused, kinds, problems
 from service.results import schemas
 from service.results.as_json import as_json
+from service.results.certificate_schema import Certificate
 from service.results.negotiation import JSON, Form
 from service.results.queries import (
+    ChannelsQuery,
     HistoryQuery,
     Selection,
     Window,
@@ -26,7 +29,7 @@ from service.results.queries import (
     check_size,
     chosen_channels,
 )
-from service.results.stores import StoreOfThePath, open_store, open_study
+from service.results.stores import StoreOfThePath, not_ready, open_store, open_study
 from service.results.tables import AS_FILES, Column, as_file
 from service.studies.answers import sections
 from service.studies.queries import PoincareQuery
@@ -136,6 +139,25 @@ def show_statistics(store: StoreOfThePath) -> schemas.Statistics:
     """Return the steps that the run took, and its energy ledger with the residual."""
     summary = store.attributes.get("summary") or {}
     return schemas.Statistics(complete=store.complete, **summary)
+
+
+@router.get("/certificate", response_model=Certificate)
+def show_certificate(
+    job: JobOfThePath, store: StoreOfThePath, query: Annotated[ChannelsQuery, Query()]
+) -> Response:
+    """Return how far the numbers can be believed: estimated errors, horizon, exponent, spread.
+
+    It is made when the run ends; a job with `"certificate": false` has none.
+    """
+    found = store.certificate()
+    if found is None and not store.sealed:
+        raise not_ready(job, "its certificate is made when it ends")
+    if found is None:
+        raise RequestRefused(kinds.NO_RESULTS, f"Job {job.id} was computed without a certificate.")
+    names = chosen_channels(query.channels, _names(store))
+    instants = len(found.arrays["time"].values)
+    check_size(instants, len(names), "instants", float(job.spec["duration"]))
+    return as_json(Certificate.model_validate(certificate_document(store, found, names)))
 
 
 @router.get("/impacts", response_model=schemas.Impacts)

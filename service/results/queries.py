@@ -31,8 +31,10 @@ class Window(BaseModel):
         return self.start, self.stop
 
 
-class Selection(Window):
-    """Channels and a window of time."""
+class ChannelsQuery(BaseModel):
+    """Channels."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
     channels: str | None = Field(
         default=None,
@@ -40,6 +42,10 @@ class Selection(Window):
         description="Names or globs, separated by commas, such as `slider7.*,A.normal_force`; "
         "default: all that the job stored.",
     )
+
+
+class Selection(ChannelsQuery, Window):
+    """Channels and a window of time."""
 
 
 class HistoryQuery(Selection):

@@ -41,7 +41,7 @@ def open_store(job: Job, settings: Settings, catalogue: Catalogue) -> ResultRead
             pass
     if job.state.terminal:
         raise _nothing(job)
-    raise _not_ready(job, "its results can be read once it has begun")
+    raise not_ready(job, "its results can be read once it has begun")
 
 
 def committed_so_far(job: Job, catalogue: Catalogue, settings: Settings) -> tuple[Path, int]:
@@ -74,10 +74,11 @@ def open_study(job: Job, settings: Settings) -> StudyReader:
     except NotAStore:
         if job.state.terminal:
             raise _nothing(job) from None
-        raise _not_ready(job, "its points can be read once the first ones are computed") from None
+        raise not_ready(job, "its points can be read once the first ones are computed") from None
 
 
-def _not_ready(job: Job, when: str) -> RequestRefused:
+def not_ready(job: Job, when: str) -> RequestRefused:
+    """Return the refusal of what a running job has not yet; `when` says when it will."""
     return RequestRefused(
         kinds.RESULTS_NOT_READY,
         f"Job {job.id} is {job.state} at {job.progress_fraction:.0%}; {when}.",

@@ -1,5 +1,7 @@
 """A run that is known in closed form, to draw: a made-up machine with two clearance joints."""
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from jointplay.dataset import IMPACT, Channel, Dataset, Peak
@@ -107,7 +109,26 @@ def closed_form_motion(samples=2001, duration=2.0, periods=40):
         },
         contacts=_impacts(duration),
         joints=tuple(CLEARANCES),
+        certified=_certified(duration, len(channels)),
     )
+
+
+class Numbers(NamedTuple):
+    values: Any
+
+
+class Certified(NamedTuple):
+    attributes: Any
+    arrays: Any
+
+
+def _certified(duration, channels):
+    """Errors that grow a thousandfold until half of the run, where the motion is lost for good."""
+    time = duration * np.arange(129) / 128.0
+    error = 1e-5 * np.exp(np.minimum(6.9 * time / (0.5 * duration), 6.9))
+    arrays = {"time": time, "error": np.repeat(error[:, None], channels, axis=1)}
+    attributes = {"horizon": 0.5 * duration, "converged": [[0.0, 0.5 * duration]]}
+    return Certified(attributes, {name: Numbers(values) for name, values in arrays.items()})
 
 
 def _impacts(duration):

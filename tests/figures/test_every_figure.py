@@ -144,7 +144,7 @@ def test_the_required_channels_are_all_it_reads(motion, name):
 def test_a_channel_that_was_not_stored_is_named(motion, name):
     lost = figures.required(motion, name, CHOICES.get(name))[-1]
     channels = [channel for channel in motion.channels if channel.name != lost]
-    if name in ("outputs", "spectrum"):  # draw those that there are
+    if name in ("outputs", "spectrum", "certificate"):  # draw those that there are
         assert lost not in figures.required(replace(motion, channels=channels), name)
         return
     with pytest.raises(NotDrawable, match=lost.replace(".", r"\.")):
@@ -206,6 +206,7 @@ def test_drawing_does_not_load_pyplot():
 def test_the_list_holds_what_can_be_drawn_and_the_declared_outputs(motion):
     names = [listed.name for listed in figures.available(motion)]
     expected = ["outputs", "contact-force", "orbit", "phase-portrait", "spectrum", "mechanism"]
+    expected += ["certificate"]
     assert names == [*expected, "stroke", "pace"]
     assert all(listed.title for listed in figures.available(motion))
     for each in names:
@@ -355,3 +356,32 @@ def test_names_stay_inside_the_frame_beside_a_body_at_its_edge():
 def test_a_pose_that_lacks_a_body_is_refused():
     with pytest.raises(NotDrawable, match="foot"):
         figures.draw_mechanism(SCENE, {body: POSE[body] for body in ("crank", "plate", "block")})
+
+
+def shaded(motion, name):
+    """Spans that each panel of a figure shades, s."""
+    figure = drawn(motion, name)
+    return [
+        [
+            tuple(patch.get_extents().transformed(axes.transData.inverted()).intervalx)
+            for patch in axes.patches
+            if to_hex(patch.get_facecolor()).upper() == page.SHADE
+        ]
+        for axes in figure.axes
+    ]
+
+
+@pytest.mark.parametrize("name", ["outputs", "time-history", "contact-force", "certificate"])
+def test_what_lies_beyond_the_horizon_is_shaded(motion, name):
+    for spans in shaded(motion, name):
+        assert spans == [pytest.approx((1.0, 2.0))]
+    again = {"horizon": 0.5, "converged": [[0.0, 0.5], [1.5, 2.0]]}
+    regained = replace(motion, certified=motion.certified._replace(attributes=again))
+    for spans in shaded(regained, name):
+        assert spans == [pytest.approx((0.5, 1.5))]
+
+
+def test_nothing_is_shaded_without_a_certificate(motion):
+    assert shaded(replace(motion, certified=None), "outputs") == [[], []]
+    with pytest.raises(NotDrawable, match="no certificate"):
+        figures.draw(replace(motion, certified=None), "certificate")
