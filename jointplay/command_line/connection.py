@@ -12,7 +12,12 @@ if TYPE_CHECKING:
 
 URL = Annotated[
     str,
-    typer.Option("--url", envvar="JOINTPLAY_URL", help="Address of the service."),
+    typer.Option(
+        "--url",
+        envvar="JOINTPLAY_URL",
+        help="Address of the service; the variable JOINTPLAY_KEY has the API key, if it asks for"
+        " one.",
+    ),
 ]
 DEFAULT_URL = "http://127.0.0.1:8000"  # jointplay.client's, without loading it
 RESULTS = Annotated[

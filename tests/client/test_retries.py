@@ -83,7 +83,10 @@ def number_of_jobs(url):
     return len(httpx.get(f"{url}/v1/jobs?page_size=1000", trust_env=False).json()["jobs"])
 
 
-@pytest.mark.parametrize("trouble", ["unheard", "lost", (503, {}), (429, {"Retry-After": "1"})])
+@pytest.mark.parametrize(
+    "trouble",
+    ["unheard", "lost", (503, {}), (429, {"Retry-After": "1"}), (409, {"Retry-After": "1"})],
+)
 def test_a_repeated_submission_queues_one_job(fresh_service, pauses, trouble):
     with front([trouble, trouble], fresh_service) as (url, heard), Client(url) as client:
         job = client.submit(PENDULUM)

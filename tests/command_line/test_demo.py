@@ -1,5 +1,6 @@
 """``jointplay demo``: from nothing to figures, and nothing left behind."""
 
+import json
 import re
 import signal
 import subprocess
@@ -8,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from jointplay.client import Peak
+from jointplay.command_line.comparison import cases_of, table
 from solver import presets
 
 README = (Path(__file__).parents[2] / "README.md").read_text()
@@ -35,14 +38,16 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything(folder):
-    ended = subprocess.run([*DEMO, str(folder)], capture_output=True, text=True, timeout=240)
+    ended = subprocess.run(
+        [*DEMO, str(folder), "--json"], capture_output=True, text=True, timeout=240
+    )
     assert ended.returncode == 0, ended.stderr
     reported = presets.document("seven-bar-press")["reported"]
-    lines = [line for line in ended.stdout.splitlines() if "imum of " in line]
-    assert len(lines) == len(reported) > 0
-    for line, entry in zip(lines, reported, strict=True):
-        ours = float(re.split(r"\s{2,}", line)[4])
-        assert f"{entry['value']:g}" in line
+    rows = json.loads(ended.stdout)["comparison"]
+    assert len(rows) == len(reported) > 0
+    for found, entry in zip(rows, reported, strict=True):
+        ours = found["ours"]
+        assert found["reported"] == entry["value"]
         if entry["channel"] == "displacement":
             # the source's contact parameters are not known; any plausible ones move it by 0.06 mm
             assert ours == pytest.approx(entry["value"], abs=0.11e-3)  # + half its last digit
@@ -55,6 +60,23 @@ def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything
     for case in cases:
         assert (case / "displacement.png").read_bytes().startswith(b"\x89PNG")
     assert processes_of(folder) == []
+
+
+def test_the_table_has_a_line_for_every_published_number():
+    scene = presets.document("seven-bar-press")
+    cases = cases_of(scene)
+    peaks = [
+        {
+            entry["channel"]: Peak(entry["unit"], entry["value"], 0.0, entry["value"], 0.0)
+            for entry in case.reported
+        }
+        for case in cases
+    ]
+    lines = [line for line in table(cases, peaks) if "imum of " in line]
+    assert len(lines) == len(scene["reported"])
+    for line, entry in zip(lines, scene["reported"], strict=True):
+        assert f"{entry['value']:g}" in line
+        assert re.split(r"\s{2,}", line)[5] == "1.0000"
 
 
 def test_an_interrupted_demo_stops_everything_too(folder):

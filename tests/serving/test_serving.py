@@ -62,23 +62,24 @@ def healthy(url: str) -> bool:
 
 
 @contextmanager
-def served(data: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    call = f"serve('127.0.0.1', 0, Path({str(data)!r}), 1)"
+def served(data: Path, *, as_json: bool = False) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    call = f"serve('127.0.0.1', 0, Path({str(data)!r}), 1, as_json={as_json})"
     with subprocess.Popen(
         [sys.executable, "-c", SERVE.format(call=call)], stdout=subprocess.PIPE, text=True
     ) as process:
         try:
             assert process.stdout is not None
             line = process.stdout.readline()
-            assert "ready at http" in line, (data / "logs" / "api.log").read_text()
-            yield process, line.split(" at ")[1].split()[0]
+            assert "http" in line, (data / "logs" / "api.log").read_text()
+            url = json.loads(line)["url"] if as_json else line.split(" at ")[1].split()[0]
+            yield process, url
         finally:
             process.kill()
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_it_ends_cleanly_when_asked(tmp_path: Path, number: signal.Signals) -> None:
-    with served(tmp_path / "data") as (process, url):
+    with served(tmp_path / "data", as_json=number == signal.SIGINT) as (process, url):
         assert healthy(url)
         started = descendants(process.pid)
         assert len(started) >= 4  # broker, API, relay, worker
