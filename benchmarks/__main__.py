@@ -3,7 +3,17 @@
 import importlib
 import sys
 
-ALL = ("press", "peers", "exponent", "sweep", "platform", "start", "results_store", "results_http")
+ALL = (
+    "press",
+    "peers",
+    "exponent",
+    "sweep",
+    "platform",
+    "submission",
+    "start",
+    "results_store",
+    "results_http",
+)
 
 
 def main() -> int:

@@ -2,20 +2,26 @@
 
     python -m benchmarks submission
 
-A service of its own; the client is in this process. Every job has parameters of its own, so that
-none is answered with another one's; then the same job is sent again and again. The second part
-sends at a fixed pace whatever the answers do, and counts from when each request was due.
+The client is in this process, the service in others.  Every job has parameters of its own, so that
+none is answered with another one's; then the same job is sent again and again.  At the fixed pace
+requests are sent whatever the answers do, and wait from when they were due.  First the API alone
+accepts, then beside a relay and a worker that computes what was accepted.
 """
 
 import asyncio
 import json
 import os
-import statistics
+import socket
+import subprocess
+import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
+
+import httpx
 
 from jointplay.serving import running_service
 
@@ -109,8 +115,8 @@ async def at_a_pace(url: str, job: Callable[[int], bytes], first: int) -> list[f
     return sorted(waited)
 
 
-def show(what: str, value: float, unit: str) -> None:
-    print(f"{what:<46}{value:>10.1f} {unit}")
+def quantile(ordered: Sequence[float], share: float) -> float:
+    return ordered[min(int(share * len(ordered)), len(ordered) - 1)]
 
 
 def measure(url: str) -> None:
@@ -118,20 +124,40 @@ def measure(url: str) -> None:
     number = 1
     for what, job in (("different jobs", different), ("the same job", same)):
         rate, number = asyncio.run(at_full_speed(url, job, number))
-        show(f"{what}, {CLIENTS} clients", rate, "jobs/s")
+        print(f"  {what + f', {CLIENTS} clients':<44}{rate:>8.0f} jobs/s")
     waited = asyncio.run(at_a_pace(url, different, number))
-    show(f"different jobs at {PACE:g}/s, median", 1e3 * statistics.median(waited), "ms")
-    show(f"different jobs at {PACE:g}/s, 99th percentile", 1e3 * quantile(waited, 0.99), "ms")
+    for what, share in (("median", 0.5), ("99th percentile", 0.99)):
+        wait = 1e3 * quantile(waited, share)
+        print(f"  {f'different jobs at {PACE:g}/s, {what}':<44}{wait:>8.1f} ms")
 
 
-def quantile(ordered: Sequence[float], share: float) -> float:
-    return ordered[min(int(share * len(ordered)), len(ordered) - 1)]
+@contextmanager
+def api_alone(folder: Path) -> Iterator[str]:
+    """Run only the process that answers, on a free port."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        command = [sys.executable, "-m", "jointplay.serving.api", "--fd", str(listening.fileno())]
+        process = subprocess.Popen(
+            command,
+            env=os.environ | {"JOINTPLAY_DATA": str(folder)},
+            pass_fds=[listening.fileno()],
+            stderr=subprocess.DEVNULL,
+        )
+        url = f"http://127.0.0.1:{listening.getsockname()[1]}"
+        try:
+            httpx.get(f"{url}/healthz", timeout=60.0, trust_env=False).raise_for_status()
+            yield url
+        finally:
+            process.terminate()
+            process.wait()
 
 
 def main() -> None:
-    print(f"load of the machine over the last minute: {os.getloadavg()[0]:.1f} of {os.cpu_count()}")
-    with tempfile.TemporaryDirectory() as name, running_service(Path(name)) as url:
-        measure(url)
+    """Measure both."""
+    for what, service in (("the API alone", api_alone), ("with a worker", running_service)):
+        load = os.getloadavg()[0]
+        print(f"{what}; load of the machine {load:.1f} on {os.cpu_count()} cores before")
+        with tempfile.TemporaryDirectory() as name, service(Path(name)) as url:
+            measure(url)
 
 
 if __name__ == "__main__":

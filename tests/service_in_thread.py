@@ -14,6 +14,7 @@ import uvicorn
 from fastapi import FastAPI
 from numpy.typing import NDArray
 
+from jointplay.serving.api import LONGEST_HEAD
 from service.app import create_app
 from solver.admission import Admission, Study, admit
 from solver.study.meanings import own_meanings
@@ -63,7 +64,10 @@ def serving(app: FastAPI) -> Iterator[str]:
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.bind(("127.0.0.1", 0))
     listener.listen()
-    server = uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on"))
+    configuration = uvicorn.Config(
+        app, log_level="warning", lifespan="on", h11_max_incomplete_event_size=LONGEST_HEAD
+    )
+    server = uvicorn.Server(configuration)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:

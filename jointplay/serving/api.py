@@ -5,6 +5,9 @@ import socket
 
 import uvicorn
 
+LONGEST_HEAD = 256 * 1024
+"""Bytes of a request's line and headers: 20 000 characters of a query, each of up to nine bytes."""
+
 
 def main() -> None:
     """Serve on an address, or on a listening socket inherited from the supervisor."""
@@ -22,7 +25,7 @@ def main() -> None:
         limit_concurrency=256,
         timeout_keep_alive=30,
         timeout_graceful_shutdown=5,
-        h11_max_incomplete_event_size=16 * 1024,
+        h11_max_incomplete_event_size=LONGEST_HEAD,
     )
     inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
     uvicorn.Server(configuration).run(sockets=inherited)

@@ -14,6 +14,7 @@ from storage.catalogue import Catalogue, Glance
 _PERIOD = 0.025
 """Seconds between two looks while they find something new, or have not for long; growing to ..."""
 _LONGEST_PERIOD = 0.1
+_GROWTH = 1.03  # so that this takes seconds: most jobs that are waited for are short
 _AT_ONCE = 500  # jobs in one question to the database
 _log = logging.getLogger(__name__)
 
@@ -88,7 +89,7 @@ class Watcher:
             except SQLAlchemyError as error:
                 _log.warning("the catalogue does not answer, looking again: %s", error)
                 changed = False
-            pause = _PERIOD if changed else min(1.2 * pause, _LONGEST_PERIOD)
+            pause = _PERIOD if changed else min(_GROWTH * pause, _LONGEST_PERIOD)
             try:
                 await asyncio.wait_for(self._woken.wait(), pause)
                 pause = _PERIOD
