@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from jointplay.figures import page, scene_facts
+from jointplay.figures import page, scene_facts, study_facts
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.choosing import select
@@ -81,7 +81,7 @@ def available(source: Source | StudySource) -> tuple[Listed, ...]:
 
     The figures of the roster whose channels were stored, then, of a run, each declared output by
     its name. Besides these, the name of any stored channel is a figure: its time history, its
-    bifurcation diagram, or its extremes over the parameters.
+    bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep.
     """
     listed = [Listed(kind.name, kind.title) for kind in _roster(source) if _drawable(kind, source)]
     if not is_study(source):
@@ -163,7 +163,8 @@ def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | No
         return TIME_HISTORY if stored else None
     if source.kind == "bifurcation" and any(one.name == name for one in source.observables):
         return BIFURCATION
-    return SWEEP if any(one.name == name for one in source.channels) else None
+    over_points = (*source.channels, *study_facts.statistics(source))
+    return SWEEP if any(one.name == name for one in over_points) else None
 
 
 def _roster(source: Source | StudySource) -> tuple[FigureKind[Any], ...]:

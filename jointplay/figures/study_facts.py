@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.channel_choice import NoSuchChannel, no_such_channel
+from jointplay.dataset import Channel
 from jointplay.figures import page
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection
@@ -66,15 +67,21 @@ def chosen_observables(source: StudySource, selection: Selection) -> tuple[str, 
     return _checked(selection.channels, source.observables)
 
 
-def chosen_channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
-    """Give the channels with extremes that were asked for; none if none were.
+def statistics(source: StudySource) -> tuple[ChannelLike, ...]:
+    """Give the statistics of channels and joints whose meaning the study tells."""
+    meanings = source.attributes.get("meanings", {})
+    return tuple(Channel(name, *meanings[name]) for name in source.statistics if name in meanings)
+
+
+def chosen_over_points(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    """Give the channels with extremes, or the statistics, that were asked for; none if none were.
 
     Raises
     ------
     NotDrawable
         One is none of the study's; the sentence names near ones.
     """
-    return _checked(selection.channels, source.channels)
+    return _checked(selection.channels, (*source.channels, *statistics(source)))
 
 
 def chosen_points(source: StudySource, selection: Selection) -> slice:

@@ -1,7 +1,8 @@
-"""Extremes of channels over the parameters of a sweep: curves over one, a map over two."""
+"""Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,7 @@ from jointplay.figures import page, study_facts
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection, StudyFigure
 from jointplay.figures.parameter_axis import ParameterAxis
-from jointplay.figures.quantity import scale
+from jointplay.figures.quantity import Scale, scale
 from jointplay.source import Floats
 from jointplay.study_source import FAILED, StudySource
 
@@ -50,7 +51,10 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
             "first",
         )
     most = _MOST_CURVES if len(varying) == 1 else _MOST_MAPS
-    names = study_facts.chosen_channels(source, selection)
+    names = study_facts.chosen_over_points(source, selection)
+    statistics = {one.name for one in study_facts.statistics(source)}
+    if 0 < len(statistics.intersection(names)) < len(names):
+        raise NotDrawable("One figure shows extremes or statistics; choose either.", "channels")
     if len(names) > most:
         raise NotDrawable(
             f"One figure shows at most {most} channels, not {len(names)}; choose fewer.", "channels"
@@ -78,27 +82,44 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
     return _maps(source, names, points, axes[0], axes[1])
 
 
-def _extremes(source: StudySource, name: str, points: slice) -> dict[str, Floats]:
-    peaks = source.peaks(name)
-    return {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
+@dataclass(frozen=True)
+class _Row:
+    """What one row of panels shows: both extremes of a channel, or one statistic."""
+
+    panels: dict[str, Floats]
+    """By what it is of the channel; "" is a statistic."""
+    shown: Scale
+    label: str
+
+    @classmethod
+    def of(cls, source: StudySource, name: str, points: slice) -> _Row:
+        statistics = study_facts.statistics(source)
+        if any(one.name == name for one in statistics):
+            values = source.statistics[name][points]
+            shown = scale(study_facts.described(statistics, name).unit, values)
+            owner, _, statistic = name.rpartition(".")
+            return cls({"": values}, shown, f"{owner}\n{shown.label(statistic)}")
+        peaks = source.peaks(name)
+        panels = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
+        shown = scale(study_facts.described(source.channels, name).unit, *panels.values())
+        return cls(panels, shown, shown.label(name))
 
 
 def _curves(
     source: StudySource, names: tuple[str, ...], points: slice, parameter: ParameterAxis
 ) -> Figure:
-    """Draw largest and smallest value of each channel over the parameter, side by side."""
+    """Draw what each row shows over the parameter, side by side."""
+    rows = [_Row.of(source, name, points) for name in names]
     entries = parameter.legend()
     height = _SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT * len(names)
     height += _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
-    figure, grid = page.panels(len(names), 2, height, share_x=True)
+    figure, grid = page.panels(len(names), len(rows[0].panels), height, share_x=True)
     order = np.argsort(parameter.shown, kind="stable")
-    for row, name in zip(grid, names, strict=True):
-        extremes = _extremes(source, name, points)
-        shown = scale(study_facts.described(source.channels, name).unit, *extremes.values())
-        for axes, (which, values) in zip(row, extremes.items(), strict=True):
+    for panels, row in zip(grid, rows, strict=True):
+        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
             axes.plot(
                 parameter.shown[order],
-                values[order] / shown.factor,
+                values[order] / row.shown.factor,
                 color=page.BLUE,
                 marker="o" if len(order) <= _MOST_NUMBERS else "",
                 markersize=1.6,
@@ -106,9 +127,9 @@ def _curves(
             )
             axes.locator_params(axis="y", nbins=5)
             parameter.dress(axes, intervals=4)
-            if row is grid[0]:
+            if panels is grid[0]:
                 page.corner_text(axes, which)
-        row[0].set_ylabel(page.in_two_lines(shown.label(name)))
+        panels[0].set_ylabel(page.in_two_lines(row.label))
     for axes in grid[-1]:
         axes.set_xlabel(parameter.label)
     figure.align_ylabels()
@@ -124,17 +145,17 @@ def _maps(
     across: ParameterAxis,
     up: ParameterAxis,
 ) -> Figure:
-    """Draw largest and smallest value of each channel over two parameters, in colours."""
+    """Draw what each row shows over two parameters, in colours."""
+    rows = [_Row.of(source, name, points) for name in names]
     entries = across.legend()
     height = _MAP_HEIGHT * len(names) + _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
-    figure, grid = page.panels(len(names), 2, height, share_x=True, share_y=True)
-    for row, name in zip(grid, names, strict=True):
-        extremes = _extremes(source, name, points)
-        shown = scale(study_facts.described(source.channels, name).unit, *extremes.values())
-        for axes, (which, values) in zip(row, extremes.items(), strict=True):
-            label = page.in_two_lines(f"{which} {shown.label(name)}")
-            _map(figure, axes, values / shown.factor, label, across, up)
-        row[0].set_ylabel(up.label)
+    columns = len(rows[0].panels)
+    figure, grid = page.panels(len(names), columns, height, share_x=True, share_y=True)
+    for panels, row in zip(grid, rows, strict=True):
+        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
+            label = page.in_two_lines(f"{which} {row.label}".strip())
+            _map(figure, axes, values / row.shown.factor, label, across, up)
+        panels[0].set_ylabel(up.label)
     for axes in grid[-1]:
         axes.set_xlabel(across.label)
     if entries:
@@ -177,7 +198,7 @@ def _map(
 
 SWEEP = StudyFigure(
     name="sweep",
-    title="Extremes of channels over the parameters",
+    title="Extremes of channels, or statistics, over the parameters",
     uses=("channels", "first", "last"),
     channels=_chosen,
     draw=_draw,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from solver.study.point_run import PointRun
 
 Floats = NDArray[np.float64]
-SAME = 1e-9
+SAME = 1e-5
 """Of a step: a sample so close to an end of the stretch lies on it."""
 
 

@@ -141,7 +141,14 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
     stroke = 0.528 - 2.0 * values[:, 0] + 0.0 * force
     moment = 0.1 + 0.0 * force
     return StudyDataset(
-        attributes={"job": {"kind": "sweep"}, "scene": SCENE},
+        attributes={
+            "job": {"kind": "sweep"},
+            "scene": SCENE,
+            "meanings": {
+                "left.normal_force.root_mean_square": ("N", "root mean square of normal force"),
+                "left.contact_share": ("1", "share of the time in contact"),
+            },
+        },
         parameters=(
             Channel("play", "m", "radial clearance"),
             Channel("friction", "1", "coefficient of friction"),
@@ -158,4 +165,9 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
             "left.normal_force": Extremes(0.0 * force, moment, force, moment),
         },
         failures={point: Failure("step-size-underflow", "No step.", 0.1) for point in failed},
+        statistics={
+            "steps": 1000.0 + 0.0 * force,
+            "left.normal_force.root_mean_square": 0.1 * force,
+            "left.contact_share": 1.0 / (1.0 + force / 1e4),
+        },
     )

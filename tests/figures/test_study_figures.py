@@ -38,6 +38,13 @@ CASES = {
     ),
     "sweep": (sweep(failed=(7,), unfinished=range(20, 28)), "sweep", None),
     "sweep of one point": (sweep((1,)), "sweep", None),
+    "statistic": (sweep(failed=(7,)), "left.normal_force.root_mean_square", None),
+    "statistics": (
+        sweep(),
+        "sweep",
+        Selection(channels=("left.normal_force.root_mean_square", "left.contact_share")),
+    ),
+    "map of a statistic": (sweep((8, 6), failed=(3,)), "left.contact_share", None),
     "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
 }
 
@@ -225,6 +232,14 @@ def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
     np.testing.assert_allclose(smallest.lines[0].get_ydata(), force.minimum)
 
 
+def test_a_statistic_is_drawn_over_its_parameter():
+    source = sweep((30,))
+    name = "left.normal_force.root_mean_square"
+    (axes,) = drawn_with(source, name, None).axes
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), source.statistics[name] * 1e-3)
+    assert axes.get_ylabel() == "left.normal_force\nroot_mean_square [kN]"
+
+
 def test_a_map_has_each_value_in_the_cell_of_its_parameters():
     source = sweep((8, 6), failed=(3,))
     largest = drawn_with(source, "stroke", None).axes[0]
@@ -248,6 +263,20 @@ def test_a_range_in_which_two_parameters_vary_is_a_map():
         (sweep(), "bifurcation", None, "of kind bifurcation", "name"),
         (sweep(), "section", None, "not of a sweep", "name"),
         (bifurcation(points=3), "sweep", None, "kept extremes", "name"),
+        (
+            sweep(),
+            "sweep",
+            Selection(channels=("stroke", "left.contact_share")),
+            "extremes or statistics",
+            "channels",
+        ),
+        (
+            sweep(),
+            "sweep",
+            Selection(channels=("left.contact_shear",)),
+            r"did you mean left\.contact_share",
+            "channels",
+        ),
         (bifurcation(points=3), "section", None, "Choose one point", "first"),
         (bifurcation(points=3), "bifurcation", Selection(first=3), "points 0 to 2", "first"),
         (bifurcation(points=3), "bifurcation", Selection(last=3), "points 0 to 2", "last"),

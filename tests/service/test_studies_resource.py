@@ -308,4 +308,8 @@ def test_figures_of_a_study_are_listed_and_drawn(http, finished_study, finished_
     figures = get(http, f"/v1/jobs/{finished_sweep}/figures")["figures"]
     assert [figure["name"] for figure in figures] == ["sweep"]
     assert http.get(figures[0]["png"]).content.startswith(b"\x89PNG")
+    mean = http.get(
+        f"/v1/jobs/{finished_sweep}/figures/A.normal_force.mean.png", params={"stop": 2}
+    )
+    assert mean.content.startswith(b"\x89PNG")
     assert "sweep" in get(http, f"/v1/jobs/{finished_sweep}/figures/orbit.png", 404)["detail"]
