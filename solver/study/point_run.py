@@ -81,20 +81,22 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         settle = float(study.settle[point])
         first_leg = settle if settle > 0.0 else float(study.duration[point])
         run.settled = 0 if settle == 0.0 else -1
-        if not study.statistics:
-            return LaneProblem(scene, first_leg, study.tolerance, first_leg, 0, 0, 0.0, start=start)
-        begin_tallies(study, run, len(kernel.play))
-        window = window_of(study, point)
+        step, samples, first = first_leg, 0, 0
+        if study.statistics:
+            begin_tallies(study, run, len(kernel.play))
+            window = window_of(study, point)
+            step, first = window.step, window.first
+            samples = first + window.grid.samples + 1  # the last one is taken at the end
         return LaneProblem(
             scene,
             first_leg,
             study.tolerance,
-            window.step,
-            window.first + window.grid.samples + 1,  # the last one is taken at the end
+            step,
+            samples,
             0,
             0.0,
             start=start,
-            first_sample=window.first,
+            first_sample=first,
         )
     event = _event(study, kernel, point)
     waits = study.job["settle"] == "auto"
