@@ -15,7 +15,9 @@ def certificate(
     as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
 ) -> None:
-    """Print the certificate of a simulation: every number that it has, by name.
+    """Print how far a simulation can be believed: its numbers, and until when each channel.
+
+    With --json also the estimated errors over time, and the spreads beyond.
 
     Example: `jointplay certificate OUT`
     """
@@ -24,8 +26,12 @@ def certificate(
     if as_json:
         print_json(document)
         return
-    for name, value in _numbers("", document):
-        typer.echo(f"{name:48} {value}")
+    channels = document["channels"]
+    own = {name: one for name, one in document.items() if name not in ("time", "channels")}
+    for name, value in _numbers("", own):
+        typer.echo(f"{name:32} {value}")
+    for name, channel in channels.items():
+        typer.echo(f"{name:32} until {channel['until']:.6g} s")
 
 
 def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:

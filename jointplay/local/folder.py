@@ -79,17 +79,21 @@ def job_document(folder: Path) -> dict[str, Any]:
         "links": {},
         "job": job,
         "solver_version": attributes.get("solver_version"),
-        **_outcome_in(folder, complete=source.complete),
+        **_outcome_in(folder, job, complete=source.complete),
     }
 
 
-def _outcome_in(folder: Path, *, complete: bool) -> dict[str, Any]:
+def _outcome_in(folder: Path, job: dict[str, Any], *, complete: bool) -> dict[str, Any]:
     try:
         found: dict[str, Any] = json.loads((folder / OUTCOME_FILE).read_bytes())
     except FileNotFoundError:  # a store alone: only that it is whole, or not, is known
         written = datetime.fromtimestamp(folder.stat().st_mtime, UTC).isoformat()
-        state, fraction = ("succeeded", 1.0) if complete else ("cancelled", 0.0)
-        progress = {"time": 0.0, "fraction": fraction}
-        found = {"state": state, "error": None, "started": None, "finished": written}
-        found["progress"] = progress
+        end = float(job.get("duration") or 0.0)
+        found = {
+            "state": "succeeded" if complete else "cancelled",
+            "error": None,
+            "started": None,
+            "finished": written,
+            "progress": {"time": end * complete, "fraction": float(complete)},
+        }
     return {**found, "created": found["started"] or found["finished"]}

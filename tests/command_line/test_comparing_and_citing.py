@@ -80,6 +80,15 @@ def test_a_result_is_cited_with_its_source_and_identity(jointplay, at, runs, wor
     assert first["SHA-256 of the job"] != local["SHA-256 of the job"]
 
 
+def test_a_certificate_says_until_when_each_channel_is_converged(jointplay, runs):
+    ended = jointplay("certificate", runs / "a")
+    assert ended.code == 0, ended.err
+    assert "energy_residual" in ended.out
+    document = json.loads(jointplay("certificate", runs / "a", "--json").out)
+    for name, channel in document["channels"].items():
+        assert f"{name:32} until {channel['until']:.6g} s\n" in ended.out
+
+
 def test_the_citation_file_says_what_the_command_says():
     document = yaml.safe_load((ROOT / "CITATION.cff").read_text())
     assert document["title"] == cite.TITLE

@@ -79,7 +79,7 @@ ELSEWHERE = {
     "cancel": "test_jobs_are_cancelled_and_deleted_with_a_document",
     "delete": "test_jobs_are_cancelled_and_deleted_with_a_document",
     "calibrate": "test_calibrate.py",
-    "certificate": "test_what_a_job_has_not_is_one_line",
+    "certificate": "test_comparing_and_citing.py",
     "demo": "test_demo.py",
     "reproduce": "tests/reproduce",
     "serve": "tests/serving",

@@ -5,8 +5,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 
+from jointplay import load
 from jointplay.client import Client, JobCancelled
 from jointplay.serving import running_service
 from jointplay.study_source import WAITING
@@ -48,6 +51,13 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
         assert [local.joints[index] for index in rows["joint"]] == impacts.joint
         assert len(impacts.joint) > 0
         np.testing.assert_array_equal(impacts.release, rows["release"])  # NaN where still open
+        same = load(tmp_path / "OUT")
+        for name in ("peaks", "poincare", "impacts"):
+            pd.testing.assert_frame_equal(getattr(job, name), getattr(same, name))
+        ours, theirs = (one.window("acceleration", points=50) for one in (same, job))
+        assert ours.time.tobytes() == theirs.time.tobytes()
+        assert ours["acceleration"].tobytes() == theirs["acceleration"].tobytes()
+        xr.testing.assert_identical(job.history.drop_attrs(), same.history.drop_attrs())
 
 
 def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path):
@@ -71,6 +81,9 @@ def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_pa
         for name, column in local.statistics.items():
             assert study.statistics[name].tobytes() == column.tobytes(), name
         drawn = job.figure("bifurcation").content
+        same = load(tmp_path / "OUT")
+        for name in ("points", "poincare"):
+            pd.testing.assert_frame_equal(getattr(job, name), getattr(same, name))
     assert drawn == (tmp_path / "OUT" / "figures" / "bifurcation.png").read_bytes()
     assert "20 done" in jointplay("show", job_id, "--url", url).out
 

@@ -1,6 +1,7 @@
 """``jointplay reproduce --quick``: the report, its numbers and its figures."""
 
 import base64
+import json
 import re
 import subprocess
 import sys
@@ -65,12 +66,12 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """Folder and last line of a quick reproduction."""
+    """Folder of a quick reproduction, and the page that the command names."""
     folder = tmp_path_factory.mktemp("reproduce") / "out"
-    command = [*REPRODUCE, "--quick", "-o", str(folder)]
+    command = [*REPRODUCE, "--quick", "-o", str(folder), "--json"]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=280)
     assert ended.returncode == 0, ended.stderr
-    return folder, ended.stdout.splitlines()[-1]
+    return folder, json.loads(ended.stdout)["report"]
 
 
 @pytest.fixture(scope="module")
@@ -91,8 +92,8 @@ def value_at(pointer: str) -> float:
 
 
 def test_it_ends_with_the_path_of_the_report(made):
-    folder, line = made
-    assert str(folder / PAGE) in line
+    folder, page = made
+    assert page == str(folder / PAGE)
 
 
 def test_every_printed_number_stands_beside_ours(page):
