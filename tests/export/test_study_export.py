@@ -67,6 +67,8 @@ def test_extremes_of_a_sweep_stand_beside_its_parameters():
         "stroke maximum [m]",
         "stroke maximum at [s]",
         "stroke range [m]",
+        "steps [1]",  # the statistics of a channel that was not chosen are left out
+        "left.contact_share [1]",
     ]
     assert [int(row[0]) for row in rows] == list(range(2, 8))
     maxima = [float(row[7]) for row in rows]
