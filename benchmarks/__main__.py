@@ -6,6 +6,7 @@ import sys
 ALL = (
     "press",
     "peers",
+    "accuracy",
     "exponent",
     "sweep",
     "platform",

@@ -5,6 +5,7 @@ import sys
 import typer
 
 from jointplay.command_line import (
+    accuracy,
     batch,
     calibrate,
     cancel,
@@ -36,6 +37,7 @@ application = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 application.command("run")(run_locally.run)
+application.command()(accuracy.accuracy)
 application.command()(calibrate.calibrate)
 application.command()(demo.demo)
 application.command()(reproduce.reproduce)

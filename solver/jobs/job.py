@@ -15,7 +15,7 @@ ACCURACIES: dict[Accuracy, tuple[Method, float]] = {
     "draft": ("dormand-prince-853", 3e-4),
     "standard": ("auto", 1e-6),
     "fine": ("auto", 1e-8),
-    "reference": ("dormand-prince-853", 1e-11),
+    "reference": ("auto", 1e-11),
 }
 """Method and tolerance of the named accuracies, chosen from work-precision measurements."""
 

@@ -1,0 +1,48 @@
+"""A sentence that recommends a method and a tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from solver.trade.measure import Point, Trade
+
+DEFAULT = ("tsitouras", 1e-6)
+
+
+def cheapest(points: Iterable[Point], error: float) -> Point | None:
+    """Return the admitted run of fewest evaluations whose error is at most `error`."""
+    able = [p for p in points if p.admitted and p.error is not None and p.error <= error]
+    return min(able, key=lambda p: p.evaluations, default=None)
+
+
+def advice(trade: Trade) -> str:
+    """Say what gives the error of the default, and one a hundred times smaller, at least cost."""
+    default = next((p for p in trade.points if (p.method, p.tolerance) == DEFAULT), None)
+    if default is None or default.error is None:
+        return "The default did not come to the end of this run; ask for a tighter tolerance."
+    if default.error <= trade.uncertainty:
+        return "The default is as accurate as the reference: there is nothing to choose."
+    best = cheapest(trade.points, default.error) or default
+    first = (
+        f"The default, tsitouras at 1e-06, makes an error of {default.error:.1e}"
+        f" in {default.evaluations} evaluations"
+    )
+    if best == default:
+        first += ", and nothing does it in fewer."
+    else:
+        first += f"; {name(best)} does with {best.evaluations / default.evaluations:.0%} of them."
+    finer = max(0.01 * default.error, 3.0 * trade.uncertainty)
+    then = cheapest(trade.points, finer)
+    if then is None:
+        return first
+    ratio = then.evaluations / default.evaluations
+    return (
+        f"{first} For an error below {finer:.1e} take {name(then)}, at {ratio:.1f} times the cost."
+    )
+
+
+def name(point: Point) -> str:
+    """Return how a job asks for a run."""
+    if point.tolerance is None:
+        return f"{point.method} in steps of {point.step:g} s"
+    return f"{point.method} at {point.tolerance:.0e}"
