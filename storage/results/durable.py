@@ -4,6 +4,7 @@ import ctypes
 import errno
 import os
 import shutil
+from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -106,11 +107,15 @@ class DurableFolder:
         """Make the folder of a file; a new folder's name must become durable as well."""
         folder = key.rpartition("/")[0]
         self._unsynced.add(folder)
+        missing = []
         while folder and folder not in self._folders:
-            os.makedirs(f"{self.root}/{folder}", exist_ok=True)
-            self._folders.add(folder)
+            missing.append(folder)
             folder = folder.rpartition("/")[0]
             self._unsynced.add(folder)
+        for name in reversed(missing):
+            with suppress(FileExistsError):
+                os.mkdir(f"{self.root}/{name}")
+            self._folders.add(name)
 
 
 def measure(path: Path) -> Record:
