@@ -5,6 +5,7 @@ import sys
 
 ALL = (
     "press",
+    "certificate",
     "peers",
     "accuracy",
     "exponent",

@@ -25,6 +25,7 @@ from solver.compiler.layout import LANES
 from solver.lanes.account import ledger_of, peaks_of
 from solver.lanes.state import Counter, Status
 from solver.scene.document import Revolute, Scene
+from solver.study.starts import start_scales
 
 Floats = NDArray[np.float64]
 
@@ -173,10 +174,14 @@ def _scales(values: Floats, names: Sequence[str], units: Sequence[str], scene: S
     of_unit = np.array(units)
     largest = np.array([ranges[of_unit == unit].max() for unit in units])
     scales: Floats = np.maximum(ranges, HARDLY * largest)
+    finest = start_scales(scene, names, 1.0)[0]  # of positions and angles, where there is play
+    play = any(_clearance(scene, name) > 0.0 for name in scene.joints)
     for column, name in enumerate(names):
         owner, _, quantity = name.partition(".")
         if quantity in JOURNAL:
             scales[column] = 2.0 * _clearance(scene, owner)
+        elif play and quantity in COORDINATES:
+            scales[column] = max(scales[column], finest[column])
     return scales
 
 

@@ -31,6 +31,7 @@ RATIO = math.sqrt(3.0)
 LADDER = (RATIO**-2, RATIO**-1, RATIO, RATIO**2)
 """Tolerances of lanes 1 to 4, in the run's own; the first decides what all this costs."""
 TIGHTEST, TIGHTER = 1, 2
+LOOSER = (3, 4)
 PERTURBED = (5, 6, 7)
 """Lanes with the run's own tolerance and another start."""
 SEED = 5
@@ -133,14 +134,15 @@ class Companions:
             count = int(counters[Counter.SAMPLE_ROWS, lane])
             if not count:
                 continue
+            rows = self.bundle.sample_rows[lane, :count]
             stride = round(settings[Setting.OUTPUT_STEP, lane] / self.instants.finest)
             following = int(counters[Counter.SAMPLE, lane])
-            index = np.arange(following - count, following) * stride
-            wanted = [int(i) % self.instants.stride(int(i)) == 0 for i in index]
-            self.rows[lane].append(self.bundle.sample_rows[lane, :count][wanted])
             coarser = self.instants.stride(min(following * stride, self.instants.last))
             if coarser > stride:
+                index = range((following - count) * stride, following * stride, stride)
+                rows = rows[[i % self.instants.stride(i) == 0 for i in index]]
                 self._coarsen(lane, following, stride, coarser)
+            self.rows[lane].append(rows.copy())
 
     def _coarsen(self, lane: int, following: int, stride: int, coarser: int) -> None:
         bundle = self.bundle

@@ -1,9 +1,10 @@
 """The estimated error of a trajectory over time, from how far its companions are apart.
 
 At each instant: the largest distance between those that have the run's own tolerance and those
-that have tighter ones, and between the latter. An error changes sign, and a force is wrong where an
-impact is late: so the largest within REACH instants to either side counts. SAFETY makes it cover
-the true error (docs/certificate.md has how often it does).
+that have tighter ones, between the latter, and of looser ones from the tightest, by how much looser
+they are. An error changes sign, and a force is wrong where an impact is late: so the largest within
+REACH instants to either side counts. SAFETY makes it cover the true error (docs/certificate.md has
+how often it does).
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.certificate.companions import PERTURBED, TIGHTER, TIGHTEST
+from solver.certificate.companions import LADDER, LOOSER, PERTURBED, TIGHTER, TIGHTEST
 
 Floats = NDArray[np.float64]
 
@@ -36,7 +37,10 @@ def estimated_error(values: Floats) -> Floats:
     compared = [lane - 1 for lane in (TIGHTEST, TIGHTER, *PERTURBED)]
     same = {lane - 1 for lane in PERTURBED}
     pairs = [pair for pair in combinations(compared, 2) if not same.issuperset(pair)]
-    distances = np.array([np.abs(values[a] - values[b]) for a, b in pairs])
+    distances = [np.abs(values[a] - values[b]) for a, b in pairs]
+    distances += [
+        np.abs(values[lane - 1] - values[TIGHTEST - 1]) / LADDER[lane - 1] for lane in LOOSER
+    ]
     with warnings.catch_warnings():  # of instants that nobody reached
         warnings.simplefilter("ignore", RuntimeWarning)
         apart = np.nanmax(distances, axis=0)

@@ -1,0 +1,65 @@
+"""The estimate, the horizon and the spread, on numbers made up for it."""
+
+import numpy as np
+import pytest
+
+from solver.certificate.companions import LADDER
+from solver.certificate.estimate import (
+    CONVERGED,
+    LASTING,
+    REACH,
+    SAFETY,
+    estimated_error,
+    spans,
+    until,
+    within,
+)
+from solver.certificate.spread import BINS, histogram
+
+TIME = np.linspace(0.0, 1.0, 101)
+
+
+def lanes(error: np.ndarray) -> np.ndarray:
+    """Values of seven companions that are wrong in proportion to their tolerance."""
+    shares = np.array([*LADDER, 1.0, 1.0, 1.0])
+    return np.sin(TIME)[None, :, None] + shares[:, None, None] * error[None, :, None]
+
+
+def test_an_error_in_proportion_to_the_tolerance_is_covered_and_not_overrated() -> None:
+    error = 1e-6 * np.exp(8.0 * TIME)
+    estimate = estimated_error(lanes(error))[:, 0]
+    assert (estimate >= error).all()
+    # a looser lane's share, and the growth to the last instant that counts
+    assert (estimate <= SAFETY * np.exp(8.0 * REACH / 100.0) * error * 1.001).all()
+
+
+def test_a_companion_left_behind_leaves_the_others() -> None:
+    values = lanes(1e-6 * np.ones_like(TIME))
+    values[0, 50:] = np.nan
+    assert np.isfinite(estimated_error(values)).all()
+    values[:, 80:] = np.nan
+    estimate = estimated_error(values)[:, 0]
+    assert np.isinf(estimate[80:]).all()
+    assert np.isfinite(estimate[: 80 - REACH]).all()
+
+
+def test_the_horizon_is_the_first_loss_and_later_spans_must_last() -> None:
+    error = np.zeros((101, 1))
+    error[30:50] = error[53:60] = 1.0  # instants 50 to 52 are a chance meeting
+    small = within(error, np.array([1.0 / CONVERGED / 2.0]))
+    assert until(small, TIME) == pytest.approx(0.29)
+    assert spans(small, TIME) == [[0.0, pytest.approx(0.29)], [pytest.approx(0.6), 1.0]]
+    assert LASTING > 3
+    assert spans(np.zeros((101, 1), bool), TIME) == [[0.0, 0.0]]
+    assert spans(np.ones((101, 1), bool), TIME) == [[0.0, 1.0]]
+
+
+def test_shares_of_time_add_up_and_equal_lanes_have_no_spread() -> None:
+    values = np.repeat(np.sin(7.0 * TIME)[None, :, None], 7, axis=0)
+    edges, share, spread = histogram(values, TIME)
+    assert share.sum() == pytest.approx(1.0)
+    assert np.abs(spread).max() == pytest.approx(0.0, abs=1e-15)
+    assert len(edges) == BINS + 1
+    assert edges[[0, -1], 0].tolist() == [values.min(), values.max()]
+    values[3:] *= -0.5
+    assert histogram(values, TIME)[2].max() > 0.0

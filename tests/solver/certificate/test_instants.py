@@ -1,0 +1,62 @@
+"""The instants at which companions are compared, and that companions hand out just these."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solver.certificate.companions import LADDER, RUN, Companions
+from solver.certificate.instants import FIRST, Instants
+from solver.lanes.bundle import Bundle
+from solver.lanes.state import Counter, Status
+from tests.solver.test_determinism import PROBLEMS, bundle_of
+
+
+@pytest.mark.parametrize(("duration", "unit", "octaves"), [(1.0, 2.0, 0), (8.0, 1.0, 3), (9, 1, 4)])
+def test_each_octave_has_half_as_many_as_the_first(
+    duration: float, unit: float, octaves: int
+) -> None:
+    instants = Instants.over(duration, unit)
+    time = instants.time
+    assert instants.octaves == octaves
+    assert len(time) == FIRST + 1 + octaves * FIRST // 2
+    assert (time[0], time[-1]) == (0.0, duration)
+    steps = np.diff(time)
+    assert steps.min() == steps[0] == duration / (FIRST << octaves)
+    assert (np.diff(steps) >= 0.0).all()
+    later = time[1:] > time[FIRST]
+    assert (steps[later] <= time[1:][later] / (FIRST / 2)).all()
+    assert all(instants.index[i] % instants.stride(int(instants.index[i])) == 0 for i in range(9))
+
+
+def followed(budget: int) -> tuple[Bundle, Companions]:
+    """Return a press over several of its short periods, and its companions at their ends."""
+    problem = replace(PROBLEMS[4], duration=1.5, tolerance=1e-6)
+    bundle = bundle_of([problem])
+    companions = Companions.beside(bundle, problem)
+    while bundle.counters[Counter.STATUS, RUN] == Status.RUNNING or companions.running:
+        bundle.advance(companions.allowance(budget))
+        companions.collect()
+    return bundle, companions
+
+
+def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
+    bundle, companions = followed(10**6)
+    assert companions.instants.octaves == 1
+    _, sliced = followed(1700)
+    period = bundle.settings[0, RUN]
+    for lane in companions.rows:
+        rows = companions.dense(lane)
+        assert rows.tobytes() == sliced.dense(lane).tobytes()
+        # a row has its time as whole periods and the rest
+        found = rows[:, 0] * period + rows[:, 1]
+        np.testing.assert_allclose(found, companions.instants.time, atol=1e-12)
+
+
+def test_tighter_companions_take_more_steps_and_looser_ones_fewer() -> None:
+    bundle, companions = followed(10**6)
+    steps = [companions.attempts(lane) for lane in (RUN, *range(1, len(LADDER) + 1))]
+    assert steps[1] > steps[2] > steps[0] > steps[3] > steps[4]
+    # fifth order: the third of the tolerance takes 3^0.2 = 1.25 times the steps, and impacts some
+    assert 1.15 < steps[1] / steps[0] < 1.4
+    assert (bundle.counters[Counter.STATUS] == Status.DONE).all()
