@@ -15,7 +15,10 @@ from jointplay.serving import running_service
 
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
-PAGES = [README, *((ROOT / "docs" / name).read_text() for name in ("http.md", "python.md"))]
+PAGES = [
+    README,
+    *((ROOT / "docs" / name).read_text() for name in ("http.md", "python.md", "certificate.md")),
+]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 BLOCKS = [block for page in PAGES for block in BLOCK.findall(page)]

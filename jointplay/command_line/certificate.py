@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from jointplay.command_line import connection
 from jointplay.command_line.json_output import AS_JSON, print_json
+
+if TYPE_CHECKING:
+    from jointplay.client import Job
 
 
 def certificate(
@@ -45,8 +48,14 @@ def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
         yield name, f"{value:.7g}" if isinstance(value, float) else str(value)
 
 
-def print_headline(document: dict[str, Any]) -> None:
-    """Print horizon and exponent, a line each."""
+def print_headline(job: "Job") -> None:
+    """Print where a job's motion is converged, and its exponent, a line each, if it has any."""
+    from jointplay.client import NotFound, ResultsNotReady
+
+    try:
+        document = job.certificate
+    except (NotFound, ResultsNotReady):
+        return
     spans = [f"{start:.4g} to {stop:.4g} s" for start, stop in document["converged"]]
     typer.echo(f"converged {', '.join(spans)}")
     if (found := document.get("exponent")) is not None:

@@ -124,8 +124,7 @@ def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
     if not as_json:
         first = headline(job.results.source(None, None, None))
         print_peaks(row for row in rows if row.channel in first)
-        if job.job.get("certificate") and job.is_finished:
-            print_headline(job.certificate)
+        print_headline(job)
         typer.echo(f"all {len(rows)} channels are in {table}")
     return {"peaks": [row._asdict() for row in rows]}
 

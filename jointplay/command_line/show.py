@@ -45,7 +45,7 @@ def show(
                 typer.echo("Nothing was computed.")
             _print_simulation(found)
             if found["statistics"] is not None and job.job.get("certificate"):
-                print_headline(job.certificate)
+                print_headline(job)
             if found["points"] is not None:
                 print_points(found["points"])
     if wait:
