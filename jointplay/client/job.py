@@ -30,6 +30,9 @@ class Job(ReadableJob):
         super().__init__(document, keeper.results)
         self._keeper = keeper
 
+    def __hash__(self) -> int:
+        return hash(self.id)  # the record changes, the job stays
+
     def __repr__(self) -> str:
         return f"<Job {self.id}: {self.kind} of {self.scene_name}, {self.state}>"
 

@@ -34,6 +34,7 @@ def test_a_submitted_job_can_be_looked_at_listed_and_cancelled(client):
     assert (job.state, job.label, job.error) == ("queued", "from Python", None)
     assert not job.is_finished
     assert client.job(job.id) == job
+    assert {job, client.job(job.id)} == {job}
     assert next(iter(client.jobs())).id == job.id
     assert job.cancel().state == "cancelled"
     assert client.job(job.id).is_finished
