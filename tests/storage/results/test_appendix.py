@@ -1,0 +1,63 @@
+"""Groups of small arrays that a store gets when it is sealed."""
+
+import numpy as np
+import pytest
+import zarr
+from made_up_runs import MadeUpRun, made_up_layout
+
+from storage.results import (
+    IMPACT,
+    Appendix,
+    InvalidAppend,
+    ResultReader,
+    ResultWriter,
+    SmallArray,
+)
+
+TABLE = np.array([[1.0, np.nan], [np.inf, -0.0], [3.0, 4.0]])
+APPENDIX = Appendix(
+    {"horizon": 0.5, "converged": [[0.0, 0.5]], "exponent": None},
+    {
+        "error": SmallArray(TABLE, ("instant", "channel"), {"long_name": "estimated error"}),
+        "time": SmallArray(np.arange(3.0), ("instant",), {"units": "s"}),
+        "nothing": SmallArray(np.zeros((0, 2)), ("edge", "channel"), {}),
+    },
+)
+
+
+def sealed(folder, certificate):
+    run = MadeUpRun(made_up_layout(6, 0), np.zeros(0, IMPACT))
+    writer = ResultWriter.create(folder, run.layout)
+    run.append(writer, 0.0, 1.0)
+    assert ResultReader(folder).certificate() is None
+    writer.seal(peaks=run.peaks, summary={}, certificate=certificate)
+    return ResultReader(folder)
+
+
+def test_it_is_read_as_it_was_written(tmp_path):
+    reader = sealed(tmp_path, APPENDIX)
+    reader.verify()
+    found = reader.certificate()
+    assert found.attributes == APPENDIX.attributes
+    assert set(found.arrays) == set(APPENDIX.arrays)
+    for name, array in APPENDIX.arrays.items():
+        assert found.arrays[name].values.tobytes() == array.values.tobytes()
+        assert found.arrays[name].dimensions == array.dimensions
+        assert found.arrays[name].attributes == array.attributes
+
+
+def test_stock_zarr_reads_it_alone(tmp_path):
+    sealed(tmp_path, APPENDIX)
+    group = zarr.open_group(tmp_path / "certificate", mode="r")
+    assert group.attrs["horizon"] == 0.5
+    np.testing.assert_array_equal(group["error"][:], TABLE)
+
+
+def test_a_store_without_one_has_none(tmp_path):
+    assert sealed(tmp_path, None).certificate() is None
+    assert not (tmp_path / "certificate").exists()
+
+
+def test_a_document_that_json_cannot_carry_is_refused(tmp_path):
+    with pytest.raises(InvalidAppend, match="certificate must be finite"):
+        sealed(tmp_path, Appendix({"horizon": float("nan")}, {}))
