@@ -75,19 +75,6 @@ PRINTED = {
     "scene draw": (["pendulum", "-o", "HERE/pendulum.png"], {"figure", "problems"}),
 }
 """By command: arguments, and keys of the document that scripts may rely on."""
-ELSEWHERE = {
-    "cancel": "test_jobs_are_cancelled_and_deleted_with_a_document",
-    "delete": "test_jobs_are_cancelled_and_deleted_with_a_document",
-    "calibrate": "test_calibrate.py",
-    "certificate": "test_comparing_and_citing.py",
-    "demo": "test_demo.py",
-    "reproduce": "tests/reproduce",
-    "serve": "tests/serving",
-}
-
-
-def test_every_command_is_tested():
-    assert {command.split(" -")[0] for command in PRINTED} | set(ELSEWHERE) == set(COMMANDS)
 
 
 @pytest.mark.parametrize("command", PRINTED)
