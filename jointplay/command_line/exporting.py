@@ -53,7 +53,7 @@ def text_of(job: "Job", asked: Asked) -> Text:
     known = _OF_SIMULATIONS if job.kind == "simulate" else _OF_STUDIES
     if asked.table is not None and asked.table not in known:
         what = "a simulation" if job.kind == "simulate" else "a study"
-        line = f"--table {asked.table}: {what} has {' and '.join(known)}."
+        line = f"--table {asked.table}: {what} has {', '.join(known)}."
         raise Stopped(Exit.BAD_INPUT, line)
     if job.kind != "simulate":
         return _study(job, asked)
