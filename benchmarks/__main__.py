@@ -12,6 +12,7 @@ ALL = (
     "sweep",
     "platform",
     "submission",
+    "latency",
     "start",
     "results_store",
     "results_http",
