@@ -89,10 +89,13 @@ class GrowingTable:
         self._folder.commit()
         self.rows = self.durable = durable
 
-    def finish(self) -> None:
-        """Write the rows of a shard that will not fill any more."""
+    def finishing(self) -> Iterator[None]:
+        """Write the rows of a shard that will not fill any more, in two steps.
+
+        The folder is to be committed after each: several tables are finished with one wait.
+        """
         if self.rows > self.durable:
-            self._write_shard()
+            yield from self._writing()
 
     def shard_keys(self, first: int, stop: int) -> list[str]:
         """Name the files that hold shards `first` to `stop` - 1 of every column."""
@@ -103,13 +106,20 @@ class GrowingTable:
         ]
 
     def _write_shard(self) -> None:
+        for _ in self._writing():
+            self._folder.commit()
+
+    def _writing(self) -> Iterator[None]:
+        """Write the next shard of every column, the last one's in a step of its own.
+
+        Readers take that for the sign that all others are there.
+        """
         keys = self.shard_keys(*self._next_shard())
         for key, content in zip(keys, self._contents(), strict=True):
             if key == keys[-1]:
-                # readers take the last column's shard for the sign that all others are there
-                self._folder.commit()
+                yield
             self._folder.write(key, content)
-        self._folder.commit()
+        yield
         self.durable = self.rows
 
     def _next_shard(self) -> tuple[int, int]:

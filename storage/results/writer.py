@@ -251,10 +251,15 @@ class ResultWriter:
         rows = np.array([peaks.get(name, _NO_PEAK) for name in names]).reshape(-1, 4)
         self._peaks.append(list(rows.T))
         self._pyramid.close()
-        for table in self._growing:
-            table.finish()
         for litter in self._path.rglob(f"*{PARTIAL}"):
             litter.unlink()
+        tables = [table.finishing() for table in self._growing]
+        for _ in range(2):
+            for table in tables:
+                next(table, None)
+            self._folder.commit()
+        for table in tables:
+            next(table, None)
         shown = [table.rows for table in self._tables]
         for key, content in (certificate.chunks(CERTIFICATE) if certificate else {}).items():
             self._folder.write(key, content)
