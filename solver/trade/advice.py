@@ -23,6 +23,8 @@ def advice(trade: Trade) -> str:
     if default.error <= trade.uncertainty:
         return "The default is as accurate as the reference: there is nothing to choose."
     best = cheapest(trade.points, default.error) or default
+    if best.evaluations == default.evaluations:
+        best = default
     first = (
         f"The default, tsitouras at 1e-06, makes an error of {default.error:.1e}"
         f" in {default.evaluations} evaluations"
