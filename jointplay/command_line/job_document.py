@@ -33,7 +33,8 @@ ACCURACY = Annotated[
 METHOD = Annotated[
     str | None,
     typer.Option(
-        help="auto (default), bogacki-shampine, tsitouras, dormand-prince-853, or rk4 with --step."
+        help="auto (default), bogacki-shampine, tsitouras, dormand-prince-853, rodas, or rk4 with"
+        " --step."
     ),
 ]
 STEP = Annotated[float | None, typer.Option(metavar="SECONDS", help="Fixed step of rk4.")]

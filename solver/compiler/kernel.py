@@ -12,7 +12,7 @@ import numpy as np
 from numba.core.types.function_type import WrapperAddressProtocol
 from numpy.typing import NDArray
 
-from solver.compiler import scanning, stepping
+from solver.compiler import implicit, scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
 from solver.compiler.equations import Equations, record, slopes
@@ -21,7 +21,8 @@ from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression
 from solver.compiler.rows import Rows, arrange
 from solver.compiler.slots import slots_of
-from solver.integrators.tableau import Tableau
+from solver.integrators import Method
+from solver.integrators.rosenbrock import Rosenbrock
 from solver.mechanics.tree import Tree
 from solver.mechanics.view import view
 from solver.scene.document import Scene
@@ -63,7 +64,7 @@ class Kernel:
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
     equations: Equations
-    tableau: Tableau
+    tableau: Method
 
     @property
     def states(self) -> int:
@@ -104,7 +105,7 @@ class Kernel:
         return values_of([node for _, node in self.fixed], scene)
 
 
-def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau) -> Kernel:
+def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) -> Kernel:
     """Record, emit and load the kernel of a scene's structure; seconds when it is not cached.
 
     Raises
@@ -117,6 +118,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     states, joints = 2 * len(equations.coordinates), len(equations.play)
     ledger = LEDGER + joints
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
+    if isinstance(tableau, Rosenbrock):
+        implicit.allocate(layout, states)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
     layout.add_block("taken", max(rows.scanned, layout["before_y0"] - layout["y0"]))
@@ -125,7 +128,11 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Tableau)
     layout.add_block("phase", len(equations.drivers))
     layout.add_block("wound", len(equations.drivers))
     fixed = FixedNodes(layout)
-    steps = stepping.StepRecorder(tableau, states, ledger, joints, layout)
+    steps = (
+        implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout)
+        if isinstance(tableau, Rosenbrock)
+        else stepping.StepRecorder(tableau, states, ledger, joints, layout)
+    )
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     source = "\n\n".join(
         [

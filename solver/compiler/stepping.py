@@ -13,7 +13,7 @@ from solver.compiler.emit import DECORATOR, PROBING, RETURNING, lane_function
 from solver.compiler.lane_functions import exp2, log2
 from solver.compiler.layout import LANES, Layout
 from solver.compiler.recorder import Expression, Recorder
-from solver.integrators.tableau import Tableau
+from solver.integrators import Method
 from solver.mechanics.scalars import maximum, minimum, select_positive
 
 SAFETY = 0.95
@@ -59,7 +59,7 @@ class StepRecorder:
 
     def __init__(
         self,
-        tableau: Tableau,
+        tableau: Method,
         states: int,
         ledger: int,
         joints: int,
@@ -76,14 +76,25 @@ class StepRecorder:
 
     def source(self) -> str:
         """Return the source of all functions of a step."""
-        parts = [self._stage(s) for s in range(2, self.tableau.stages + 1)]
-        parts += [self._judge(), self._attempt()]
+        parts = [*self._steps(), self._judge(), self._attempt()]
         parts += [self._mark(), self._take(some=False), self._take(some=True)]
         parts += [self._probe(), self._probe_around()]
         return "\n\n".join(parts)
 
     def _function(self, name: str, outputs: list[tuple[str, Expression]]) -> str:
         return lane_function(name, outputs, self.layout)
+
+    def _steps(self) -> list[str]:
+        """Return the sources of what an attempt calls beside the slopes, but for the judge."""
+        return [self._stage(s) for s in range(2, self.tableau.stages + 1)]
+
+    def _calls(self) -> list[str]:
+        """Return what an attempt calls before the judge, in its order."""
+        stages = range(2, self.tableau.stages + 1)
+        return [call for s in stages for call in (f"stage_{s}(W)", "right_hand_side(W)")]
+
+    def _ledger_weights(self) -> tuple[float, ...]:
+        return self.tableau.matrix[-1]
 
     def _tried(self) -> Expression:
         v = self.variable
@@ -219,9 +230,7 @@ class StepRecorder:
         return select_positive(closed, nothing, onset), select_positive(closed, release, nothing)
 
     def _attempt(self) -> str:
-        calls = []
-        for s in range(2, self.tableau.stages + 1):
-            calls += [f"    stage_{s}(W)", "    right_hand_side(W)"]
+        calls = [f"    {call}" for call in self._calls()]
         flag = self.layout["flag"] * LANES
         return "\n".join(
             [
@@ -255,7 +264,7 @@ class StepRecorder:
         ]
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
-            for s, b in enumerate(self.tableau.matrix[-1], start=1):
+            for s, b in enumerate(self._ledger_weights(), start=1):
                 total = total + b * v(f"kledger{s}_{i}")
             outputs.append((f"total{i}", v(f"total{i}") + v("tried") * total))
         for j in range(self.joints):

@@ -1,15 +1,22 @@
-"""Runge-Kutta methods: one file a tableau; this roster names them as jobs do."""
+"""Integration methods: one file each, as data; this roster names them as jobs do."""
 
 from solver.integrators.bogacki_shampine3 import BOGACKI_SHAMPINE3
 from solver.integrators.dormand_prince853 import DORMAND_PRINCE853
+from solver.integrators.rodas4 import RODAS4
+from solver.integrators.rosenbrock import Rosenbrock
 from solver.integrators.runge_kutta4 import RUNGE_KUTTA4
 from solver.integrators.tableau import Tableau
 from solver.integrators.tsitouras5 import TSITOURAS5
 
-METHODS: dict[str, Tableau] = {
-    tableau.name: tableau
-    for tableau in (BOGACKI_SHAMPINE3, TSITOURAS5, DORMAND_PRINCE853, RUNGE_KUTTA4)
-}
+Method = Tableau | Rosenbrock
+EVERY: tuple[Method, ...] = (
+    BOGACKI_SHAMPINE3,
+    TSITOURAS5,
+    DORMAND_PRINCE853,
+    RODAS4,
+    RUNGE_KUTTA4,
+)
+METHODS = {method.name: method for method in EVERY}
 
 
 def method_for(method: str, tolerance: float | None) -> str:

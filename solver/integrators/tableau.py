@@ -38,6 +38,10 @@ class Tableau:
         """Number of stages, the FSAL one included."""
         return len(self.nodes)
 
+    def evaluations(self, states: int) -> int:
+        """Return the evaluations of the equations in a step, whatever the number of states."""
+        return self.stages - 1
+
 
 def cubic_dense(weights: Sequence[float]) -> tuple[tuple[float, ...], ...]:
     """Return the dense output of order three: the cubic through both ends and their slopes.

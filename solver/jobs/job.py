@@ -8,7 +8,7 @@ from solver.scene.document import Scene
 from solver.scene.forms import form, has, told_by
 from solver.scene.quantities import Name, Strict
 
-Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rk4"]
+Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
 Accuracy = Literal["draft", "standard", "fine", "reference"]
 
 ACCURACIES: dict[Accuracy, tuple[Method, float]] = {
@@ -69,8 +69,9 @@ class Job(Strict):
         Method,
         Field(
             description=(
-                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it; rk4: a"
-                " fixed step, without error control or located onsets"
+                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it; rodas:"
+                " implicit, for stiff contact; rk4: a fixed step, without error control or located"
+                " onsets"
             )
         ),
     ] = "auto"

@@ -88,7 +88,7 @@ def pass_through(
         np.concatenate(states),
         scales,
         statistics["steps"],
-        bundle.attempts * (kernel.tableau.stages - 1),
+        bundle.attempts * kernel.tableau.evaluations(kernel.states),
         spent,
         abs(energy["residual"]) / taken if taken > 0.0 else np.nan,
     )

@@ -11,7 +11,7 @@ SHORT = ("seven-bar-press", "--duration", "0.003")
 def test_every_method_is_in_the_table_and_one_is_recommended(jointplay, tmp_path):
     ended = jointplay("accuracy", *SHORT, "-o", tmp_path / "trade.svg")
     assert ended.code == 0, ended.err
-    for method in ("bogacki-shampine", "tsitouras", "dormand-prince-853", "rk4"):
+    for method in ("bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"):
         assert f"| {method} |" in ended.out
     assert ended.out.rstrip().splitlines()[-1].startswith("The default")
     assert b"<svg" in (tmp_path / "trade.svg").read_bytes()
