@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from jointplay.figures import page
 from jointplay.figures.quantity import power_of_ten
 
-_HEIGHT = 100.0  # mm
+_HEIGHT = 110.0  # mm
+_LEGEND_COLUMNS = 3  # names of methods are long
 _STYLES = (
     (page.BLUE, "o", "-"),
     (page.VERMILION, "s", "--"),
@@ -90,5 +91,6 @@ def draw_work_precision(
         below.axhline(most_astray, color=page.GREY, linewidth=0.6, linestyle="--")
         below.set_xlabel("evaluations; what jobs may not ask for is open")
         figure.align_ylabels()
-        above.legend(loc="lower left")
+        names = above.get_legend_handles_labels()
+        figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
         return page.save(figure, form)
