@@ -20,6 +20,7 @@ from solver.admission import Admission, Study, readmit
 from solver.errors import InvalidInput, SimulationFailed
 from solver.simulate import Simulation
 from solver.study.run import StudyRun
+from storage.results.appendix import CERTIFICATE
 from worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
 
 BUDGET = 0.5
@@ -81,7 +82,8 @@ def _of_simulation(admission: Admission) -> Cost:
         whole = Mark(seconds, 1.0, steps)
     else:
         whole = _extrapolated(marks)
-    reached = max(outcome.fraction, 1e-9)
+    # of the trajectory: its companions, by which progress goes, may be behind
+    reached = max(outcome.time / float(admission.job["duration"]), 1e-9)
     return Cost(
         seconds=whole.seconds,
         steps=round(whole.steps),
@@ -108,7 +110,11 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
         outcome = execute(admission, folder, report=report)
         marks.append(Mark(time.process_time() - began, outcome.fraction, 0))
         sizes = {path: path.stat().st_size for path in folder.rglob("*") if path.is_file()}
-    fixed = sum(size for path, size in sizes.items() if path.suffix == ".json")
+    fixed = sum(
+        size
+        for path, size in sizes.items()
+        if path.suffix == ".json" or path.is_relative_to(folder / CERTIFICATE)
+    )
     fixed -= next((size for path, size in sizes.items() if path.name == JOB_FILE), 0)
     if outcome.state == "cancelled":
         marks.pop()  # sealing a part says nothing about the rest
