@@ -32,6 +32,7 @@ LEDGER = (
     "friction_loss",
     "kinetic_change",
     "stored_change",
+    "gross_work",
     "residual",
 )
 

@@ -111,6 +111,9 @@ class EnergyLedger(BaseModel):
     friction_loss: float = _in("J", "Lost to friction.")
     kinetic_change: float = _in("J", "Kinetic energy at the end less that at the start.")
     stored_change: float = _in("J", "Elastic energy of contacts at the end less at the start.")
+    gross_work: float = _in(
+        "J", "Works of drivers, gravity, contacts and friction, summed without their signs."
+    )
     residual: float = _in("J", "What remains of the balance: the ledger's error.")
 
 

@@ -122,7 +122,7 @@ def certify(
     known = spans(small[:, count:], time)
     edges, share, spread = histogram(values[:, :, :count], time)
     energy = ledger_of(bundle, RUN)
-    gross = _gross_work(energy)
+    gross = energy["gross_work"]
     facts = {
         "note": "",
         "horizon": known[0][1],
@@ -198,11 +198,6 @@ def _extremes(companions: Companions, names: Sequence[str]) -> Floats:
     low = np.array([[peaks[name].minimum for name in names] for peaks in found])
     high = np.array([[peaks[name].maximum for name in names] for peaks in found])
     return np.stack([low.min(0), low.max(0), high.min(0), high.max(0)], axis=1)
-
-
-def _gross_work(energy: dict[str, float]) -> float:
-    works = ("driver_work", "gravity_work", "contact_loss", "friction_loss")
-    return energy.get("gross_work", sum(abs(energy[name]) for name in works))
 
 
 def _violation(largest: Floats | None) -> dict[str, Any]:

@@ -29,7 +29,7 @@ class Equations:
     play: tuple[str, ...]
     accelerations: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
-    """Rates of driver work, contact loss, friction loss, then the impulse of each joint."""
+    """Rates: driver work, contact loss, friction loss, gross work, then each joint's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each joint with play."""
     channels: dict[str, Expression]
@@ -88,7 +88,7 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         tuple(scene.drivers),
         tree.play,
         tuple(lift(a) for a in motion.accelerations),
-        tuple(lift(rate) for rate in ledger_rates(motion).values()),
+        tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
         tuple(
             (lift(found.penetration), lift(found.penetration_rate))
             for found in motion.contacts.values()

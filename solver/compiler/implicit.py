@@ -200,7 +200,7 @@ def solve(W):
             error: Expression = self.recorder.constant(0.0)
             for s, weight in enumerate(weights, start=1):
                 error = error + weight * self.variable(f"k{s + 1}_{i}")
-            scaled = self.variable("tried") * error * self.variable(f"weight{i}")
+            scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
         return squared
 

@@ -27,8 +27,8 @@ from solver.mechanics.tree import Tree
 from solver.mechanics.view import view
 from solver.scene.document import Scene
 
-LEDGER = 3
-"""Ledger terms before the joints' impulses: driver work, contact loss, friction loss."""
+LEDGER = 4
+"""Terms before the joints' impulses: driver work, contact loss, friction loss, gross work."""
 
 
 class CompiledAddress(WrapperAddressProtocol):

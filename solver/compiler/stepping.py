@@ -30,7 +30,7 @@ REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
 def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
-    layout.add("active", "accept", "flag", "next_step", "memory", "new_memory")
+    layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
     for prefix in ("", "before_"):  # two equal pieces, so that one can be copied to the other
         layout.add_block(f"{prefix}y", states)
@@ -176,9 +176,14 @@ class StepRecorder:
             error: Expression = self.recorder.constant(0.0)
             for weight, slope in zip(weights, slopes, strict=True):
                 error = error + weight * v(slope)
-            scaled = v("tried") * error * v(f"weight{i}")
+            scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
         return squared
+
+    def _weighed(self, i: int) -> Expression:
+        """Step times weight of state i; more, while nothing has moved as fast as it may."""
+        v = self.variable
+        return v("tried") * (v("full") / v("fastest")) * v(f"weight{i}")
 
     def _overflow(self) -> Expression:
         """Next to nothing, but infinite or not a number where a slope is."""
@@ -262,6 +267,10 @@ class StepRecorder:
             ("steps", v("steps") + running),
             ("smallest_step", select_positive(running, smallest, v("smallest_step"))),
         ]
+        fastest = v("fastest")
+        for i in range(self.states // 2, self.states):
+            fastest = maximum(fastest, abs(v(f"stage{i}")) * v(f"weight{i}"))
+        outputs.append(("fastest", minimum(fastest, v("full"))))
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
             for s, b in enumerate(self._ledger_weights(), start=1):

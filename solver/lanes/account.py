@@ -57,8 +57,12 @@ def contacts_of(bundle: Bundle, lane: int) -> NDArray[np.void]:
 
 
 def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
-    """Energy at the end less at the start must be the work put in less what was lost, J."""
-    driver, contact, friction = (float(x) for x in bundle.table("total0", LEDGER)[:, lane])
+    """Energy at the end less at the start must be the work put in less what was lost, J.
+
+    The residual is the error of that; the gross work, the sum of all works without their signs, is
+    what it is to be held against.
+    """
+    driver, contact, friction, gross = (float(x) for x in bundle.table("total0", LEDGER)[:, lane])
     kinetic, potential, stored = (
         float(x) for x in bundle.energy(lane) - bundle.first_energy[:, lane]
     )
@@ -69,8 +73,19 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
         "friction_loss": friction,
         "kinetic_change": kinetic,
         "stored_change": stored,
+        "gross_work": gross,
         "residual": kinetic + stored - driver + potential + contact + friction,
     }
+
+
+def out_of_time(seconds: float, at: float) -> SimulationFailed:
+    """Return what ends a run that computes too long, at the time that it has reached, s."""
+    return SimulationFailed(
+        "time-limit",
+        f"t = {at:.9g} s was reached in {seconds:g} s of computing, the limit of a run. Ask for a"
+        " shorter duration or a larger tolerance.",
+        at,
+    )
 
 
 def failure_of(bundle: Bundle, lane: int, tolerance: float) -> SimulationFailed:

@@ -3,7 +3,7 @@
 The generated functions do what all lanes do alike; this loop looks after the lanes that need
 attention: a rejected step, a contact that begins or ends, a sample or section that is due, the
 end of a period or of the run. Rules that make a run's bits independent of everything around it:
-counters are per lane, and only onsets and the end of the run ever shorten a step.
+counters are per lane, and only onsets, openings and the end of the run ever shorten a step.
 """
 
 from __future__ import annotations
@@ -17,7 +17,16 @@ from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.borrowed import borrowed
-from solver.lanes.contacts import begin_contact, end_contact, land, note_openings
+from solver.lanes.contacts import (
+    CAUTIOUS,
+    LATE,
+    begin_contact,
+    end_behind_opening,
+    end_contact,
+    is_touching,
+    land,
+    note_openings,
+)
 from solver.lanes.events import (
     any_crossing,
     crosses,
@@ -54,19 +63,24 @@ def attend(
     right_hand_side: LaneFunction,
 ) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
+    opening = note_openings(lane, slots, work) if flag & RELEASE else 1.0
     if flag & REJECTED:
         counters[Counter.REJECTIONS, lane] += 1
         counters[Counter.LANDING, lane] = -1  # its attempts count on, or they might go in circles
         if work[slots[Slot.NEXT_STEP] * LANES + lane] < settings[Setting.SMALLEST_STEP, lane]:
             stop(lane, Status.UNDERFLOW, slots, work, counters)
+        if is_touching(lane, slots, work):
+            work[slots[Slot.NEXT_STEP] * LANES + lane] *= CAUTIOUS
+    if opening < LATE:
+        end_behind_opening(opening, lane, slots, work, counters)
+        return False
+    if flag & REJECTED:
         return False
     if flag & ONSET or counters[Counter.LANDING, lane] >= 0:
         landed = land(lane, slots, work, spare, counters, lend, probe, right_hand_side)
         if not landed:
             work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
             return False
-    if flag & RELEASE:
-        note_openings(lane, slots, work)
     if flag & DUE:
         return emit(
             lane, slots, work, spare, settings, counters, sample_rows, section_rows, probe

@@ -14,7 +14,7 @@ from solver.lanes.periods import PACE_STEPS, set_clock
 from solver.lanes.problem import Event, LaneProblem
 from solver.lanes.start import mechanism_size, start_state
 from solver.lanes.state import Counter, SectionKind, Setting
-from solver.scene.document import Revolute, Scene
+from solver.scene.document import Clearance, Revolute, Scene
 
 if TYPE_CHECKING:
     from solver.lanes.bundle import Bundle
@@ -25,6 +25,14 @@ RESTART = 1e-3
 """The first step in contact closes this share of the clearance at the impact rate."""
 SMALLEST_STEP = 1e-15
 """Of a period: a step below it ends the run."""
+ACROSS = 6.0
+"""Speeds are measured against at most this multiple of that which a journal has after falling
+through the smallest clearance: else impacts in a small one would be lost in the tolerance."""
+RESOLVED = 1.0
+"""Of the slip velocity at which friction is full: the error of a speed in a step stays below."""
+STRICTEST = 1e-14
+"""While nothing has moved as fast as the scene's scale of speed, the tolerance is smaller by as
+much, down to this: else what a run does that is nearly at rest would be lost in the tolerance."""
 FIRST_STEP = 1e-6
 """First step, in periods."""
 
@@ -48,6 +56,11 @@ def bind(bundle: Bundle, lane: int, problem: LaneProblem, like: int | None = Non
     else:
         state = problem.start.state
     bundle.table("y0", kernel.states)[:, lane] = state
+    speeds = slice(kernel.states // 2, None)
+    shares = np.abs(state[speeds]) * bundle.table("weight0", kernel.states)[speeds, lane]
+    full = 1.0 / problem.tolerance
+    bundle.table("full")[0, lane] = full
+    bundle.table("fastest")[0, lane] = min(max(STRICTEST * full**2, *shares), full)
 
 
 def _number(bundle: Bundle, lane: int, scene: Scene) -> None:
@@ -68,19 +81,31 @@ def _scale(bundle: Bundle, lane: int, problem: LaneProblem, length: float, unit:
     clearances = [scene.joints[name].clearance for name in kernel.play]  # type: ignore[union-attr]
     finest = min((c.radial_clearance for c in clearances if c), default=math.inf)
     reach = mechanism_size(scene, length)
+    radian = unit / (2.0 * math.pi)
+    acceleration = math.hypot(*scene.gravity) + length / radian**2
+    crossing = ACROSS * math.sqrt(acceleration * finest) / length
+    steepest = RESOLVED * min((ramp_of(c) for c in clearances if c), default=math.inf)
     for i, name in enumerate(kernel.coordinates):
         angle = name.endswith(".theta")
         scale = 1.0 if angle else length
         close = min(scale, finest / reach if angle else finest)
         bundle.table(f"weight{i}")[0, lane] = 1.0 / (problem.tolerance * close)
-        bundle.table(f"weight{count + i}")[0, lane] = unit / (
-            problem.tolerance * scale * 2.0 * math.pi
-        )
+        slow = scale * min(1.0 / radian, crossing)
+        slow = min(slow, steepest / problem.tolerance / (reach if angle else 1.0))
+        bundle.table(f"weight{count + i}")[0, lane] = 1.0 / (problem.tolerance * slow)
     for j, clearance in enumerate(clearances):
         assert clearance is not None  # noqa: S101  (joints with play have one; narrows the type)
         bundle.table(f"impact_floor{j}")[0, lane] = clearance.contact.impact_rate_floor
         restart = RESTART * clearance.radial_clearance if problem.step is None else math.inf
         bundle.table(f"restart{j}")[0, lane] = restart
+
+
+def ramp_of(clearance: Clearance) -> float:
+    """Return the slip velocity at which a joint's friction is full, m/s; infinite without any."""
+    friction = clearance.friction
+    if friction is None or friction.coefficient == 0.0:
+        return math.inf
+    return friction.dynamic_velocity
 
 
 def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, common: bool) -> None:

@@ -18,6 +18,13 @@ MOST_LANDINGS = 12
 MOST_APPROACHES = 30
 """Times that the step is shortened to a quarter for one onset."""
 BISECTIONS = 40
+CAUTIOUS = 0.3
+"""Of the size that the estimate asks for: a rejected step that starts where contact does. The force
+grows as a broken power of time there, and the estimate sees about a third of the error."""
+BEHIND = 1.02
+"""A step that opens a gap ends at this multiple of the time to there: open, for certain."""
+LATE = 0.95
+"""A gap that opens after this share of a step opens at its end."""
 LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
 
@@ -128,9 +135,13 @@ def end_contact(
 
 
 @kernel()
-def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> None:
-    """Note how far into this step each gap opens: the root of the cubic through both its ends."""
+def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
+    """Note how far into this step each gap opens: the root of the cubic through both its ends.
+
+    Return the smallest of these shares of the step; 1 where no contact worth mentioning ends.
+    """
     step = work[slots[Slot.TRIED] * LANES + lane]
+    soonest = 1.0
     for j in range(slots[Slot.JOINTS]):
         place = (slots[Slot.GAP] + 4 * j) * LANES + lane
         gap, rate = work[place], work[place + LANES] * step
@@ -146,5 +157,37 @@ def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> None:
                     low = x
                 else:
                     high = x
+            closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
+            fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
+            if start > LANDED and closed and not fixed:
+                soonest = min(soonest, high)
         opened = work[slots[Slot.TIME] * LANES + lane] + high * step
         work[(slots[Slot.OPENED] + j) * LANES + lane] = opened
+    return soonest
+
+
+@kernel()
+def is_touching(lane: int, slots: np.ndarray, work: np.ndarray) -> bool:
+    """Whether a contact begins where this step does."""
+    found = False
+    for j in range(slots[Slot.JOINTS]):
+        depth = abs(work[(slots[Slot.GAP] + 4 * j + 2) * LANES + lane])
+        found |= work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and depth <= LANDED
+    return found
+
+
+@kernel()
+def end_behind_opening(
+    share: float, lane: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray
+) -> None:
+    """Have this step redone so that it ends where a gap opens, after `share` of it.
+
+    The force of a contact has no second derivative there. Within a step its error would depend on
+    where between the stages it falls, and the steps that are accepted are those whose estimate
+    happens to be too small.
+    """
+    tried = work[slots[Slot.TRIED] * LANES + lane]
+    work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
+    work[slots[Slot.NEXT_STEP] * LANES + lane] = BEHIND * share * tried
+    counters[Counter.LANDING, lane] = -1
+    counters[Counter.LANDINGS, lane] = 0

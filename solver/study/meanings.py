@@ -13,6 +13,7 @@ STATISTICS = {
     "driver_work": ("J", "work of the drivers"),
     "contact_loss": ("J", "energy lost in normal contact"),
     "friction_loss": ("J", "energy lost in friction"),
+    "gross_work": ("J", "all works, summed without their signs"),
     "energy_residual": ("J", "what the energy ledger lacks"),
     "settled_periods": ("1", "periods left out before the first recorded section"),
     "settling": ("1", "how settling ended, a position in the attribute settlings"),

@@ -243,7 +243,7 @@ class StudyRun:
         found: dict[str, Any] = statistics_of(self.bundle, lane)
         energy = found.pop("energy")
         found["smallest_step"] = found["smallest_step"] or float("nan")
-        chosen = ("driver_work", "contact_loss", "friction_loss", "residual")
+        chosen = ("driver_work", "contact_loss", "friction_loss", "gross_work", "residual")
         found |= {f"energy_{name}" if name == "residual" else name: energy[name] for name in chosen}
         found |= {
             "settled_periods": max(run.settled, 0) if self.study.record else float("nan"),

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solver.compiler.kernel import Kernel, compile_kernel
+from solver.compiler.kernel import LEDGER, Kernel, compile_kernel
 from solver.compiler.layout import LANES
 from solver.integrators import TSITOURAS5
 from solver.lanes.bundle import Bundle
@@ -73,7 +73,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         values = dict(zip(names, bundle.table("channel0", len(names))[:, lane], strict=True))
         values |= {f"a{i}": bundle.table(f"slope{count + i}")[0, lane] for i in range(count)}
         values |= {f"v{i}": bundle.table(f"slope{i}")[0, lane] for i in range(count)}
-        ledger = 3 + len(kernel.play)
+        ledger = LEDGER + len(kernel.play)
         values |= {f"ledger{i}": bundle.table(f"ledger{i}")[0, lane] for i in range(ledger)}
         values.pop("stored")
         found.append(values)
@@ -88,10 +88,11 @@ def referred(kernel: Kernel, instant: Instant, formulation: str) -> dict[str, fl
         if formulation == "reduced"
         else (instant.absolute_state()[1])
     )
-    found = dict(channel_values(view(instant.scene), motion))
+    numbers = view(instant.scene)
+    found = dict(channel_values(numbers, motion))
     found |= {f"a{i}": value for i, value in enumerate(motion.accelerations)}
     found |= {f"v{i}": value for i, value in enumerate(speeds)}
-    found |= {f"ledger{i}": value for i, value in enumerate(ledger_rates(motion).values())}
+    found |= {f"ledger{i}": value for i, value in enumerate(ledger_rates(numbers, motion).values())}
     return found
 
 

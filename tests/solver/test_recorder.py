@@ -134,9 +134,11 @@ def test_recorded_mechanics_equal_the_mechanics_on_floats(
         count = len(equations.coordinates)
         for i, acceleration in enumerate(motion.accelerations):
             given_values[f"slope{count + i}"] = acceleration
-    expected = dict(channel_values(view(scene), motion))
+    numbers = view(scene)
+    expected = dict(channel_values(numbers, motion))
     expected |= {f"a{i}": value for i, value in enumerate(motion.accelerations)}
-    expected |= {f"rate{i}": value for i, value in enumerate(ledger_rates(motion).values())}
+    rates = ledger_rates(numbers, motion)
+    expected |= {f"rate{i}": value for i, value in enumerate(rates.values())}
     recorded = {**equations.channels}
     recorded |= {f"a{i}": node for i, node in enumerate(equations.accelerations)}
     recorded |= {f"rate{i}": node for i, node in enumerate(equations.ledger)}
