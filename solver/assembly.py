@@ -38,7 +38,7 @@ MOST_KEPT = 512
 
 @dataclass(frozen=True)
 class Assembly:
-    """A mechanism put together at t = 0, journals concentric.
+    """A mechanism put together at t = 0, journals where they start, concentric by default.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Assembly:
     residual : float
         Largest constraint residual, m or rad.
     constraints, rank : int
-        Number of constraint rows and of independent ones, journals concentric.
+        Number of constraint rows and of independent ones, journals held.
     freedom : int
         Degrees of freedom of the ideal mechanism.
     freedom_with_play : int
@@ -175,7 +175,7 @@ def _assembled(scene: Scene) -> Assembly:
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
-    velocity = _start_velocity(ideal, loose, pose, scale)
+    velocity = _start_velocity(ideal, pose, scale)
     _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
     rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
     pose.flags.writeable = velocity.flags.writeable = False
@@ -191,9 +191,7 @@ def _assembled(scene: Scene) -> Assembly:
     )
 
 
-def _start_velocity(
-    ideal: AbsoluteMechanism, loose: AbsoluteMechanism, pose: Floats, scale: Floats
-) -> Floats:
+def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
     """Velocities of the ideal mechanism; those given, where play lets a journal be thrown."""
     scene, driven = ideal.scene, driver_positions(ideal.scene)
     velocity = np.zeros(len(pose))
@@ -210,6 +208,8 @@ def _start_velocity(
     for body, given in scene.start.velocities.items():
         i = 3 * ideal.bodies.index(body)
         velocity[i : i + 2] = given
+    thrown = [name for name, start in scene.start.joints.items() if start.rate is not None]
+    loose = AbsoluteMechanism(scene, ideal.numbers, close_play=False, held=thrown)
     for _ in range(2):
         _admissible(loose, pose, velocity, driven, scale, everything)
     return velocity

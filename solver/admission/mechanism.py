@@ -97,18 +97,8 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
                 )
             ]
         )
-    residual = assembly.residual / shortest_link(scene)
-    if not residual <= ASSEMBLED:
-        raise InvalidInput(
-            [
-                Problem(
-                    "/scene/start/angles",
-                    f"The mechanism does not close: {assembly.residual:.3g} (m or rad) remain after"
-                    " Newton's iteration. Check lengths and driver positions, or give start angles"
-                    " nearer to the assembly you mean.",
-                )
-            ]
-        )
+    if not _closes(scene):
+        raise InvalidInput(_open(scene))
     held = {branch.parent for branch in tree.branches} | {
         body
         for name in tree.play
@@ -149,6 +139,32 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
             ]
         )
     return tree, assembly
+
+
+def _closes(scene: Scene) -> bool:
+    return assemble(scene).residual / shortest_link(scene) <= ASSEMBLED
+
+
+def _open(scene: Scene) -> list[Problem]:
+    """Return why a mechanism does not close: because of where its journals start, or anyway."""
+    centred = scene.start.model_copy(update={"joints": {}})
+    if scene.start.joints and _closes(scene.model_copy(update={"start": centred})):
+        return [
+            Problem(
+                f"/scene/start/joints/{name}/eccentricity",
+                "The mechanism closes with its journals centred, but does not reach this"
+                " eccentricity; give a smaller one, or another direction.",
+            )
+            for name in scene.start.joints
+        ]
+    return [
+        Problem(
+            "/scene/start/angles",
+            f"The mechanism does not close: {assemble(scene).residual:.3g} (m or rad) remain after"
+            " Newton's iteration. Check lengths and driver positions, or give start angles"
+            " nearer to the assembly you mean.",
+        )
+    ]
 
 
 def offered(scene: Scene) -> tuple[Channel, ...]:

@@ -6,15 +6,17 @@ give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded exp
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import NamedTuple
 
 from solver.mechanics.frames import Pair
 from solver.mechanics.scalars import Scalar, Scalars, sine_cosine, sqrt
-from solver.scene.document import Scene
+from solver.scene.document import JournalStart, Scene
 from solver.scene.references import has_play
+
+CONCENTRIC = JournalStart()
 
 
 class Marker(NamedTuple):
@@ -47,14 +49,26 @@ class Row:
 class AbsoluteMechanism:
     """A scene's constraint rows as functions of q, q̇ and t."""
 
-    def __init__(self, scene: Scene, numbers: SimpleNamespace, *, close_play: bool) -> None:
-        """`close_play` treats joints with play as ideal ones (start and ideal mechanism)."""
+    def __init__(
+        self,
+        scene: Scene,
+        numbers: SimpleNamespace,
+        *,
+        close_play: bool,
+        held: Collection[str] = (),
+    ) -> None:
+        """`close_play` holds every journal where it starts (start and ideal mechanism).
+
+        Otherwise only those `held` are, by the name of their joint.
+        """
         self.scene = scene
         self.numbers = numbers
         self.bodies = tuple(scene.bodies)
         self.drivers = {driver.joint: name for name, driver in scene.drivers.items()}
         self.joints = tuple(
-            name for name, joint in scene.joints.items() if close_play or not has_play(joint)
+            name
+            for name, joint in scene.joints.items()
+            if close_play or name in held or not has_play(joint)
         )
 
     def marker(self, reference: str, q: Scalars, v: Scalars) -> Marker:
@@ -93,6 +107,9 @@ class AbsoluteMechanism:
         return rows
 
     def _coincidence(self, name: str, first: Marker, second: Marker, v: Scalars) -> list[Row]:
+        """r_second - r_first - e = 0, e as the start says; it stays if no rate is given."""
+        start = self.scene.start.joints.get(name, CONCENTRIC)
+        offset, moving = start.eccentricity, start.rate or (0.0, 0.0)
         rows = []
         for axis, part in ((0, "x"), (1, "y")):
             jacobian: dict[int, Scalar] = {}
@@ -109,9 +126,9 @@ class AbsoluteMechanism:
                 Row(
                     name,
                     part,
-                    second.position[axis] - first.position[axis],
+                    second.position[axis] - first.position[axis] - offset[axis],
                     jacobian,
-                    second.velocity[axis] - first.velocity[axis],
+                    second.velocity[axis] - first.velocity[axis] - moving[axis],
                     gamma,
                 )
             )

@@ -16,6 +16,7 @@ from solver.scene.quantities import (
     AngularVelocity,
     Direction,
     Inertia,
+    Length,
     Mass,
     Name,
     Point,
@@ -101,12 +102,23 @@ class Driver(Strict):
     speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
 
 
+class JournalStart(Strict):
+    """Where a journal starts in its bearing, in world axes: its centre less the bearing's.
+
+    Without a rate it moves as the velocities of the bodies say, else not. A journal that starts in
+    contact has its rate of penetration as impact rate, or the floor of that if it is larger.
+    """
+
+    eccentricity: Annotated[list[Length], Field(min_length=2, max_length=2)] = [0.0, 0.0]
+    rate: Annotated[list[Velocity], Field(min_length=2, max_length=2)] | None = None
+
+
 class Start(Strict):
     """Where Newton's iteration on the geometry begins, and what the constraints leave free.
 
-    Journals start concentric; positions and velocities are those of the ideal mechanism, but for
-    a body whose velocity is given: its journal may move in its bearing from the start. Angles
-    choose between the assemblies that a mechanism allows.
+    Journals start concentric unless `joints` says where; positions and velocities are those of the
+    mechanism that holds them there, but for a body whose velocity is given: its journal may move in
+    its bearing from the start. Angles choose between the assemblies that a mechanism allows.
     """
 
     angles: Annotated[dict[Name, Angle], Field(max_length=64)] = {}
@@ -115,6 +127,7 @@ class Start(Strict):
         dict[Name, Annotated[list[Velocity], Field(min_length=2, max_length=2)]],
         Field(max_length=64),
     ] = {}
+    joints: Annotated[dict[Name, JournalStart], Field(max_length=128)] = {}
 
 
 class Target(Strict):

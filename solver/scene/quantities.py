@@ -35,6 +35,7 @@ Direction = Annotated[
 Acceleration = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m/s^2"})]
 Angle = Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad"})]
 AngularVelocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s"})]
+Length = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m"})]
 Velocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "m/s"})]
 Mass = Annotated[float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "kg"})]
 Inertia = Annotated[float, Field(ge=1e-18, le=1e12, json_schema_extra={"unit": "kg m^2"})]

@@ -58,6 +58,14 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
         for body in table:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
+    for name in start.joints:
+        if name not in scene.joints:
+            yield Problem(f"/start/joints/{name}", unknown("joint", name, scene.joints))
+        elif not has_play(scene.joints[name]):
+            yield Problem(
+                f"/start/joints/{name}",
+                f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
+            )
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:

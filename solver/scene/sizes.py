@@ -6,6 +6,7 @@ columns of numbers, one row a point of a study, an array of them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -70,8 +71,27 @@ GUIDE = (
 )
 
 
+def out_of_reach(start: Any, joint: Any) -> Any:
+    """Whether a journal would start with its centre outside the bearing."""
+    return np.hypot(*start.eccentricity) >= joint.clearance.bearing_radius
+
+
+def _unreachable(scene: Scene) -> Iterator[Problem]:
+    for name, start in scene.start.joints.items():
+        joint = scene.joints.get(name)
+        if isinstance(joint, Revolute) and joint.clearance and out_of_reach(start, joint):
+            x, y = start.eccentricity
+            yield Problem(
+                f"/start/joints/{name}/eccentricity/{int(abs(y) > abs(x))}",
+                f"An eccentricity of {math.hypot(x, y):g} m is beyond reach: the journal's centre"
+                f" would be outside the bearing, whose radius is"
+                f" {joint.clearance.bearing_radius:g} m.",
+            )
+
+
 def size_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what does not fit; pointers begin at the scene."""
+    yield from _unreachable(scene)
     for name, joint in scene.joints.items():
         for rule in rules(joint):
             if rule.broken(joint):
@@ -92,11 +112,13 @@ def ill_sized(
     """
     broken = np.zeros(points, np.bool_)
     for name, joint in scene.joints.items():
-        place = f"/joints/{name}"
-        if any(path.startswith(f"{place}/") for path in columns):
+        place, start = f"/joints/{name}", f"/start/joints/{name}"
+        if any(path.startswith((f"{place}/", f"{start}/")) for path in columns):
             seen = _seen(joint, place, columns)
             for rule in rules(joint):
                 broken |= rule.broken(seen)
+            if name in scene.start.joints:
+                broken |= out_of_reach(_seen(scene.start.joints[name], start, columns), seen)
     return broken
 
 
