@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import time
 from collections.abc import Iterator
 
@@ -15,7 +16,13 @@ from solver.certificate.certificate import Certificate
 from solver.certificate.survey import Survey
 from solver.compile_loop import ready_kernel
 from solver.ideal.run import IdealRun
-from solver.lanes.account import contacts_of, failure_of, peaks_of, statistics_of
+from solver.lanes.account import (
+    contacts_of,
+    failure_of,
+    out_of_time,
+    peaks_of,
+    statistics_of,
+)
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Setting, Status
@@ -52,15 +59,23 @@ class Simulation:
         if checkpoint is not None:
             self._run.restore(checkpoint)
 
-    def slices(self) -> Iterator[Slice]:
+    def slices(self, most_seconds: float = math.inf) -> Iterator[Slice]:
         """Yield what each slice computed, until the run is over.
+
+        Parameters
+        ----------
+        most_seconds
+            Of computing, those before a checkpoint included: then the run fails, between slices.
 
         Raises
         ------
         SimulationFailed
             After everything that was computed has been yielded.
         """
-        return self._run.slices()
+        for piece in self._run.slices():
+            yield piece
+            if self._run.seconds > most_seconds and piece.fraction < 1.0:
+                raise out_of_time(most_seconds, piece.time)
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""

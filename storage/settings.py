@@ -77,6 +77,12 @@ class Settings(BaseSettings):
         le=1e10,
         description="Jobs expire this long after their submission; none: they are kept.",
     )
+    longest: float = Field(
+        default=86_400.0,
+        gt=0,
+        le=1e10,
+        description="A run, or a block of a study, that computes longer fails with what it has.",
+    )
     stall: float = Field(
         default=600.0,
         gt=0,

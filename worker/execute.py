@@ -1,7 +1,8 @@
 """The one loop that turns a checked job into a results store, for workers and local runs."""
 
 import json
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any, Literal
 from solver.admission import Admission
 from solver.certificate.certificate import Certificate
 from solver.errors import InvalidInput, SimulationFailed
-from solver.results import Summary
+from solver.results import Slice, Summary
 from solver.simulate import Simulation
 from solver.version import SOLVER_VERSION
 from storage.catalogue import JobError
@@ -19,7 +20,7 @@ from worker.certificates import appendix_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
 JOB_FILE = "job.json"
-_LIMIT_CODES = frozenset({"step-limit"})
+_LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
 
 class Answer(StrEnum):
@@ -69,6 +70,7 @@ def execute(
     *,
     report: Callable[[Progress], Answer | str],
     restart: RestartPoint | None = None,
+    longest: float = math.inf,
 ) -> Outcome:
     """Simulate a checked job and write its results store.
 
@@ -83,6 +85,8 @@ def execute(
         second; answers "continue", "cancel" or "leave".
     restart
         Where an earlier run of the same job left off; its folder is only read.
+    longest
+        Seconds of computing after which the run fails.
 
     Returns
     -------
@@ -111,7 +115,7 @@ def execute(
     except InvalidInput as refused:
         writer.seal(peaks={}, summary={}, complete=False)
         return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
-    outcome = _advance(simulation, writer, folder, report, begin)
+    outcome = _advance(simulation, simulation.slices(longest), writer, folder, report, begin)
     if outcome.state == "left":
         return outcome
     summary = simulation.summary()
@@ -121,6 +125,7 @@ def execute(
 
 def _advance(
     simulation: Simulation,
+    slices: Iterator[Slice],
     writer: ResultWriter,
     folder: Path,
     report: Callable[[Progress], Answer | str],
@@ -142,7 +147,6 @@ def _advance(
     def steps() -> int:
         return int(simulation.summary().statistics["steps"])
 
-    slices = simulation.slices()
     while True:
         answer = Answer(report(Progress(time, fraction, restart_point, steps)))
         if answer is Answer.leave:

@@ -2,7 +2,9 @@
 
 import json
 import logging
+import math
 import secrets
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +16,7 @@ from solver.study.plan import Study
 from solver.study.results import StudySlice
 from solver.study.run import StudyRun
 from solver.version import SOLVER_VERSION
+from storage.catalogue import JobError
 from storage.results import ArraySpec, ResultsError
 from storage.studies import StudyBlock, StudyLayout, create, seal
 from worker.execute import JOB_FILE, Answer, Outcome
@@ -137,8 +140,9 @@ def run_laid_out(
     report: Callable[[StudyProgress], Answer | str],
     attempt: int,
     resume_from: tuple[str, float] | None,
+    longest: float = math.inf,
 ) -> Outcome:
-    """As `run_block`, with the study's layout at hand."""
+    """As `run_block`, with the study's layout at hand; it fails after `longest` seconds."""
     _create(study, layout, folder)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
@@ -146,6 +150,7 @@ def run_laid_out(
     computation = StudyRun(study, index, carried)
     slices = computation.slices()
     steps = 0
+    begun = time.monotonic()
 
     def restart_point() -> str:
         return block.flush(computation.checkpoint())
@@ -162,6 +167,9 @@ def run_laid_out(
             block.finish()
             return Outcome("succeeded", 0.0, 1.0, statistics={"steps": steps})
         block.take(piece)
+        if time.monotonic() - begun > longest and piece.fraction < 1.0:
+            block.flush(b"")
+            return Outcome("failed", 0.0, piece.fraction, _out_of_time(longest, piece.fraction))
         steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
         fraction = piece.fraction
 
@@ -178,6 +186,15 @@ def seal_store(study: Study, folder: Path, advanced: Callable[[], None] = lambda
     """
     seal(folder, layout_of(study), advanced)
     return Outcome("succeeded", 0.0, 1.0)
+
+
+def _out_of_time(seconds: float, fraction: float) -> JobError:
+    return JobError(
+        "limit",
+        "time-limit",
+        f"{fraction:.1%} of a block of the study's points were computed in {seconds:g} s, the limit"
+        " of a block. Ask for fewer periods or a larger tolerance.",
+    )
 
 
 def _begin(

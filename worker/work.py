@@ -70,6 +70,7 @@ class SimulationWork:
         self._admission = admission
         self._block = claim.block
         self._folder = settings.result_folder(claim.job.id, claim.block.attempt)
+        self._longest = settings.longest
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Simulate, from the restart point of the attempt before if there is one."""
@@ -78,7 +79,11 @@ class SimulationWork:
             return report(progress, lambda: self._keep(progress.restart_point()))
 
         return execute(
-            self._admission, self._folder, report=between_slices, restart=self._restart_point()
+            self._admission,
+            self._folder,
+            report=between_slices,
+            restart=self._restart_point(),
+            longest=self._longest,
         )
 
     def tidy(self) -> None:
@@ -113,10 +118,12 @@ class StudyWork:
 
     recognised = True
 
-    def __init__(self, study: Study, layout: StudyLayout, claim: Claim, folder: Path) -> None:
+    def __init__(
+        self, study: Study, layout: StudyLayout, claim: Claim, folder: Path, longest: float
+    ) -> None:
         self._study, self._layout = study, layout
         self._block = claim.block
-        self._folder = folder
+        self._folder, self._longest = folder, longest
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Compute the block's points, from the restart point of the attempt before if any."""
@@ -134,6 +141,7 @@ class StudyWork:
             between_slices,
             block.attempt,
             None if name is None else (name, block.progress_fraction),
+            self._longest,
         )
 
     def tidy(self) -> None:
@@ -181,4 +189,4 @@ def work_of(claim: Claim, settings: Settings) -> Work:
     folder = settings.study_folder(job.id)
     if claim.block.count == 0:
         return SealWork(layout, folder)
-    return StudyWork(study, layout, claim, folder)
+    return StudyWork(study, layout, claim, folder, settings.longest)

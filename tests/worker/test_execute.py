@@ -109,6 +109,21 @@ def test_a_run_that_cannot_go_on_says_why_and_keeps_what_it_computed(tmp_path: P
     assert time[-1] <= outcome.error.time
 
 
+def test_a_run_that_computes_too_long_fails_with_what_it_has(
+    admission: Admission, tmp_path: Path
+) -> None:
+    outcome = execute(admission, tmp_path / "out", report=lambda _: Answer.go_on, longest=1e-6)
+    assert outcome.state == "failed"
+    assert outcome.error is not None
+    assert (outcome.error.error_class, outcome.error.code) == ("limit", "time-limit")
+    reader = ResultReader(tmp_path / "out")
+    reader.verify()
+    time, _ = reader.history(["slider7.x"])
+    assert not reader.complete
+    assert 0 < len(time) < admission.samples
+    assert time[-1] <= outcome.time < 60.0
+
+
 def test_results_are_never_written_over(admission: Admission, tmp_path: Path) -> None:
     run(admission, tmp_path / "out")
     with pytest.raises(StoreExists):

@@ -14,7 +14,14 @@ from storage.results import StoreExists
 from storage.results.errors import IncompleteStudy
 from storage.studies import StudyReader
 from worker.execute import Answer, Outcome
-from worker.study_block import StudyProgress, create_store, run_block, seal_store
+from worker.study_block import (
+    StudyProgress,
+    create_store,
+    layout_of,
+    run_block,
+    run_laid_out,
+    seal_store,
+)
 
 PARAMETERS = {"clearance": 5e-4, "friction": 0.1, "stiffness": 5e9}
 JOB = {
@@ -181,6 +188,21 @@ def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) 
     assert np.isfinite(found).sum() == reader.counts.sum()
     with pytest.raises(IncompleteStudy):
         seal_store(study, tmp_path)
+
+
+def test_a_block_that_computes_too_long_fails_with_what_it_has(
+    study: Study, tmp_path: Path
+) -> None:
+    outcome = run_laid_out(
+        study, layout_of(study), 0, tmp_path, lambda _: Answer.go_on, 1, None, longest=0.0
+    )
+    assert outcome.state == "failed"
+    assert outcome.error is not None
+    assert (outcome.error.error_class, outcome.error.code) == ("limit", "time-limit")
+    assert 0.0 < outcome.fraction < 1.0
+    reader = StudyReader(tmp_path)
+    assert not reader.complete
+    assert (reader.status > 0).any()
 
 
 def test_a_point_that_fails_leaves_the_others_standing(tmp_path: Path) -> None:
