@@ -10,6 +10,7 @@ ALL = (
     "accuracy",
     "exponent",
     "sweep",
+    "extremes",
     "platform",
     "submission",
     "latency",
