@@ -17,7 +17,10 @@ ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text()
 PAGES = [
     README,
-    *((ROOT / "docs" / name).read_text() for name in ("http.md", "python.md", "certificate.md")),
+    *(
+        (ROOT / "docs" / f"{name}.md").read_text()
+        for name in ("http", "python", "certificate", "accuracy")
+    ),
 ]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
