@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numba
@@ -27,7 +28,12 @@ class Deferred:
     def __init__(self, signature: Any, function: Callable[..., Any]) -> None:
         self.signature = signature
         self.function = function
-        self._compiled: Callable[..., Any] | None = None
+        self._entry_point: Callable[..., Any] | None = None
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """The compiled function, as Numba manages it."""
+        return numba.njit(self.signature, cache=True, error_model="numpy")(self.function)
 
     def compile(self) -> Callable[..., Any]:
         """Return the compiled function; seconds when it is not in the cache.
@@ -35,11 +41,10 @@ class Deferred:
         Its entry point is called directly, for looking up the types of a dozen functions and
         arrays took 70 microseconds at every call: arguments must be of the declared types.
         """
-        if self._compiled is None:
-            dispatcher = numba.njit(self.signature, cache=True, error_model="numpy")(self.function)
-            (compiled,) = dispatcher.overloads.values()
-            self._compiled = compiled.entry_point
-        return self._compiled
+        if self._entry_point is None:
+            (compiled,) = self.dispatcher.overloads.values()
+            self._entry_point = compiled.entry_point
+        return self._entry_point
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the kernel."""

@@ -169,7 +169,7 @@ simulation = Simulation(admit({"kind": "simulate", "scene": {"preset": "bouncing
                                "duration": 0.1}))
 list(simulation.slices())
 module = simulation._run.kernel.module
-functions = [advance.compile(), observe_rows.compile()]
+functions = [advance.dispatcher, observe_rows.dispatcher]
 functions += [getattr(module, name) for name in dir(module)]
 statistics = {f.__name__: f.stats for f in functions if hasattr(f, "stats")}
 print(json.dumps({
