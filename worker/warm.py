@@ -8,10 +8,11 @@ import argparse
 import sys
 import time
 
+from numba.core.event import install_recorder
+
 from solver import presets
 from solver.admission import admit_simulate
 from solver.compile_loop import ready_kernel
-from solver.compiler.cache import cache_folder
 from solver.compiler.tangents import compile_tangents
 from solver.jobs import SimulateJob
 from solver.scene.document import Scene
@@ -32,20 +33,15 @@ def warm(name: str) -> float:
     return time.perf_counter() - began
 
 
-def compiled() -> frozenset[str]:
-    """Return the names of the compiled files there are."""
-    return frozenset(path.name for path in cache_folder().rglob("*.nbc"))
-
-
 def main() -> int:
     """Warm every preset and say how long each took; 3 if a check finds something compiled."""
     parser = argparse.ArgumentParser(prog="python -m worker.warm", description=__doc__)
     parser.add_argument("--check", action="store_true", help="fail if anything is compiled")
     arguments = parser.parse_args()
-    before = compiled()
-    for name in presets.names():
-        sys.stdout.write(f"{name}: {warm(name):.1f} s\n")
-    new = compiled() - before
+    with install_recorder("numba:compile") as compiled:
+        for name in presets.names():
+            sys.stdout.write(f"{name}: {warm(name):.1f} s\n")
+    new = {event.data["dispatcher"].__name__ for _, event in compiled.buffer}
     if arguments.check and new:
         sys.stdout.write(f"{len(new)} functions had to be compiled: {', '.join(sorted(new))}\n")
         return 3
