@@ -194,7 +194,7 @@ def solve(W):
     def _ledger_weights(self) -> tuple[float, ...]:
         return LOBATTO
 
-    def _mean_of_squares(self, weights: tuple[float, ...]) -> Expression:
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
         squared: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
             error: Expression = self.recorder.constant(0.0)
@@ -202,7 +202,7 @@ def solve(W):
                 error = error + weight * self.variable(f"k{s + 1}_{i}")
             scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
-        return squared / float(self.states)
+        return squared
 
     def _calls(self) -> list[str]:
         calls = ["start(W)", "jacobian(W)", "right_1(W)", "solve(W)"]

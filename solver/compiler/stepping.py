@@ -161,17 +161,14 @@ class StepRecorder:
 
     def _squared_error(self) -> Expression:
         """Square of the step's error, in tolerances."""
-        squared = self._mean_of_squares(self.tableau.error)
+        squared = self._sum_of_squares(self.tableau.error)
         if not self.tableau.coarse_error:
             return squared
-        coarse = 0.01 * self._mean_of_squares(self.tableau.coarse_error)
+        coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
         return squared * (squared / (squared + coarse))
 
-    def _mean_of_squares(self, weights: tuple[float, ...]) -> Expression:
-        """Mean over the states of (h Σ e k · weight of the state)², not quite zero.
-
-        As Hairer, Nørsett and Wanner 1993, II.4.11.
-        """
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
+        """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
         v, last = self.variable, self.tableau.stages
         squared: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
@@ -181,7 +178,7 @@ class StepRecorder:
                 error = error + weight * v(slope)
             scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
-        return squared / float(self.states)
+        return squared
 
     def _weighed(self, i: int) -> Expression:
         """Step times weight of state i; more, while nothing has moved as fast as it may."""

@@ -86,7 +86,8 @@ def measure(admission: Admission, report: Callable[[float, str], None]) -> Trade
         report(index / len(planned), f"{method} {tolerance or step:g}")
         best = pass_through(admission, method, tolerance or 1.0, step=step, patience=PATIENCE)
         if best.seconds > PATIENCE:
-            given_up.add(method)
+            if tolerance is None or tolerance <= METHODS[method].largest_tolerance:
+                given_up.add(method)
             continue
         points.append(_point(method, tolerance, step, best, reference, known))
     return Trade(
