@@ -7,6 +7,7 @@ ALL = (
     "press",
     "certificate",
     "peers",
+    "adams",
     "accuracy",
     "exponent",
     "sweep",
