@@ -37,7 +37,9 @@ class GrowingTable:
         self._buffers = [np.empty(self._shard_rows, column.dtype) for column in table.columns]
 
     def append(self, columns: Columns) -> None:
-        """Add rows, writing every shard that fills up.
+        """Add rows, writing every shard that fills up but the one with the table's last rows.
+
+        That one waits for `finishing`, where all tables' last shards go to the disk together.
 
         Parameters
         ----------
@@ -53,7 +55,7 @@ class GrowingTable:
                 buffer[start : start + step] = column[taken : taken + step]
             taken += step
             self.rows += step
-            if self.rows - self.durable == self._shard_rows:
+            if self.rows - self.durable == self._shard_rows and self.rows != self.table.capacity:
                 self._write_shard()
 
     def check_capacity(self, count: int) -> None:
@@ -90,7 +92,7 @@ class GrowingTable:
         self.rows = self.durable = durable
 
     def finishing(self) -> Iterator[None]:
-        """Write the rows of a shard that will not fill any more, in two steps.
+        """Write the rows of the last shard, full or not, in two steps.
 
         The folder is to be committed after each: several tables are finished with one wait.
         """

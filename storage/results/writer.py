@@ -253,20 +253,21 @@ class ResultWriter:
         self._pyramid.close()
         for litter in self._path.rglob(f"*{PARTIAL}"):
             litter.unlink()
+        for key, content in (certificate.chunks(CERTIFICATE) if certificate else {}).items():
+            self._folder.write(key, content)
         tables = [table.finishing() for table in self._growing]
-        for _ in range(2):
-            for table in tables:
-                next(table, None)
-            self._folder.commit()
+        for table in tables:
+            next(table, None)
+        self._folder.commit()
         for table in tables:
             next(table, None)
         shown = [table.rows for table in self._tables]
-        for key, content in (certificate.chunks(CERTIFICATE) if certificate else {}).items():
-            self._folder.write(key, content)
         documents = metadata.documents(self._layout, shown, attributes, more)
         for key, document in (self._pyramid.documents() | documents).items():
             self._folder.write(key, metadata.serialise(document))
         self._folder.commit()
+        for table in tables:
+            next(table, None)
         manifest.seal(self._folder)
         self._journal.remove()
 
