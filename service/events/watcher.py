@@ -11,7 +11,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from storage.catalogue import Catalogue, Glance
 
-_PERIOD = 0.025
+_PERIOD = 0.01
 """Seconds between two looks while they find something new, or have not for long; growing to ..."""
 _LONGEST_PERIOD = 0.1
 _GROWTH = 1.03  # so that this takes seconds: most jobs that are waited for are short

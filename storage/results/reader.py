@@ -1,5 +1,6 @@
 """Read a results store with stock zarr, also while it is being written."""
 
+import json
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path
@@ -21,7 +22,8 @@ from storage.results.layout import (
     ArraySpec,
     Peak,
 )
-from storage.results.live import columns_of, committed, rows_in_shards
+from storage.results.live import columns_of, committed, rows_in_shards, shape_of
+from storage.results.metadata import FILE, Document
 from storage.results.waiting import Waiting
 
 Floats = NDArray[np.float64]
@@ -48,15 +50,16 @@ class ResultReader:
     def __init__(self, path: Path, watermark: int | None = None) -> None:
         self.path = Path(path)
         try:
-            self._root = zarr.open_group(self.path, mode="r", zarr_format=3)
-        except (FileNotFoundError, ValueError, KeyError, TypeError) as error:
+            root: Document = json.loads((self.path / FILE).read_bytes())
+            self.attributes: dict[str, Any] = root["attributes"]
+        except (OSError, ValueError, KeyError, TypeError) as error:
             raise NotAStore(f"{self.path} holds no results store") from error
-        self.attributes: dict[str, Any] = dict(self._root.attrs)
         schema = self.attributes.get("result_schema")
         if schema != SCHEMA_VERSION:
             raise NotAStore(
                 f"{self.path} has result schema {schema}; this version reads {SCHEMA_VERSION}"
             )
+        self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
         self.sealed = (self.path / MANIFEST).exists()
         """Nothing will be added any more."""
         self.complete = bool(self.attributes["complete"])
@@ -73,7 +76,7 @@ class ResultReader:
     def channels(self) -> tuple[ArraySpec, ...]:
         """Channels in the order of the layout, with units and long names."""
         names = self.attributes["channels"]
-        attributes = {name: self._array(name).attrs for name in names}
+        attributes = {name: self._members[name]["attributes"] for name in names}
         return tuple(
             ArraySpec(name, str(found["units"]), str(found["long_name"]))
             for name, found in attributes.items()
@@ -178,7 +181,8 @@ class ResultReader:
         """Read the signed extremes by channel; none before the store is sealed."""
         if not self.sealed:
             return {}
-        columns = [np.asarray(self._array(f"peaks/{name}")[:]).tolist() for name in Peak._fields]
+        group = _opened(self.path / "peaks")  # alone: without a look at hundreds of channels
+        columns = [np.asarray(group[name]).tolist() for name in Peak._fields]
         return {
             name: Peak(*values)
             for name, *values in zip(self.attributes["channels"], *columns, strict=True)
@@ -207,13 +211,12 @@ class ResultReader:
         last = columns_of(self.attributes)[group][-1]
         key = f"{group}/{last}" if group else last
         if self.sealed:
-            return int(self._array(key).shape[0])
+            return int(self._members[key]["shape"][0])
         return self._in_shards(key)
 
     def _in_shards(self, key: str) -> int:
-        array = self._array(key)
-        shard_rows = (array.shards or array.chunks)[0]
-        return rows_in_shards(self.path, key, shard_rows, array.shape[0])
+        array = self._members[key]
+        return rows_in_shards(self.path, key, shape_of(array)[0], int(array["shape"][0]))
 
     def _window(self, start: int, stop: int | None) -> tuple[int, int]:
         stop = self.samples if stop is None else min(stop, self.samples)
@@ -240,6 +243,10 @@ class ResultReader:
         first = min(low * rows, self.samples)
         chunk = self._column("", TIME, first, min(first + rows, self.samples))
         return first + int(np.searchsorted(chunk, time, side))
+
+    @cached_property
+    def _root(self) -> zarr.Group:
+        return _opened(self.path)
 
     @cached_property
     def _envelope(self) -> Envelope:
@@ -288,3 +295,7 @@ class ResultReader:
         if not isinstance(found, zarr.Array):
             raise NotAStore(f"{self.path} has no array {key!r}")
         return found
+
+
+def _opened(folder: Path) -> zarr.Group:
+    return zarr.open_group(folder, mode="r", zarr_format=3)

@@ -198,3 +198,22 @@ def test_a_million_impacts_stay_flat_in_memory(tmp_path):
     assert writer.impacts == 1_000_000
     # the bound on one table's buffer, and as much again for a shard on its way to the disk
     assert peak < 2 * layout.partition.buffer_bytes
+
+
+def test_a_table_that_ends_with_a_whole_shard_is_finished_by_sealing(tmp_path):
+    """36 samples are three whole shards, 12 sections one: neither last one is written before."""
+    run = MadeUpRun(made_up_layout(samples=36, sections=12), made_up_impacts(3))
+    writer = ResultWriter.create(tmp_path / "store", run.layout)
+    run.append(writer, 0.0, 1.0)
+    assert (writer.samples, writer.watermark, writer.sections) == (36, 24, 12)
+    token = writer.checkpoint()
+    resumed = ResultWriter.resume(
+        tmp_path / "again", run.layout, token, taken_over_from=tmp_path / "store"
+    )
+    for one in (writer, resumed):
+        one.seal(peaks=run.peaks, summary={})
+    for name in ("store", "again"):
+        reader = ResultReader(tmp_path / name)
+        reader.verify()
+        np.testing.assert_array_equal(reader.history()[0], run.time)
+        np.testing.assert_array_equal(reader.sections()[0], run.section_time)
