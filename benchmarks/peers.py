@@ -4,10 +4,12 @@
 
 The press with stiffness from its elastic constants, bearing radius 10 mm, restitution 0.9, friction
 0.1, limit velocities 1e-3 and 1e-2 m/s, clearance 0.5 mm, over one revolution of 2 s on one core.
-SciPy's methods and CVODE (if `pip install scikit-sundae` was done) get our compiled right-hand side
-and restart at located onsets and releases; only the paper's equations are in plain Python. Errors
-are the largest of all coordinates and speeds at 0.03 s against a run at 1e-13. A peer is compared
-with our cheapest run whose errors are no larger. Times are of the processor.
+SciPy's methods and CVODE (if `pip install scikit-sundae` was done) get our compiled right-hand
+side, diffrax (`pip install diffrax jax`) the same equations as a JAX function, vmapped over eight
+clearances; all restart at located onsets and releases. Only the paper's equations are in plain
+Python. Errors are the largest of all coordinates and speeds at 0.03 s against a run at 1e-13. A
+peer is compared with our cheapest run whose errors are no larger, alone or with eight lanes busy as
+the peer is. Times are of the processor, a revolution and lane, without compiling.
 """
 
 import statistics
@@ -19,6 +21,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from benchmarks.paper_equations import seconds_a_period
+from benchmarks.peer_diffrax import measure_diffrax
 from solver.admission import Admission, admit
 from solver.compile_loop import ready_kernel
 from solver.compiler.kernel import Kernel
@@ -242,6 +245,19 @@ def peer(
     return Measured(name, tolerance, seconds, equations.evaluations, *errors(found, reference))
 
 
+def diffrax(
+    kernel: Kernel, tolerance: float, clearances: list[float], reference: np.ndarray
+) -> Measured | None:
+    """Measure diffrax on eight lanes, errors in one of 0.5 mm; none where it is not installed."""
+    problems = [problem(each, tolerance, REVOLUTION) for each in (5e-4, *clearances[1:])]
+    found = measure_diffrax(kernel, problems, CHECK_TIME, REVOLUTION)
+    if found is None:
+        return None
+    seconds, evaluations, states = found
+    wrong = errors(states[0], reference)
+    return Measured("diffrax Tsit5, 8 lanes", tolerance, seconds, evaluations, *wrong)
+
+
 def main() -> None:
     """Print the table."""
     scene = problem(5e-4, 1e-6, REVOLUTION).scene
@@ -250,9 +266,7 @@ def main() -> None:
     lanes = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, 8)]
     alone = [ours(kernel, tolerance, [5e-4], reference) for tolerance in TOLERANCES]
     busy = [ours(kernel, tolerance, lanes, reference) for tolerance in TOLERANCES]
-    print(
-        f"{'':20} tolerance  ms a revolution  evaluations  position  velocity   times ours, alone"
-    )
+    print(f"{'':22} tolerance  ms a revolution  evaluations  position  velocity   times ours")
     for row in alone + busy:
         print(line(row))
     equations = CompiledEquations(kernel)
@@ -263,9 +277,17 @@ def main() -> None:
         library = "CVODE" if method in ("Adams", "BDF") else "SciPy"
         legs = cvode_leg if library == "CVODE" else scipy_leg
         leg = legs(equations, method, tolerance)
-        if leg is not None:
-            row = peer(f"{library} {method}", tolerance, equations, leg, reference)
-            print(line(row, alone), flush=True)
+        if leg is None:
+            print(f"CVODE {method} at {tolerance:g}: scikit-sundae is not installed")
+            continue
+        row = peer(f"{library} {method}", tolerance, equations, leg, reference)
+        print(line(row, alone), flush=True)
+    for tolerance in (1e-6, 1e-8):
+        row_of_eight = diffrax(kernel, tolerance, lanes, reference)
+        if row_of_eight is None:
+            print(f"diffrax Tsit5 at {tolerance:g}: diffrax is not installed")
+            continue
+        print(line(row_of_eight, busy), flush=True)
     plain = seconds_a_period(scene)
     fastest = next(row.seconds for row in alone if row.tolerance == 1e-6)
     print(
@@ -274,15 +296,15 @@ def main() -> None:
     )
 
 
-def line(row: Measured, alone: list[Measured] | None = None) -> str:
+def line(row: Measured, rows: list[Measured] | None = None) -> str:
     """Return a row of the table; a peer's with its ratio to ours at no larger errors."""
     text = (
-        f"{row.name:20} {row.tolerance:9.0e} {1e3 * row.seconds:16.2f} {row.evaluations:12.0f}"
+        f"{row.name:22} {row.tolerance:9.0e} {1e3 * row.seconds:16.2f} {row.evaluations:12.0f}"
         f" {row.position_error:9.1e} {row.velocity_error:9.1e}"
     )
     equal = [
         own
-        for own in alone or ()
+        for own in rows or ()
         if own.position_error <= row.position_error and own.velocity_error <= row.velocity_error
     ]
     if equal:
