@@ -1,17 +1,19 @@
 """Jobs that were submitted together."""
 
+import re
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import TimedOut
+from jointplay.client.errors import FieldProblem, TimedOut
 from jointplay.client.html import html_table
 from jointplay.client.job import Job
 from jointplay.client.keeper import ServiceKeeper
 
+_INDEX = re.compile(r"^/jobs/(\d+)")
 _SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...
 _LONGEST_PAUSE = 1.0  # ... this, so that a long batch costs one request a second ...
 _LATE = 0.05  # ... and no answer comes later than by this part of the time it took
@@ -132,3 +134,13 @@ def _read(document: Mapping[str, Any]) -> dict[str, Any]:
         "fraction": document["progress"]["fraction"],
         "is_finished": document["finished"],
     }
+
+
+def counted_from(first: int, fields: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:
+    """Name refused fields of a batch whose jobs are counted from `first`."""
+    return tuple(
+        FieldProblem(
+            _INDEX.sub(lambda found: f"/jobs/{first + int(found[1])}", field.place), field.detail
+        )
+        for field in fields
+    )

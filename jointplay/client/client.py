@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
 from inspect import Parameter, signature
 from types import TracebackType
@@ -10,8 +11,9 @@ from typing import Any, Concatenate, ParamSpec, Self
 import httpx
 
 from jointplay import jobs as documents
-from jointplay.client.batches import Batch, batch_of, jobs_of
+from jointplay.client.batches import Batch, batch_of, counted_from, jobs_of
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
+from jointplay.client.errors import ClientError, Refused
 from jointplay.client.estimates import Estimate
 from jointplay.client.job import Job
 from jointplay.client.keeper import ServiceKeeper
@@ -117,8 +119,10 @@ class Client:
         """Queue many jobs at once, and yield each when it and those before it are finished.
 
         The order is that of the documents.  Jobs that failed are yielded, too: look at ``state``
-        or call `Job.check`.  Nothing is queued if a document is wrong (of more than 10 000, which
-        are several batches, nothing from its batch on).
+        or call `Job.check`.  More than 10 000 jobs are several batches.
+
+        All or none: if a document is wrong, nothing of its batch is queued and the batches before
+        it, which workers may have begun, are cancelled.
 
         Parameters
         ----------
@@ -126,12 +130,24 @@ class Client:
             Documents, as `jointplay.jobs` makes them.
         label
             A name for the batch.
+
+        Raises
+        ------
+        Refused
+            Documents are wrong: `fields` names them by their index among all of these.
         """
         given = list(jobs)
-        batches = [
-            self.submit_batch(given[first : first + MOST_JOBS], label)
-            for first in range(0, len(given), MOST_JOBS)
-        ]
+        batches: list[Batch] = []
+        try:
+            for first in range(0, len(given), MOST_JOBS):
+                batches.append(self.submit_batch(given[first : first + MOST_JOBS], label))
+        except ClientError as error:
+            for batch in batches:
+                with suppress(ClientError):
+                    batch.cancel()
+            if isinstance(error, Refused):
+                error.fields = counted_from(first, error.fields)
+            raise
         return (job.wait(check=False) for batch in batches for job in batch.jobs())
 
     def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:

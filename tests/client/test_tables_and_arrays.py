@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from jointplay.client import Client, NotFound
+from jointplay.client import Client, NotFound, Refused
 from storage.catalogue import BlockState, JobError
 from tests.service_in_thread import BIFURCATION, known_section
 
@@ -145,3 +145,20 @@ def test_without_the_extra_it_says_what_to_install(service_url, finished_job, as
         [sys.executable, "-c", program, service_url, finished_job], capture_output=True, text=True
     )
     assert "pip install 'jointplay[xarray]'" in ended.stdout, ended.stderr
+
+
+def test_jobs_of_several_batches_are_all_queued_or_cancelled(client, monkeypatch):
+    monkeypatch.setattr("jointplay.client.client.MOST_JOBS", 3)
+    document = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    wrong = [document | {"label": "wrong"}] * 7 + [document | {"duration": -1.0}]
+    with pytest.raises(Refused, match="/jobs/7/duration") as refused:
+        client.map(wrong)
+    assert [field.place for field in refused.value.fields] == ["/jobs/7/duration"]
+    assert [job.state for job in client.jobs(label="wrong")] == ["cancelled"] * 6
+
+    results = client.map([document | {"label": "right"}] * 8)
+    batches = {job.batch for job in client.jobs(label="right", state="queued")}
+    assert sorted(client.batch(batch).size for batch in batches) == [2, 3, 3]
+    for batch in batches:
+        client.batch(batch).cancel()
+    assert [job.state for job in results] == ["cancelled"] * 8
