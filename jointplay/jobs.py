@@ -186,6 +186,30 @@ def ensemble(
     return _document("ensemble", scene, fields, given)
 
 
+def accuracy_study(
+    scene: Scene,
+    *,
+    duration: float | None = None,
+    methods: Names | None = None,
+    tolerances: Sequence[float] | None = None,
+    **given: Any,
+) -> Document:
+    """Costs and errors of every method and tolerance, against a reference run.
+
+    Parameters
+    ----------
+    scene, given
+        As for `simulate`, but no tolerance, accuracy, method or step.
+    duration
+        Simulated time, s; default one period of the drivers.
+    methods, tolerances
+        Those to measure; default all.
+    """
+    fields = {"duration": duration, "methods": _listed(methods)}
+    fields |= {"tolerances": None if tolerances is None else _values(tolerances)}
+    return _document("accuracy-study", scene, fields, given)
+
+
 def _document(
     kind: str, scene: Scene, fields: Mapping[str, Any], given: Mapping[str, Any]
 ) -> Document:

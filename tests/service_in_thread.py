@@ -51,6 +51,13 @@ SWEEP: dict[str, Any] = {
     "periods": 1,
     "statistics": ["mean", "contact_share"],
 }
+ACCURACY_STUDY: dict[str, Any] = {
+    "kind": "accuracy-study",
+    "duration": 0.003,
+    "methods": ["tsitouras", "rk4"],
+    "tolerances": [1e-4, 1e-8],
+}
+"""Two references, two tolerances, six steps, and the default."""
 
 
 def known_section(point: Any, column: Any, section: Any) -> NDArray[np.float64]:
@@ -267,6 +274,11 @@ def finished_study(worker: Worker) -> str:
 def finished_sweep(worker: Worker) -> str:
     """A sweep, of which point 4 failed."""
     return worker.finished_study(**SWEEP, failing=(4,))
+
+
+@pytest.fixture(scope="session")
+def finished_accuracy(worker: Worker) -> str:
+    return worker.finished_study(**ACCURACY_STUDY)
 
 
 @pytest.fixture(scope="session")

@@ -25,13 +25,20 @@ MADE = {
         channels="P.*",
     ),
     "poincare": jobs.poincare("slider-crank", record=7, section={"onset": "P"}),
+    "accuracy-study": jobs.accuracy_study(
+        "slider-crank", duration=0.1, methods="rodas", tolerances=(1e-4, np.float64(1e-6))
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 
 
+def named(owner, kind):
+    return getattr(owner, kind.replace("-", "_"))
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_field_of_every_kind_can_be_given_and_is_no_parameter(kind):
-    given = set(inspect.signature(getattr(jobs, kind)).parameters) - {"scene", "given"}
+    given = set(inspect.signature(named(jobs, kind)).parameters) - {"scene", "given"}
     fields = set(KINDS[kind].model_fields) - {"kind", "scene"}
     assert given <= fields
     assert fields | {"cache", "expires"} <= given | jobs.COMMON
@@ -63,7 +70,7 @@ def test_a_scene_may_be_a_name_a_document_or_a_file(tmp_path):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_client_has_a_method_of_each_kind_with_the_same_signature(kind):
-    described, method = getattr(jobs, kind), getattr(Client, kind)
+    described, method = named(jobs, kind), named(Client, kind)
     assert method.__doc__ == described.__doc__
     own, *shared = inspect.signature(method).parameters.values()
     assert own.name == "self"

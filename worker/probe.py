@@ -19,9 +19,10 @@ from pathlib import Path
 from solver.admission import Admission, Study, readmit
 from solver.errors import InvalidInput, SimulationFailed
 from solver.simulate import Simulation
-from solver.study.run import StudyRun
+from solver.trade.run import TradeRun
 from storage.results.appendix import CERTIFICATE
 from worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
+from worker.study_block import computation_of
 
 BUDGET = 0.5
 """Seconds of computing spent on one estimate."""
@@ -134,7 +135,7 @@ def _of_study(study: Study) -> Cost:
     chosen = sorted({0, count // 2, count - 1})[:_MOST_BLOCKS]
     seconds = steps = 0.0
     points, exact, failure = 0, True, None
-    next(StudyRun(study, chosen[0]).slices(), None)  # kernels are loaded, or compiled
+    next(computation_of(study, chosen[0]).slices(), None)  # kernels are loaded, or compiled
     for index in chosen:
         marks, found = _run_block(study, index, BUDGET / len(chosen))
         failure = failure or found
@@ -155,7 +156,7 @@ def _of_study(study: Study) -> Cost:
 
 
 def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str | None]:
-    run = StudyRun(study, index)
+    run = computation_of(study, index)
     marks, ended, failure = [], 0.0, None
     began = time.process_time()
     for piece in run.slices():
@@ -163,6 +164,11 @@ def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str
             ended += point.statistics.get("steps", 0.0)
             failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
         going = 0.0
+        if isinstance(run, TradeRun):  # it compiles as it goes, which does not count
+            marks.append(Mark(run.seconds, piece.fraction, run.steps))
+            if run.seconds > budget:
+                break
+            continue
         if run.bundle is not None:
             made = run.bundle.table("steps")[0]
             going = float(sum(made[lane] for lane, one in enumerate(run.lanes) if one is not None))

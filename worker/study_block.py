@@ -15,6 +15,9 @@ from solver.study.meanings import MEANINGS, own_meanings
 from solver.study.plan import Study
 from solver.study.results import StudySlice
 from solver.study.run import StudyRun
+from solver.trade.plan import KIND as ACCURACY_STUDY
+from solver.trade.plan import runs_in
+from solver.trade.run import TradeRun
 from solver.version import SOLVER_VERSION
 from storage.catalogue import JobError
 from storage.results import ArraySpec, ResultsError
@@ -48,6 +51,7 @@ class StudyProgress:
 def layout_of(study: Study) -> StudyLayout:
     """Return what a study's store holds."""
     declared, own = study.scene["parameters"], own_meanings(study)
+    runs = [run.document() for run in runs_in(study)] if study.kind == ACCURACY_STUDY else []
     return StudyLayout(
         parameters=tuple(
             ArraySpec(name, unit, str(declared[name]["help"]))
@@ -66,6 +70,7 @@ def layout_of(study: Study) -> StudyLayout:
             "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
             "settlings": sorted(SETTLINGS, key=SETTLINGS.__getitem__),
             **({"meanings": own} if own else {}),
+            **({"runs": runs} if runs else {}),
         },
         meanings={name: ArraySpec(name, *meaning) for name, meaning in (MEANINGS | own).items()},
     )
@@ -84,6 +89,14 @@ def create_store(study: Study, folder: Path) -> None:
         The store cannot be written.
     """
     _create(study, layout_of(study), folder)
+
+
+def computation_of(
+    study: Study, index: int, checkpoint: bytes | None = None
+) -> StudyRun | TradeRun:
+    """Return what computes a block, from where a restart point was made if there is one."""
+    kind = TradeRun if study.kind == ACCURACY_STUDY else StudyRun
+    return kind(study, index, checkpoint)
 
 
 def run_block(
@@ -147,7 +160,7 @@ def run_laid_out(
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
     block, carried, fraction = _begin(layout, index, folder, attempt, resume_from)
-    computation = StudyRun(study, index, carried)
+    computation = computation_of(study, index, carried)
     slices = computation.slices()
     steps = 0
     begun = time.monotonic()

@@ -45,9 +45,9 @@ class Client:
     """A connection to one service.
 
     ``client.simulate("seven-bar-press", clearance=5e-4, duration=2)`` submits a job and returns
-    it at once; `bifurcation`, `sweep`, `poincare` and `ensemble` likewise, as `jointplay.jobs`
-    describes them.  A job that equals one that is queued, running or succeeded is not computed
-    again: that one is returned, and ``cached``, unless ``cache=False`` is given.
+    it at once; `bifurcation`, `sweep`, `poincare`, `ensemble` and `accuracy_study` likewise, as
+    `jointplay.jobs` describes them.  A job that equals one that is queued, running or succeeded is
+    not computed again: that one is returned, and ``cached``, unless ``cache=False`` is given.
 
     Requests are repeated when the service asks for it (429, 503) or the connection was lost; none
     has its effect twice.
@@ -100,6 +100,7 @@ class Client:
     sweep = _submitting(documents.sweep)
     poincare = _submitting(documents.poincare)
     ensemble = _submitting(documents.ensemble)
+    accuracy_study = _submitting(documents.accuracy_study)
 
     def submit(self, document: Mapping[str, Any], *, idempotency_key: str | None = None) -> Job:
         """Queue a job that is given as a document; `Refused` names every field that is wrong.

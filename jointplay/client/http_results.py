@@ -76,6 +76,10 @@ class HttpResults:
         """Return how far the run can be believed."""
         return self._document("certificate")
 
+    def accuracy(self) -> dict[str, Any]:
+        """Return what every method and tolerance costs and buys."""
+        return self._document("accuracy")
+
     def study(
         self,
         observables: Sequence[str] | None,

@@ -108,6 +108,11 @@ class ReadableJob(JobRecord):
         """Of a simulation: how far it can be believed; `NotFound` where there is none."""
         return self.results.certificate()
 
+    @property
+    def accuracy(self) -> dict[str, Any]:
+        """Of an accuracy-study: ``points`` with costs and errors as they are now, ``advice``."""
+        return self.results.accuracy()
+
     def study(
         self,
         observables: Names | None = None,

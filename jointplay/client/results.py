@@ -99,6 +99,10 @@ class Results(Protocol):
         """Return how far a simulation can be believed."""
         ...
 
+    def accuracy(self) -> dict[str, Any]:
+        """Return what every method and tolerance costs and buys, of an accuracy-study."""
+        ...
+
     def study(
         self,
         observables: Sequence[str] | None,

@@ -1,7 +1,5 @@
 """``jointplay accuracy``: what every method and tolerance costs and buys on one scene."""
 
-import json
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,12 +7,12 @@ import typer
 
 from jointplay.command_line import job_document
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
     from jointplay.command_line.drawing import Form
-    from solver.admission import Admission
-    from solver.trade.measure import Trade
+
+_OF_A_RUN = ("scene", "duration", "formulation", "label")
 
 
 def accuracy(
@@ -35,85 +33,58 @@ def accuracy(
     """Measure what every method and tolerance costs and buys on a scene, and recommend one.
 
     Each is run over the duration, by default one period of the drivers, and compared with a
-    reference run for as long as that is known. It takes up to a minute.
+    reference run for as long as that is known. It takes up to a minute. `jointplay run
+    --accuracy-study` does the same and keeps it.
 
     Example: `jointplay accuracy seven-bar-press --set clearance=3e-4 -o trade.svg`
     """
-    from jointplay.progress import progress
-    from solver.trade.advice import advice
+    from jointplay.local import run
 
     if output is not None and output.suffix not in (".png", ".svg", ".json"):
         raise Stopped(Exit.BAD_INPUT, f"{output}: the name ends in .png, .svg or .json.")
-    admission = _admission(source, settings or [], duration)
-    with progress("accuracy") as report:
-        from solver.trade.measure import measure
-
-        trade = measure(admission, report)
-    sentence = advice(trade)
-    document = trade.document() | {"advice": sentence}
-    if output is not None:
-        _write(output, trade, document)
-    if as_json:
-        print_json(document)
-        return
-    typer.echo(table(trade))
-    typer.echo(sentence)
-
-
-def _admission(source: str, settings: list[str], duration: float | None) -> "Admission":
-    from solver.admission import Study, admit
-    from solver.assembly import assemble
-    from solver.scene.document import Scene
-
-    document = job_document.job_document(source, settings=settings, options={"duration": duration})
-    document.setdefault("duration", 1.0)
-    admission = admit(document)
-    if isinstance(admission, Study):
-        raise Stopped(Exit.BAD_INPUT, f"{source} is a {admission.kind}; give one simulation.")
-    if assemble(Scene.model_validate(admission.scene)).freedom_with_play == 0:
-        raise Stopped(
-            Exit.BAD_INPUT,
-            "Drivers prescribe every motion of this scene: nothing is integrated. Give it"
-            " clearance.",
-        )
-    if duration is None and admission.period is not None:
-        again = admit(document | {"duration": admission.period})
-        assert not isinstance(again, Study)  # noqa: S101  (the same document; narrows the type)
-        return again
-    return admission
+    job = job_document.job_document(source, settings=settings or [], options={"duration": duration})
+    if job.get("kind") == "simulate":
+        chosen = {name: job[name] for name in _OF_A_RUN if name in job}
+        job = {"kind": "accuracy-study", **chosen}
+    if job.get("kind") != "accuracy-study":
+        raise Stopped(Exit.BAD_INPUT, f"{source} is a {job.get('kind')}; give one simulation.")
+    measured = run(job, progress=True)
+    found = measured.accuracy
+    if output is not None and output.suffix == ".json":
+        output.write_text(json_text(found) + "\n")
+    elif output is not None:
+        form: Form = "svg" if output.suffix == ".svg" else "png"
+        output.write_bytes(measured.figure("work-precision", form=form).content)
+    print_json(found) if as_json else print_accuracy(found)
 
 
-def _write(output: Path, trade: "Trade", document: dict[str, Any]) -> None:
-    if output.suffix == ".json":
-        output.write_text(json.dumps(document, indent=1) + "\n")
-        return
-    from jointplay.figures.work_precision import Cost, draw_work_precision
-    from solver.trade.measure import MOST_ASTRAY
-
-    methods = {
-        method: [Cost(p.evaluations, p.error, p.astray, p.admitted) for p in points]
-        for method, points in groupby(trade.points, lambda point: point.method)
-    }
-    form: Form = "svg" if output.suffix == ".svg" else "png"
-    output.write_bytes(draw_work_precision(methods, trade.uncertainty, MOST_ASTRAY, form))
+def print_accuracy(found: dict[str, Any]) -> None:
+    """Print an accuracy-study as far as it has come: its table and its advice."""
+    typer.echo(table(found))
+    if found["advice"] is not None:
+        typer.echo(found["advice"])
 
 
-def table(trade: "Trade") -> str:
-    """Return the study as a table in Markdown, with what the columns mean."""
+def table(found: dict[str, Any]) -> str:
+    """Return an accuracy-study as a table in Markdown, with what the columns mean."""
     lines = [
-        f"Error: root mean square over the first {trade.window:.3g} s, in which the reference is"
-        f" known to {trade.uncertainty:.0e}, relative to the scene's scales.",
         f"Cost and energy astray, as a share of what contacts and friction take: of"
-        f" {trade.duration:.3g} s.",
+        f" {found['duration']:.3g} s.",
         "",
         "| method | tolerance or step | error | energy astray | steps | evaluations | ms |",
         "|---|---|---|---|---|---|---|",
     ]
-    for p in trade.points:
-        how = f"{p.tolerance:.0e}" if p.tolerance else f"{p.step:.2g} s"
-        how += "" if p.admitted else " (refused)"
-        error = "fails" if p.error is None else f"{p.error:.1e}"
-        astray = "" if p.astray is None else f"{p.astray:.1e}"
-        cost = f"{p.steps} | {p.evaluations} | {1e3 * p.seconds:.1f}"
-        lines.append(f"| {p.method} | {how} | {error} | {astray} | {cost} |")
+    if found["window"] is not None:
+        lines.insert(
+            0,
+            f"Error: root mean square over the first {found['window']:.3g} s, in which the"
+            f" reference is known to {found['uncertainty']:.0e}, relative to the scene's scales.",
+        )
+    for run in found["points"]:
+        how = f"{run['tolerance']:.0e}" if run["tolerance"] else f"{run['step']:.2g} s"
+        how += "" if run["admitted"] else " (refused)"
+        error = "fails" if run["error"] is None else f"{run['error']:.1e}"
+        astray = "" if run["astray"] is None else f"{run['astray']:.1e}"
+        cost = f"{run['steps']} | {run['evaluations']} | {1e3 * run['seconds']:.1f}"
+        lines.append(f"| {run['method']} | {how} | {error} | {astray} | {cost} |")
     return "\n".join([*lines, ""])

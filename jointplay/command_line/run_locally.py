@@ -7,7 +7,7 @@ import typer
 
 from jointplay.command_line import job_document, study_options
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -32,6 +32,7 @@ def run(
     sweep: study_options.SWEEP = None,
     poincare: study_options.POINCARE = False,
     ensemble: study_options.ENSEMBLE = None,
+    accuracy_study: study_options.ACCURACY_STUDY = False,
     periods: study_options.PERIODS = None,
     statistics: study_options.STATISTICS = None,
     settle: study_options.SETTLE = None,
@@ -49,8 +50,8 @@ def run(
     """Simulate here and now, without any service; a study on all cores.
 
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr,
-    outcome.json, peaks.csv, of a study points.csv, and figures.  Ctrl-C ends the run and keeps
-    what was computed.
+    outcome.json, peaks.csv, of a study points.csv or accuracy.json, and figures.  Ctrl-C ends the
+    run and keeps what was computed.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
@@ -77,6 +78,7 @@ def run(
             sweep=sweep,
             poincare=poincare,
             ensemble=ensemble,
+            accuracy_study=accuracy_study,
             periods=periods,
             statistics=statistics,
             settle=settle,
@@ -95,11 +97,17 @@ def run(
     with progress(output.name) as report:
         compute(admission, output, processes, report)
     job = load(output)
-    told = (_of_study if isinstance(admission, Study) else _of_simulation)(job, output, as_json)
+    tell = _of_study if isinstance(admission, Study) else _of_simulation
+    if job.kind == "accuracy-study":
+        tell = _of_accuracy
+    told: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None} | tell(
+        job, output, as_json
+    )
     if as_json:
-        print_json({"job": job.to_document(), "peaks": None, "points": None, **told})
+        print_json({"job": job.to_document(), **told})
     job.check()
-    if isinstance(admission, Study) and len(told["points"]["failures"]) == admission.points:
+    points = told["points"]
+    if points is not None and len(points["failures"]) == points["number"]:
         raise Stopped(Exit.FAILED, "every point failed; the first one says why above")
 
 
@@ -142,3 +150,16 @@ def _of_study(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
         print_points(study)
         typer.echo(f"all {study.points} points are in {table}")
     return {"points": summary_of(study)}
+
+
+def _of_accuracy(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
+    """Write what every method costs and buys, with the figure, and tell it."""
+    from jointplay.command_line.accuracy import print_accuracy
+    from jointplay.command_line.drawing import draw_all
+
+    found = job.accuracy
+    (output / "accuracy.json").write_text(json_text(found) + "\n")
+    draw_all(job, output / "figures")
+    if not as_json:
+        print_accuracy(found)
+    return {"accuracy": found}

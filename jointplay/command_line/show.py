@@ -24,6 +24,7 @@ def show(
 
     Example: `jointplay show 01M7YCD368E9VM5RM0B9JY3SGA --job > job.json`
     """
+    from jointplay.command_line.accuracy import print_accuracy
     from jointplay.command_line.certificate import print_headline
     from jointplay.command_line.study_summary import print_points, summary_of
     from jointplay.command_line.waiting import wait_for
@@ -48,6 +49,8 @@ def show(
                 print_headline(job)
             if found["points"] is not None:
                 print_points(found["points"])
+            if found["accuracy"] is not None:
+                print_accuracy(found["accuracy"])
     if wait:
         job.check()
 
@@ -58,8 +61,11 @@ def _results(job: "Job") -> dict[str, Any]:
     from jointplay.command_line.peaks import rows_of
 
     found: dict[str, Any] = {"statistics": None, "peaks": None, "points": None}
+    found["accuracy"] = None
     try:
-        if job.kind != "simulate":
+        if job.kind == "accuracy-study":
+            found["accuracy"] = job.accuracy
+        elif job.kind != "simulate":
             found["points"] = job.study(sections=(0, 1))
         elif job.is_finished:
             found["statistics"] = job.statistics

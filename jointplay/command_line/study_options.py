@@ -24,6 +24,10 @@ POINCARE = Annotated[bool, typer.Option("--poincare", help="Poincaré sections o
 ENSEMBLE = Annotated[
     int | None, typer.Option(metavar="MEMBERS", help="Sections of many perturbed starts.")
 ]
+ACCURACY_STUDY = Annotated[
+    bool,
+    typer.Option("--accuracy-study", help="What every method and tolerance costs and buys."),
+]
 PERIODS = Annotated[
     float | None, typer.Option(help="Of a sweep: duration of each point in its periods.")
 ]
@@ -66,6 +70,7 @@ def study_fields(
     sweep: list[str] | None,
     poincare: bool,
     ensemble: int | None,
+    accuracy_study: bool,
     settle: str | None,
     statistics: str | None,
     section: str | None,
@@ -79,6 +84,7 @@ def study_fields(
         "--sweep": bool(sweep),
         "--poincare": poincare,
         "--ensemble": ensemble is not None,
+        "--accuracy-study": accuracy_study,
     }
     chosen = [option for option, given in asked.items() if given]
     if len(chosen) > 1:

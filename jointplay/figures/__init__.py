@@ -28,6 +28,7 @@ from jointplay.figures.section import SECTION
 from jointplay.figures.spectrum import SPECTRUM
 from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
+from jointplay.figures.work_precision import WORK_PRECISION
 from jointplay.source import Source
 from jointplay.study_source import StudySource
 
@@ -65,7 +66,7 @@ ROSTER: Final[tuple[RunFigure, ...]] = (
     CERTIFICATE,
 )
 """Figures of one run."""
-STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION)
+STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION, WORK_PRECISION)
 """Figures of a study."""
 
 

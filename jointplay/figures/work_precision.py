@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from jointplay.figures import page
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection, StudyFigure
 from jointplay.figures.quantity import power_of_ten
+from jointplay.source import Floats
+from jointplay.study_source import StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _HEIGHT = 110.0  # mm
 _LEGEND_COLUMNS = 3  # names of methods are long
@@ -19,78 +27,71 @@ _STYLES = (
     (page.GREY, "v", "-"),
 )
 """Colour, mark and dashes: told apart in grey, too."""
+_MOST_ASTRAY = 0.05
+"""Share of energy astray beyond which methods are refused."""
 
 
-@dataclass(frozen=True)
-class Cost:
-    """One run: evaluations of the equations, error, and energy gone astray as a share of losses.
-
-    `error` and `astray` are none where a run did not come to the end or nothing was lost;
-    `admitted` says whether jobs may ask for it.
-    """
-
-    evaluations: int
-    error: float | None
-    astray: float | None
-    admitted: bool
+def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if "runs" not in source.attributes:
+        raise NotDrawable("Work and precision are drawn of an accuracy-study.")
+    return ()
 
 
-def draw_work_precision(
-    methods: Mapping[str, Sequence[Cost]], uncertainty: float, most_astray: float, form: page.Form
-) -> bytes:
-    """Return a figure of two panels: the error, and the energy gone astray, over the cost.
-
-    Parameters
-    ----------
-    methods
-        By name, at most five, their runs from the coarsest to the finest.
-    uncertainty
-        Of the reference: errors below are not known.
-    most_astray
-        Share of energy beyond which a method is refused.
-    form
-        "png" or "svg".
-    """
-    with page.style():
-        figure, grid = page.panels(2, 1, _HEIGHT, share_x=True)
-        (above,), (below,) = grid
-        for (name, runs), (colour, mark, dashes) in zip(methods.items(), _STYLES, strict=False):
-            for axes, quantity in ((above, "error"), (below, "astray")):
-                found = [
-                    (run.evaluations, value, run.admitted)
-                    for run in runs
-                    if (value := getattr(run, quantity))
-                ]
+def _draw(source: StudySource, selection: Selection) -> Figure:
+    runs = source.attributes["runs"]
+    measured = [i for i, run in enumerate(runs) if not run["reference"]]
+    references = len(runs) - len(measured)
+    errors = _column(source, "error")
+    if not np.isfinite(errors[measured]).any():
+        raise NotDrawable("No run has been compared with the reference yet.")
+    admitted = np.array([run["admitted"] for run in runs])
+    cost = _column(source, "evaluations")
+    figure, ((above,), (below,)) = page.panels(2, 1, _HEIGHT, share_x=True)
+    methods = dict.fromkeys(runs[i]["method"] for i in measured)
+    for name, (colour, mark, dashes) in zip(methods, _STYLES, strict=False):
+        chosen = np.array([i for i in measured if runs[i]["method"] == name])
+        for axes, values in ((above, errors), (below, _column(source, "astray"))):
+            shown = chosen[values[chosen] > 0.0]
+            axes.plot(cost[shown], values[shown], color=colour, linestyle=dashes, label=name)
+            for inside, each in ((colour, admitted[shown]), ("white", ~admitted[shown])):
                 axes.plot(
-                    [evaluations for evaluations, _, _ in found],
-                    [value for _, value, _ in found],
+                    cost[shown][each],
+                    values[shown][each],
                     color=colour,
-                    linestyle=dashes,
-                    label=name,
+                    linestyle="",
+                    marker=mark,
+                    markerfacecolor=inside,
+                    markeredgewidth=0.6,
                 )
-                for admitted, inside in ((True, colour), (False, "white")):
-                    axes.plot(
-                        [evaluations for evaluations, _, each in found if each is admitted],
-                        [value for _, value, each in found if each is admitted],
-                        color=colour,
-                        linestyle="",
-                        marker=mark,
-                        markerfacecolor=inside,
-                        markeredgewidth=0.6,
-                    )
-        for axes, label in ((above, "error"), (below, "energy astray / losses")):
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-            axes.set_ylabel(label)
-            for axis in (axes.xaxis, axes.yaxis):
-                axis.set_major_formatter(lambda value, _: power_of_ten(round(math.log10(value))))
-                axis.set_minor_formatter(lambda value, _: "")
+    for axes, label in ((above, "error"), (below, "energy astray / losses")):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_ylabel(label)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(lambda value, _: power_of_ten(round(math.log10(value))))
+            axis.set_minor_formatter(lambda value, _: "")
+    uncertainty = errors[references - 1]
+    if uncertainty > 0.0:
         low = min(above.get_ylim()[0], uncertainty)
         above.axhspan(0.1 * low, uncertainty, color=page.SHADE, linewidth=0.0)
         above.set_ylim(bottom=low)
-        below.axhline(most_astray, color=page.GREY, linewidth=0.6, linestyle="--")
-        below.set_xlabel("evaluations; what jobs may not ask for is open")
-        figure.align_ylabels()
-        names = above.get_legend_handles_labels()
-        figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
-        return page.save(figure, form)
+    below.axhline(_MOST_ASTRAY, color=page.GREY, linewidth=0.6, linestyle="--")
+    below.set_xlabel("evaluations; what jobs may not ask for is open")
+    figure.align_ylabels()
+    names = above.get_legend_handles_labels()
+    figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
+    return figure
+
+
+def _column(source: StudySource, name: str) -> Floats:
+    """Give (points,) of a number; not a number where no run has it yet."""
+    return source.statistics.get(name, np.full(source.points, np.nan))
+
+
+WORK_PRECISION = StudyFigure(
+    name="work-precision",
+    title="Error, and energy astray, of every method and tolerance over its evaluations",
+    uses=(),
+    channels=_channels,
+    draw=_draw,
+)

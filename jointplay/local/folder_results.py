@@ -14,6 +14,8 @@ from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
 from jointplay.client.window import ChannelSeries, Floats, Window
 from jointplay.local.folder import results_in, store_in
+from solver.trade.plan import KIND
+from solver.trade.trade import Trade
 from storage.results import ResultReader
 from storage.studies import StudyReader
 
@@ -84,6 +86,13 @@ class FolderResults:
         if found is None:
             raise _missing(f"{self._store} was computed without a certificate.")
         return certificate_document(run, found)
+
+    def accuracy(self) -> dict[str, Any]:
+        """Return what every method and tolerance costs and buys."""
+        study = self.study(None, None, None)
+        if study.kind != KIND:
+            raise _missing(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
+        return Trade.of(study).document()
 
     def study(
         self,

@@ -12,6 +12,7 @@ RESULTS = {
     "sweep": ("sweep", "figures", "zarr"),
     "poincare": ("poincare", "figures", "zarr"),
     "ensemble": ("poincare", "figures", "zarr"),
+    "accuracy-study": ("accuracy", "figures", "zarr"),
 }
 
 

@@ -40,7 +40,9 @@ class JobResource(BaseModel):
     """One job. While a simulation is not finished its results answer 409; studies can be read."""
 
     id: str
-    kind: str = Field(description="simulate, bifurcation, sweep, poincare or ensemble.")
+    kind: str = Field(
+        description="simulate, bifurcation, sweep, poincare, ensemble or accuracy-study."
+    )
     label: str | None
     batch: str | None = Field(description="Id of the batch that the job belongs to.")
     state: JobState

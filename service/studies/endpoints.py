@@ -1,16 +1,17 @@
-"""``/v1/jobs/{id}/bifurcation`` and ``/sweep``: studies over their parameters, as they grow."""
+"""``/v1/jobs/{id}/bifurcation``, ``/sweep`` and ``/accuracy``: studies, as they grow."""
 
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from service.dependencies import JobOfThePath, SettingsDependency
+from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
 from service.jobs.results_of_kinds import insist
 from service.problems import kinds, problems
 from service.results.as_json import as_json
 from service.results.stores import open_study
 from service.studies import answers, schemas
 from service.studies.queries import BifurcationQuery, SweepQuery
+from solver.trade.trade import Trade
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",
@@ -48,3 +49,15 @@ def show_sweep(
     """Return the signed extremes of channels at every point of a sweep, also while it runs."""
     insist(job, "sweep")
     return as_json(answers.sweep(open_study(job, settings), query))
+
+
+@router.get("/accuracy", response_model=schemas.Accuracy, dependencies=[NO_PARAMETERS])
+def show_accuracy(job: JobOfThePath, settings: SettingsDependency) -> Response:
+    """Return what each method and tolerance costs and buys, as far as it was measured.
+
+    The same study gives the same errors, steps and evaluations, hence the same advice; `seconds`
+    are those of the machine and the moment.
+    """
+    insist(job, "accuracy")
+    trade = Trade.of(open_study(job, settings))
+    return as_json(schemas.Accuracy.model_validate(trade.document()))

@@ -8,6 +8,7 @@ from service.results.schemas import Series, Values
 
 Status = Literal["waiting", "running", "done", "failed"]
 SECONDS: dict[str, Any] = {"unit": "s"}
+PURE: dict[str, Any] = {"unit": "1"}
 
 
 class PointFailure(BaseModel):
@@ -95,3 +96,52 @@ class Sweep(StudyPoints):
     """Extremes and statistics of channels over the parameters."""
 
     peaks: dict[str, PeakColumns]
+
+
+class AccuracyPoint(BaseModel):
+    """One run of an accuracy-study."""
+
+    method: str
+    tolerance: float | None = Field(description="null: the step is fixed.", json_schema_extra=PURE)
+    step: float | None = Field(
+        description="null: the error is controlled.", json_schema_extra=SECONDS
+    )
+    admitted: bool = Field(description="Whether jobs may ask for it.")
+    error: float | None = Field(
+        description="Root mean square over the window, of coordinates and speeds, relative to the "
+        "scales that tolerances are relative to; null: the run did not come to its end.",
+        json_schema_extra=PURE,
+    )
+    astray: float | None = Field(
+        description="Energy lost track of, as a share of what contacts and friction took; null: "
+        "they took nothing.",
+        json_schema_extra=PURE,
+    )
+    steps: int = Field(description="Accepted steps.", json_schema_extra=PURE)
+    evaluations: int = Field(
+        description="Of the equations of motion, in attempted steps.", json_schema_extra=PURE
+    )
+    seconds: float = Field(
+        description="Computing time of one core; differs when it is measured again.",
+        json_schema_extra=SECONDS,
+    )
+    failure: str | None = Field(description="Why the run did not come to its end.")
+
+
+class Accuracy(BaseModel):
+    """What every method and tolerance costs and buys, against a reference run."""
+
+    complete: bool = Field(
+        description="False: the study runs, or failed or was cancelled on the way."
+    )
+    duration: float = Field(description="Simulated time of every run.", json_schema_extra=SECONDS)
+    window: float | None = Field(
+        description="Time from the start in which the reference is known; null: not yet.",
+        json_schema_extra=SECONDS,
+    )
+    uncertainty: float | None = Field(
+        description="How far two references are apart there; smaller errors mean nothing.",
+        json_schema_extra=PURE,
+    )
+    points: list[AccuracyPoint] = Field(description="The runs that were computed so far.")
+    advice: str | None = Field(description="What to choose; null: the study is not complete.")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from solver.admission.accuracy_study import admit_accuracy_study
 from solver.admission.bifurcation import admit_bifurcation
 from solver.admission.documents import parse
 from solver.admission.ensemble import admit_ensemble
@@ -39,6 +40,7 @@ ADMIT: dict[str, Callable[..., Study]] = {
     "sweep": admit_sweep,
     "poincare": admit_poincare,
     "ensemble": admit_ensemble,
+    "accuracy-study": admit_accuracy_study,
 }
 
 

@@ -13,12 +13,12 @@ from solver import presets
 from solver.admission.mechanism import Echo
 from solver.admission.methods import chosen
 from solver.errors import InvalidInput, Problem
-from solver.jobs import KINDS, Job, PresetScene
+from solver.jobs import KINDS, Job, MechanismJob, PresetScene
 from solver.scene.near import did_you_mean
 from solver.scene.sentences import schema_problems
 
 
-def parse(document: object) -> Job:
+def parse(document: object) -> MechanismJob:
     """Return the job of the kind that a document names.
 
     Raises
@@ -43,7 +43,9 @@ def parse(document: object) -> Job:
         raise InvalidInput(schema_problems(error, model)) from None
 
 
-def filled(job: Job, scene_document: Mapping[str, Any], echo: Echo, **found: Any) -> dict[str, Any]:
+def filled(
+    job: MechanismJob, scene_document: Mapping[str, Any], echo: Echo, **found: Any
+) -> dict[str, Any]:
     """Return the job's document with defaults filled in; `found` overrides its fields.
 
     `scene_document` stands for a scene that was given whole, `echo` for a preset's parameters.
@@ -53,7 +55,8 @@ def filled(job: Job, scene_document: Mapping[str, Any], echo: Echo, **found: Any
         document["scene"] = {"preset": job.scene.preset, "parameters": echo}
     else:
         document["scene"] = scene_document
-    document["method"], document["tolerance"] = chosen(job)
+    if isinstance(job, Job):
+        document["method"], document["tolerance"] = chosen(job)
     return document | found
 
 

@@ -19,6 +19,8 @@ LONGEST_SETTLING = 2000
 """Periods after which "settle": "auto" stops waiting."""
 EVENT_PATIENCE = 20
 """Periods per section that is not taken at a crank angle, before a run ends without it."""
+LONGEST_ACCURACY_STUDY = 100
+"""Periods: each of some fifty runs takes that long, and references at the tightest tolerance."""
 MOST_STATISTICS = 512
 """Of channels and contacts, a point: each is an array of its own."""
 MOST_SAMPLES_OF_STATISTICS = 1e10

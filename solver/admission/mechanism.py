@@ -12,7 +12,7 @@ from solver import presets
 from solver.assembly import ASSEMBLED, Assembly, assemble, shortest_link
 from solver.channels import Channel, channels
 from solver.errors import InvalidInput, Problem
-from solver.jobs import Job, PresetScene
+from solver.jobs import MechanismJob, PresetScene
 from solver.mechanics.tree import Tree, spanning_tree
 from solver.scene.document import Scene
 from solver.scene.parameters import parameter_of, set_parameters
@@ -23,7 +23,7 @@ Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""
 
 
-def declared(job: Job) -> tuple[dict[str, Any], Scene, dict[str, float | str | None]]:
+def declared(job: MechanismJob) -> tuple[dict[str, Any], Scene, dict[str, float | str | None]]:
     """Return a job's scene as it is written: document, parsed, and the parameters that are given.
 
     Raises
@@ -45,7 +45,7 @@ def _preset(name: str) -> tuple[dict[str, Any], Scene]:
     return document, Scene.model_validate(document)
 
 
-def resolve(job: Job) -> tuple[Scene, dict[str, Any], Echo]:
+def resolve(job: MechanismJob) -> tuple[Scene, dict[str, Any], Echo]:
     """Return a job's scene with parameters set, its document, and every parameter's value.
 
     Raises

@@ -26,7 +26,7 @@ from solver.admission.spans import crank_offsets, periods
 from solver.admission.varied import CheckedPoints, check_points
 from solver.channels import Channel
 from solver.errors import LimitExceeded, Problem
-from solver.jobs import INDICATORS, CrankSection, Job, SectionStudyJob
+from solver.jobs import INDICATORS, CrankSection, MechanismJob, SectionStudyJob
 from solver.study.blocks import chained_blocks, chains_of, independent_blocks
 from solver.study.plan import Study
 
@@ -180,7 +180,7 @@ def check_limits(
 
 
 def make_study(
-    job: Job,
+    job: MechanismJob,
     points: Points,
     checked: CheckedPoints,
     filled: dict[str, Any],

@@ -21,7 +21,7 @@ from solver.assembly import Assembly
 from solver.channels import Channel
 from solver.compiler.length import check_length
 from solver.errors import InvalidInput, LimitExceeded, Problem
-from solver.jobs import Job
+from solver.jobs import MechanismJob
 from solver.mechanics.tree import Tree
 from solver.scene.document import Scene
 from solver.scene.parameters import PLACE, set_parameters
@@ -57,7 +57,7 @@ class CheckedPoints:
     mechanisms: tuple[Mechanism, ...]
 
 
-def check_points(job: Job, points: Points, *, thorough: bool) -> CheckedPoints:
+def check_points(job: MechanismJob, points: Points, *, thorough: bool) -> CheckedPoints:
     """Check every point; if not `thorough`, one of each structure whatever its geometry.
 
     Raises
@@ -168,7 +168,7 @@ def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo)
 
 
 def _mechanisms(
-    job: Job, one: _One, scenes: PointScenes, *, thorough: bool
+    job: MechanismJob, one: _One, scenes: PointScenes, *, thorough: bool
 ) -> tuple[NDArray[np.int64], tuple[Mechanism, ...]]:
     """Check each distinct structure and geometry; return (points,) structures, first of each."""
     count = len(scenes.values)
@@ -198,7 +198,7 @@ def _mechanisms(
     return structure, tuple(found[index] for index in range(len(found)))
 
 
-def _mechanism(job: Job, one: _One, point: int, *, new: bool) -> Mechanism:
+def _mechanism(job: MechanismJob, one: _One, point: int, *, new: bool) -> Mechanism:
     scene = one.scene(point)
     tree, assembly = check(scene)
     if assembly.freedom_with_play == 0:

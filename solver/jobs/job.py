@@ -47,11 +47,26 @@ SceneChoice = Annotated[
 ]
 
 
-class Job(Strict):
-    """What every kind of job says: the mechanism, and how it is computed."""
+class MechanismJob(Strict):
+    """What every kind of job says: the mechanism, and the form of its equations."""
 
     kind: str
     scene: SceneChoice
+    formulation: Annotated[
+        Literal["reduced", "lagrange"],
+        Field(
+            description=(
+                "reduced: joint coordinates over the spanning tree; lagrange: absolute coordinates,"
+                " multipliers and Baumgarte stabilisation"
+            )
+        ),
+    ] = "reduced"
+    label: Annotated[str, Field(max_length=200)] = ""
+
+
+class Job(MechanismJob):
+    """What all kinds say but one that tries every method: how the motion is computed."""
+
     tolerance: Annotated[
         float | None,
         Field(
@@ -84,13 +99,3 @@ class Job(Strict):
             json_schema_extra={"unit": "s"},
         ),
     ] = None
-    formulation: Annotated[
-        Literal["reduced", "lagrange"],
-        Field(
-            description=(
-                "reduced: joint coordinates over the spanning tree; lagrange: absolute coordinates,"
-                " multipliers and Baumgarte stabilisation"
-            )
-        ),
-    ] = "reduced"
-    label: Annotated[str, Field(max_length=200)] = ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from solver.statistics import Meaning, meanings
 from solver.study.plan import Study
+from solver.trade import plan as trade
 
 STATISTICS = {
     "steps": ("1", "accepted steps"),
@@ -36,6 +37,8 @@ MEANINGS = STATISTICS | INDICATORS
 
 
 def own_meanings(study: Study) -> dict[str, Meaning]:
-    """Return what the statistics mean that a job chose of channels and of joints."""
+    """Return what numbers mean that not every study has: chosen statistics, costs and errors."""
+    if study.kind == trade.KIND:
+        return dict(trade.MEANINGS)
     joints = tuple(name for name, joint in study.scene["joints"].items() if joint.get("clearance"))
     return meanings(study.statistics, study.channels, joints)

@@ -19,7 +19,7 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A job of kind bifurcation, sweep, poincare or ensemble that can run.
+    """A job of any kind but simulate that can run.
 
     `solver.admission.admit` makes it; two studies are the same if their digests are.
     """

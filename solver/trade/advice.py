@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-from solver.trade.measure import Point, Trade
-
-DEFAULT = ("tsitouras", 1e-6)
+from solver.trade.plan import DEFAULT
+from solver.trade.point import Point
 
 
 def cheapest(points: Iterable[Point], error: float) -> Point | None:
@@ -15,14 +14,18 @@ def cheapest(points: Iterable[Point], error: float) -> Point | None:
     return min(able, key=lambda p: p.evaluations, default=None)
 
 
-def advice(trade: Trade) -> str:
-    """Say what gives the error of the default, and one a hundred times smaller, at least cost."""
-    default = next((p for p in trade.points if (p.method, p.tolerance) == DEFAULT), None)
+def advice(points: Sequence[Point], uncertainty: float) -> str:
+    """Say what gives the error of the default, and one a hundred times smaller, at least cost.
+
+    `uncertainty` : of the reference; no error below is known. Seconds do not count, so the same
+    study gives the same sentence.
+    """
+    default = next((p for p in points if (p.method, p.tolerance) == DEFAULT), None)
     if default is None or default.error is None:
         return "The default did not come to the end of this run; ask for a tighter tolerance."
-    if default.error <= trade.uncertainty:
+    if default.error <= uncertainty:
         return "The default is as accurate as the reference: there is nothing to choose."
-    best = cheapest(trade.points, default.error) or default
+    best = cheapest(points, default.error) or default
     if best.evaluations == default.evaluations:
         best = default
     first = (
@@ -32,19 +35,12 @@ def advice(trade: Trade) -> str:
     if best == default:
         first += ", and nothing does it in fewer."
     else:
-        first += f"; {name(best)} does with {best.evaluations / default.evaluations:.0%} of them."
-    finer = max(0.01 * default.error, 3.0 * trade.uncertainty)
-    then = cheapest(trade.points, finer)
+        first += f"; {best.name} does with {best.evaluations / default.evaluations:.0%} of them."
+    finer = max(0.01 * default.error, 3.0 * uncertainty)
+    then = cheapest(points, finer)
     if then is None:
         return first
     ratio = then.evaluations / default.evaluations
     return (
-        f"{first} For an error below {finer:.1e} take {name(then)}, at {ratio:.1f} times the cost."
+        f"{first} For an error below {finer:.1e} take {then.name}, at {ratio:.1f} times the cost."
     )
-
-
-def name(point: Point) -> str:
-    """Return how a job asks for a run."""
-    if point.tolerance is None:
-        return f"{point.method} in steps of {point.step:g} s"
-    return f"{point.method} at {point.tolerance:.0e}"

@@ -1,5 +1,6 @@
 from tests.service_in_thread import (
     catalogue,
+    finished_accuracy,
     finished_job,
     finished_study,
     finished_sweep,
@@ -12,6 +13,7 @@ from tests.service_in_thread import (
 
 __all__ = [
     "catalogue",
+    "finished_accuracy",
     "finished_job",
     "finished_study",
     "finished_sweep",

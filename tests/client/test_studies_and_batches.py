@@ -133,3 +133,12 @@ def test_a_batch_is_refused_as_a_whole(client):
     with pytest.raises(Refused) as caught:
         client.submit_batch([PENDULUM, PENDULUM | {"duration": -1.0}])
     assert [field.place for field in caught.value.fields] == ["/jobs/1/duration"]
+
+
+def test_what_accuracy_costs_comes_as_a_document(client, finished_accuracy, finished_sweep):
+    found = client.job(finished_accuracy).accuracy
+    assert found["complete"]
+    assert {"method", "tolerance", "error", "evaluations"} <= found["points"][0].keys()
+    assert client.job(finished_accuracy).figures == ["work-precision"]
+    with pytest.raises(NotFound, match="has no accuracy"):
+        client.job(finished_sweep).accuracy  # noqa: B018  (asking is what fails)

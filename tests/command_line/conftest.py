@@ -7,6 +7,7 @@ import pytest
 from jointplay.command_line.application import run
 from tests.service_in_thread import (
     catalogue,
+    finished_accuracy,
     finished_job,
     finished_study,
     finished_sweep,
@@ -18,6 +19,7 @@ from tests.service_in_thread import (
 
 __all__ = [
     "catalogue",
+    "finished_accuracy",
     "finished_job",
     "finished_study",
     "finished_sweep",

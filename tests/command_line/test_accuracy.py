@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from jointplay.local import load
+
 SHORT = ("seven-bar-press", "--duration", "0.003")
 """Before any contact, where every run takes milliseconds."""
 
@@ -28,7 +30,7 @@ def test_the_file_and_what_is_printed_are_the_same_document(jointplay, tmp_path)
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (("seven-bar-press", "--set", "clearance=0"), "Give it clearance"),
+        (("seven-bar-press", "--set", "clearance=0"), "positive clearance"),
         (("seven-bar-press", "-o", "trade.pdf"), ".png, .svg or .json"),
         (("seven-bar-pres",), "seven-bar-press"),
     ],
@@ -37,3 +39,27 @@ def test_what_cannot_be_measured_is_said_in_one_line(jointplay, arguments, told)
     ended = jointplay("accuracy", *arguments)
     assert ended.code == 2
     assert told in ended.err
+
+
+def test_a_local_run_keeps_the_study_with_its_figure(jointplay, tmp_path):
+    output = tmp_path / "OUT"
+    ended = jointplay("run", *SHORT, "--accuracy-study", "-o", output)
+    assert ended.code == 0, ended.err
+    assert "| rodas | 1e-06 |" in ended.out
+    assert [path.name for path in (output / "figures").iterdir()] == ["work-precision.png"]
+    found = json.loads((output / "accuracy.json").read_text())
+    assert load(output).accuracy == found
+    assert jointplay("show", output).out.rstrip().endswith(found["advice"])
+    again = jointplay("accuracy", output / "job.json", "--json")
+    assert again.code == 0, again.err
+    steps = [(one["method"], one["error"], one["steps"]) for one in found["points"]]
+    repeated = json.loads(again.out)["points"]
+    assert [(one["method"], one["error"], one["steps"]) for one in repeated] == steps
+
+
+def test_a_study_of_another_kind_is_refused(jointplay, tmp_path):
+    path = tmp_path / "job.json"
+    path.write_text(json.dumps({"kind": "poincare", "scene": {"preset": "seven-bar-press"}}))
+    ended = jointplay("accuracy", path)
+    assert ended.code == 2
+    assert "is a poincare; give one simulation" in ended.line()

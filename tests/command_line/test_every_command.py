@@ -106,9 +106,9 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation sweep poincare ensemble estimate",
+    "submit": "Client.submit simulate bifurcation sweep poincare ensemble accuracy_study estimate",
     "ls": "Client.jobs Batch.jobs",
-    "show": "Client.job Job.refresh wait check statistics points study results",
+    "show": "Client.job Job.refresh wait check statistics points accuracy study results",
     "export": "Job.history window poincare peaks impacts open",
     "plot": "Job.figure figures",
     "certificate": "Job.certificate",

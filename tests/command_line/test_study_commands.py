@@ -68,6 +68,10 @@ ASKED = {
             "section": {"channel": "A.eccentricity_x", "value": 1e-4, "direction": "down"},
         },
     ),
+    "what accuracy costs": (
+        ["--accuracy-study", "--duration", "0.5"],
+        {"kind": "accuracy-study", "duration": 0.5},
+    ),
     "sections at an angle": (
         ["--poincare", "--section", "crank_angle=1.5"],
         {"section": {"crank_angle": 1.5}},
@@ -91,6 +95,7 @@ WRONG = {
     "half a value": (["--bifurcation", "clearance=1e-4:1e-3:9.5"], "/values/count"),
     "an unknown spacing": (["--bifurcation", "clearance=1e-4:1e-3:9:odd"], "NAME=FROM:TO:COUNT"),
     "an unknown parameter": (["--bifurcation", "clearence=1e-4:1e-3:9"], "/parameter"),
+    "one method of all": (["--accuracy-study", "--method", "rodas"], "did you mean 'methods'"),
     "no section": (["--poincare", "--section", "A"], "onset=A"),
     "a settling word": (["--poincare", "--settle", "long"], "--settle"),
     "a duration of a diagram": (["--poincare", "--duration", "2"], "/duration"),
@@ -246,3 +251,12 @@ def test_a_wrong_batch_ends_with_two_and_one_line(jointplay, at, tmp_path, text,
     missing = jointplay("batch", tmp_path / "missing.json", *at)
     assert missing.code == 2
     assert "missing.json" in missing.line()
+
+
+def test_an_accuracy_study_is_shown_as_a_table(jointplay, at, finished_accuracy):
+    shown = jointplay("show", finished_accuracy, *at)
+    assert shown.code == 0
+    assert "| tsitouras | 1e-04 (refused) | 1.0e+00 |" in shown.out
+    assert shown.out.rstrip().splitlines()[-1].startswith("The default, tsitouras at 1e-06")
+    told = json.loads(jointplay("show", finished_accuracy, "--json", *at).out)
+    assert told["accuracy"]["complete"]

@@ -130,15 +130,16 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
         },
         {"kind": "poincare", "scene": scene, "settle": 1, "record": 3},
         {"kind": "ensemble", "scene": scene, "members": 2, "settle": 1, "record": 3},
+        {"kind": "accuracy-study", "scene": scene, "duration": 0.005, "methods": ["tsitouras"]},
     ]
     (tmp_path / "jobs.json").write_text(json.dumps(jobs))
     ended = jointplay("batch", tmp_path / "jobs.json", "--wait", "--url", url)
     assert ended.code == 0, ended.err
     batch, states = ended.out.splitlines()
-    assert states == "4 jobs: 4 succeeded"
+    assert states == "5 jobs: 5 succeeded"
     with Client(url) as client:
         assert client.batch(batch).fraction == 1.0
-        _, sweep, poincare, ensemble = client.batch(batch).jobs()
+        _, sweep, poincare, ensemble, accuracy = client.batch(batch).jobs()
         swept = sweep.study()
         peaks, median = swept.peaks("displacement"), swept.statistics["displacement.median"]
         assert (peaks.minimum < median).all()
@@ -146,6 +147,7 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
         assert (swept.statistics["P.impacts"] <= swept.statistics["onsets"]).all()
         assert poincare.study().counts.tolist() == [3]
         assert ensemble.study().counts.tolist() == [3, 3]
+        assert accuracy.accuracy["advice"].startswith("The default")
 
 
 def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):

@@ -171,3 +171,39 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
             "left.contact_share": 1.0 / (1.0 + force / 1e4),
         },
     )
+
+
+ORDERS = {"bogacki-shampine": 3, "tsitouras": 5, "dormand-prince-853": 8, "rodas": 4, "rk4": 4}
+
+
+def accuracy_study(ended=None, *, lossless=False):
+    """Methods whose error is a power of their evaluations; 1e-3 is refused, one run has failed."""
+    runs = [{"method": "tsitouras", "reference": True, "admitted": True}] * 2
+    runs += [
+        {"method": method, "reference": False, "admitted": decade > 0}
+        for method in ORDERS
+        for decade in range(8)
+    ]
+    decades = np.array([0.0, 0.0, *np.tile(np.arange(8.0), len(ORDERS))])
+    order = np.array([5, 5, *np.repeat(list(ORDERS.values()), 8)])
+    error = 1e-3 * 0.1**decades
+    error[:3] = np.nan, 1e-12, np.nan
+    statistics = {
+        "error": error,
+        "evaluations": 1e3 * order * 10.0 ** (decades / order),
+        "astray": np.full(len(runs), np.nan) if lossless else 0.1 * error,
+    }
+    status = np.full(len(runs), DONE, dtype=np.uint8)
+    status[2] = FAILED
+    if ended is not None:
+        status[ended:] = WAITING
+        for column in statistics.values():
+            column[ended:] = np.nan
+    return StudyDataset(
+        attributes={"job": {"kind": "accuracy-study"}, "scene": SCENE, "runs": runs},
+        parameters=(),
+        values=np.empty((len(runs), 0)),
+        status=status,
+        failures={2: Failure("fixed-step-too-long", "The step is too long.", 0.1)},
+        statistics=statistics,
+    )

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from closed_form_study import bifurcation, one_point, sweep
+from closed_form_study import accuracy_study, bifurcation, one_point, sweep
 from matplotlib.colors import to_hex
 from PIL import Image
 from test_every_figure import MILLIMETRES_AN_INCH, drawn_with, stand_apart, visible_texts
@@ -44,6 +44,9 @@ CASES = {
         "sweep",
         Selection(channels=("left.normal_force.root_mean_square", "left.contact_share")),
     ),
+    "work and precision": (accuracy_study(), "work-precision", None),
+    "work and precision so far": (accuracy_study(13), "work-precision", None),
+    "work and precision without losses": (accuracy_study(lossless=True), "work-precision", None),
     "map of a statistic": (sweep((8, 6), failed=(3,)), "left.contact_share", None),
     "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
 }
@@ -113,11 +116,30 @@ def test_the_required_channels_are_all_it_reads(case):
         (one_point("ensemble", 3), ["section"]),
         (sweep(), ["sweep"]),
         (sweep((3, 3, 3)), []),
+        (accuracy_study(), ["work-precision"]),
     ],
-    ids=["bifurcation", "poincare", "ensemble", "sweep", "sweep of three"],
+    ids=["bifurcation", "poincare", "ensemble", "sweep", "sweep of three", "accuracy-study"],
 )
 def test_the_list_holds_what_can_be_drawn_without_a_choice(source, names):
     assert [listed.name for listed in figures.available(source)] == names
+
+
+def test_errors_stand_over_evaluations_and_what_is_refused_is_open():
+    source = accuracy_study()
+    above, _ = drawn_with(source, "work-precision", None).axes
+    line, full, opened = above.lines[3:6]  # of the second method
+    cost, error = (source.statistics[name][10:18] for name in ("evaluations", "error"))
+    np.testing.assert_array_equal(line.get_xydata(), np.column_stack([cost, error]))
+    np.testing.assert_array_equal(full.get_xydata(), np.column_stack([cost, error])[1:])
+    np.testing.assert_array_equal(opened.get_xydata(), [[cost[0], error[0]]])
+    assert opened.get_markerfacecolor() == "white"
+
+
+def test_work_and_precision_are_drawn_of_what_has_been_compared():
+    with pytest.raises(NotDrawable, match="No run has been compared"):
+        figures.draw(accuracy_study(2), "work-precision")
+    with pytest.raises(NotDrawable, match="of an accuracy-study"):
+        figures.draw(sweep(), "work-precision")
 
 
 def marks_of(axes):

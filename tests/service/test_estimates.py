@@ -7,6 +7,7 @@ from solver import presets
 from solver.admission import Admission, Study, admit
 from solver.simulate import Simulation
 from solver.study.run import StudyRun
+from solver.trade.run import TradeRun
 
 LONG = {"bouncing-journal": 2000.0, "pendulum": 2000.0, "seven-bar-press": 400.0}
 """Seconds that take longer than an estimate, as 30 s of the others do."""
@@ -55,6 +56,18 @@ def test_an_estimate_of_a_study_is_right_within_a_factor_of_two(http):
     assert steps / 2 < estimate["steps"] < 2 * steps
     assert (estimate["points"], estimate["blocks"]) == (64, len(study.blocks))
     assert not estimate["exact"]
+
+
+def test_an_estimate_of_a_short_accuracy_study_is_exact(http):
+    study = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}, "duration": 0.003}
+    estimate = estimated(http, study)
+    admitted = admit(study)
+    assert isinstance(admitted, Study)
+    ended = [end for piece in TradeRun(admitted, 0).slices() for end in piece.ended]
+    assert estimate["steps"] == sum(end.statistics["steps"] for end in ended)
+    assert (estimate["points"], estimate["blocks"]) == (admitted.points, 1)
+    assert (estimate["exact"], estimate["failure"]) == (True, None)
+    assert 0.0 < estimate["seconds"] < 60.0  # without compiling
 
 
 def test_nothing_is_queued_and_a_short_job_is_known_exactly(http):

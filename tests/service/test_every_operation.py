@@ -22,7 +22,7 @@ from schemathesis.specs.openapi.checks import (
 from service.app import create_app
 from storage.catalogue import BlockState, Catalogue, JobError
 from storage.settings import Settings
-from tests.service_in_thread import BIFURCATION, SWEEP, Worker, serving
+from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker, serving
 
 CHECKS = (
     not_a_server_error,
@@ -50,6 +50,7 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
             worker.finished(),
             worker.finished_study(**BIFURCATION),
             worker.finished_study(**SWEEP),
+            worker.finished_study(**ACCURACY_STUDY),
         )
         failed = worker.start(worker.submit())
         worker.finish(failed, BlockState.failed, JobError("solver", "x", "X."))
@@ -62,7 +63,14 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Known
         names = {
             "batch_id": (batch,),
             "key": keys,
-            "name": ("orbit", "displacement", "bifurcation", "sweep", "invalid-job"),
+            "name": (
+                "orbit",
+                "displacement",
+                "bifurcation",
+                "sweep",
+                "work-precision",
+                "invalid-job",
+            ),
             "form": ("png", "svg"),
         }
         spare = worker.finished(), worker.submit()

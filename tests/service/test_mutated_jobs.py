@@ -58,6 +58,13 @@ def sound_jobs() -> list[dict[str, Any]]:
         {"kind": "poincare", **study, **sections},
         {"kind": "ensemble", **study, **sections, "members": 5, "spread": 1e-2, "seed": 7},
         {"kind": "sweep", **study, **grid},
+        {
+            "kind": "accuracy-study",
+            "scene": {"preset": "slider-crank"},
+            "duration": 0.01,
+            "methods": ["rodas"],
+            "tolerances": [1e-4],
+        },
     ]
 
 

@@ -43,6 +43,16 @@ def test_an_identical_job_is_the_one_that_is_there(own):
         assert http.post("/v1/jobs", json=other).status_code == 202
 
 
+def test_what_accuracy_costs_is_measured_again_only_if_asked_for(own):
+    """Errors, steps and evaluations would be the same; seconds are those of the machine."""
+    http, _ = own
+    study = {"kind": "accuracy-study", "scene": SCENE, "methods": ["rk4"]}
+    first = http.post("/v1/jobs", json=study)
+    again = http.post("/v1/jobs", json=study)
+    assert (again.status_code, again.json()["id"]) == (200, first.json()["id"])
+    assert http.post("/v1/jobs", json=study | {"cache": False}).status_code == 202
+
+
 @pytest.mark.parametrize("ending", ["failed", "cancelled"])
 def test_a_job_that_ended_badly_is_computed_again(own, ending):
     http, catalogue = own

@@ -9,7 +9,7 @@ import zarr
 
 from service.studies import schemas
 from storage.catalogue import BlockState, JobError
-from tests.service_in_thread import BIFURCATION, SWEEP, known_section
+from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
 
 OBSERVED = "A.eccentricity_x"
 
@@ -34,6 +34,7 @@ def column_of(http: httpx.Client, job: str, observable: str) -> int:
         ("finished_study", "bifurcation", schemas.Bifurcation),
         ("finished_study", "poincare", schemas.Sections),
         ("finished_sweep", "sweep", schemas.Sweep),
+        ("finished_accuracy", "accuracy", schemas.Accuracy),
     ],
 )
 def test_answers_are_as_the_openapi_document_says(http, request, study, result, model):
@@ -233,6 +234,10 @@ def test_a_study_cancelled_before_it_began_has_no_results(http, worker):
         ("finished_sweep", "impacts"),
         ("finished_job", "bifurcation"),
         ("finished_job", "sweep"),
+        ("finished_job", "accuracy"),
+        ("finished_sweep", "accuracy"),
+        ("finished_accuracy", "sweep"),
+        ("finished_accuracy", "poincare"),
     ],
 )
 def test_what_a_kind_does_not_have_is_not_found_and_what_it_has_is_said(
@@ -246,7 +251,7 @@ def test_what_a_kind_does_not_have_is_not_found_and_what_it_has_is_said(
     assert all(link in problem["detail"] for name, link in links.items() if name == "figures")
 
 
-@pytest.mark.parametrize("study", ["finished_study", "finished_sweep"])
+@pytest.mark.parametrize("study", ["finished_study", "finished_sweep", "finished_accuracy"])
 def test_every_link_of_a_study_leads_somewhere(http, request, study):
     job = request.getfixturevalue(study)
     for name, link in get(http, f"/v1/jobs/{job}")["links"].items():
@@ -313,3 +318,40 @@ def test_figures_of_a_study_are_listed_and_drawn(http, finished_study, finished_
     )
     assert mean.content.startswith(b"\x89PNG")
     assert "sweep" in get(http, f"/v1/jobs/{finished_sweep}/figures/orbit.png", 404)["detail"]
+
+
+def test_an_accuracy_study_tells_what_each_run_costs_and_recommends_one(http, finished_accuracy):
+    found = get(http, f"/v1/jobs/{finished_accuracy}/accuracy")
+    # as the worker played by hand stores them: half the number of the point
+    assert (found["complete"], found["duration"]) == (True, 0.003)
+    assert (found["window"], found["uncertainty"]) == (0.5, 0.5)
+    assert [one["method"] for one in found["points"]] == ["tsitouras"] * 2 + ["rk4"] * 6 + [
+        "tsitouras"
+    ]
+    assert found["points"][0] == {
+        "method": "tsitouras",
+        "tolerance": 1e-4,
+        "step": None,
+        "admitted": False,
+        "error": 1.0,
+        "astray": 1.0,
+        "steps": 1002,
+        "evaluations": 1,
+        "seconds": 1.0,
+        "failure": None,
+    }
+    assert found["points"][2]["step"] == pytest.approx(2e-4)
+    assert found["advice"].startswith("The default, tsitouras at 1e-06, makes an error of 5.0e+00")
+    figures = get(http, f"/v1/jobs/{finished_accuracy}/figures")["figures"]
+    assert [figure["name"] for figure in figures] == ["work-precision"]
+    assert http.get(figures[0]["png"]).content.startswith(b"\x89PNG")
+    assert b"<svg" in http.get(figures[0]["svg"]).content
+
+
+def test_an_accuracy_study_is_read_as_far_as_it_is_measured(http, worker):
+    job = worker.submit(**ACCURACY_STUDY)
+    assert get(http, f"/v1/jobs/{job}/accuracy", 409)["type"] == "/problems/results-not-ready"
+    worker.compute(worker.start(job), points=4)
+    found = get(http, f"/v1/jobs/{job}/accuracy")
+    assert (found["complete"], len(found["points"]), found["advice"]) == (False, 2, None)
+    assert http.get(f"/v1/jobs/{job}/figures/work-precision.png").is_success

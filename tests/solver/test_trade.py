@@ -1,25 +1,86 @@
-"""The work-precision study: errors against a reference, costs, and the sentence that recommends."""
+"""The accuracy-study: errors against a reference, costs, and the sentence that recommends."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
+import numpy as np
 import pytest
 
-from solver.admission import admit_simulate
-from solver.admission.documents import parse
+import solver.trade.passage
+import solver.trade.run
+from solver.admission import Study, admit
 from solver.integrators import METHODS
-from solver.jobs import SimulateJob
+from solver.study.results import PointEnd
 from solver.trade.advice import advice, cheapest
-from solver.trade.measure import KNOWN, Point, Trade, measure
+from solver.trade.plan import runs_in
+from solver.trade.point import Point
+from solver.trade.run import KNOWN, TradeRun
+from solver.trade.trade import Trade
+
+PRESS = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}}
+FEW = PRESS | {"duration": 0.003, "methods": ["tsitouras", "rk4"], "tolerances": [1e-4, 1e-8]}
+"""Before any contact, where every run takes milliseconds."""
+
+
+@dataclass
+class Failed:
+    """As a store has it."""
+
+    code: str
+    detail: str
+
+
+class Collected:
+    """What a store would hold of the runs that ended."""
+
+    def __init__(self, study: Study, ends: list[PointEnd]) -> None:
+        runs = [run.document() for run in runs_in(study)]
+        self.attributes: dict[str, Any] = {"job": study.job, "runs": runs}
+        self.complete = len(ends) == study.points
+        self.failures = {end.point: Failed(end.code, end.detail) for end in ends if end.code}
+        names = {name for end in ends for name in end.statistics}
+        self.statistics = {name: np.full(study.points, np.nan) for name in names}
+        for end in ends:
+            for name, value in end.statistics.items():
+                self.statistics[name][end.point] = value
+
+
+def admitted(job: dict[str, Any]) -> Study:
+    study = admit(job)
+    assert isinstance(study, Study)
+    return study
+
+
+def ends_of(run: TradeRun, until: Callable[[PointEnd], bool] = lambda end: False) -> list[PointEnd]:
+    found = []
+    for piece in run.slices():
+        assert 0.0 <= piece.fraction <= 1.0
+        found += piece.ended
+        if piece.ended and until(piece.ended[-1]):
+            break
+    return found
+
+
+def measured(job: dict[str, Any]) -> Collected:
+    study = admitted(job)
+    return Collected(study, ends_of(TradeRun(study, 0)))
+
+
+def repeatable(ends: list[PointEnd]) -> list[dict[str, Any]]:
+    """What does not depend on the clock."""
+    return [
+        asdict(end) | {"statistics": repr({**end.statistics, "seconds": 0.0}), "peaks": None}
+        for end in ends
+    ]
 
 
 @pytest.fixture(scope="module")
 def trade() -> Trade:
     """The press up to a few milliseconds after its first impact."""
-    job = parse({"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 0.015})
-    assert isinstance(job, SimulateJob)
-    return measure(admit_simulate(job), lambda fraction, note: None)
+    return Trade.of(measured(PRESS | {"duration": 0.015}))
 
 
 def series(trade: Trade, method: str) -> list[Point]:
@@ -27,9 +88,12 @@ def series(trade: Trade, method: str) -> list[Point]:
 
 
 def test_every_method_is_measured_against_a_reference_that_is_known(trade: Trade) -> None:
+    assert trade.complete
     assert {point.method for point in trade.points} == set(METHODS)
+    assert trade.uncertainty is not None
     assert trade.uncertainty < KNOWN
-    assert 0.0 < trade.window <= trade.duration
+    assert trade.window is not None
+    assert 0.0 < trade.window <= trade.duration == 0.015
 
 
 @pytest.mark.parametrize("method", [name for name, each in METHODS.items() if each.error])
@@ -47,6 +111,8 @@ def test_steps_of_a_press_over_ten_thousand_fail_at_the_first_impact(trade: Trad
     longest = series(trade, "rk4")[0]
     assert longest.step == pytest.approx(2e-4)
     assert longest.error is None
+    assert longest.failure is not None
+    assert "smaller 'step'" in longest.failure
 
 
 def test_tolerances_that_jobs_may_not_ask_for_are_marked(trade: Trade) -> None:
@@ -62,8 +128,50 @@ def test_the_cheapest_admitted_run_is_recommended(trade: Trade) -> None:
     able = [p for p in trade.points if p.admitted and p.error is not None and p.error <= 1e-3]
     assert best.evaluations == min(point.evaluations for point in able)
     assert cheapest(trade.points, 0.0) is None
-    assert advice(trade).startswith("The default, tsitouras at 1e-06, makes an error of")
+    told = trade.document()["advice"]
+    assert told.startswith("The default, tsitouras at 1e-06, makes an error of")
 
 
 def test_a_default_as_accurate_as_the_reference_leaves_nothing_to_choose(trade: Trade) -> None:
-    assert "nothing to choose" in advice(replace(trade, uncertainty=1.0))
+    assert "nothing to choose" in advice(trade.points, 1.0)
+
+
+def test_nothing_is_recommended_before_all_runs_have_ended(trade: Trade) -> None:
+    assert replace(trade, complete=False).document()["advice"] is None
+
+
+def test_the_default_is_measured_whatever_is_asked_for() -> None:
+    found = Trade.of(measured(FEW | {"methods": ["rk4"]}))
+    assert [point.method for point in found.points] == ["rk4"] * 6 + ["tsitouras"]
+    assert found.document()["advice"] is not None
+
+
+@pytest.mark.parametrize("ended", [0, 1, 4])
+def test_a_study_that_goes_on_keeps_what_was_measured_and_repeats_but_for_seconds(
+    ended: int,
+) -> None:
+    study = admitted(FEW)
+    undisturbed = ends_of(TradeRun(study, 0))
+    begun = TradeRun(study, 0)
+    first = ends_of(begun, lambda end: end.point == ended)
+    rest = ends_of(TradeRun(study, 0, begun.checkpoint()))
+    assert [end.point for end in (*first, *rest)] == list(range(study.points))
+    assert repeatable([*first, *rest]) == repeatable(undisturbed)
+
+
+def test_a_method_that_takes_too_many_evaluations_is_given_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The grid's own evaluations double; they are looked at every ten steps here."""
+    monkeypatch.setattr(solver.trade.passage, "BUDGET", 10)
+    monkeypatch.setattr(solver.trade.run, "MOST_REFERENCES", 0.0)
+    monkeypatch.setattr(solver.trade.run, "FEWEST", 150.0)
+    found = measured(FEW | {"methods": ["rk4"]})
+    # 0.003 s in steps of 0.2 ms, 0.1 ms, 50 us: 60, 120, 240 evaluations
+    codes = {point: one.code for point, one in found.failures.items()}
+    assert codes == {4: "given-up", 5: "left-out", 6: "left-out", 7: "left-out"}
+    points = Trade.of(found).points
+    assert [point.error is None for point in points] == [False, False, True, False]
+    assert points[2].evaluations > 150
+    assert points[2].failure is not None
+    assert points[2].failure.startswith("Given up at t =")

@@ -10,7 +10,13 @@ import pytest
 from solver.admission import admit
 from solver.errors import InvalidInput, LimitExceeded
 from solver.jobs.sweep import StatisticName
-from tests.solver.study.jobs_of_studies import BIFURCATION, ENSEMBLE, POINCARE, SWEEP
+from tests.solver.study.jobs_of_studies import (
+    ACCURACY_STUDY,
+    BIFURCATION,
+    ENSEMBLE,
+    POINCARE,
+    SWEEP,
+)
 
 
 def press(**parameters: Any) -> dict[str, Any]:
@@ -22,7 +28,7 @@ def values(**changes: Any) -> dict[str, Any]:
 
 
 PENDULUM = {"preset": "pendulum"}
-B, S, P, E = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE
+B, S, P, E, A = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE, ACCURACY_STUDY
 EVERY_STATISTIC = list(get_args(StatisticName))
 LISTED = {**SWEEP, "grid": None}
 WITHOUT_UNIT = {key: value for key, value in SWEEP.items() if key != "periods"}
@@ -284,6 +290,15 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "/points/1/clearance",
         "Point 1 (bearing_radius = 0.0001 m, clearance = 0.0002 m): ",
     ),
+    "one tolerance of all": (A, {"tolerance": 1e-6}, "/tolerance", "did you mean 'tolerances'"),
+    "no tolerances": (A, {"tolerances": []}, "/tolerances", "at least 1"),
+    "tolerance beyond the reference": (A, {"tolerances": [1e-13]}, "/tolerances/0", "at least"),
+    "tolerance of no use": (A, {"tolerances": [1e-4, 0.1]}, "/tolerances/1", "at most 0.01"),
+    "unknown method": (A, {"methods": ["rk45"]}, "/methods/0", "'rk4'"),
+    "method of no name": (A, {"methods": ["auto"]}, "/methods/0", "'tsitouras'"),
+    "no methods": (A, {"methods": []}, "/methods", "at least 1"),
+    "no duration": (A, {"duration": 0.0}, "/duration", "at least 1e-09"),
+    "nothing to integrate": (A, {"scene": press(clearance=0.0)}, "/scene", "positive clearance"),
     "unknown channel of a sweep": (S, {"channels": ["displacment"]}, "/channels/0", "displacement"),
 }
 
@@ -344,6 +359,7 @@ TOO_LARGE: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "/samples_per_period",
         "the limit is 1e+10",
     ),
+    "duration of an accuracy-study": (A, {"duration": 201.0}, "/duration", "limit of an"),
     "periods of a sweep": (S, {"periods": 1e7}, "/periods", "the limit is 1e+06"),
 }
 

@@ -7,6 +7,7 @@ import math
 import pytest
 
 from tests.solver.study.jobs_of_studies import (
+    ACCURACY_STUDY,
     BIFURCATION,
     ENSEMBLE,
     POINCARE,
@@ -86,9 +87,26 @@ def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else(
     job = STUDIES[kind]
     first = study(job)
     assert study(job, label="a name").digest == first.digest
-    assert study(job, accuracy="standard").digest == first.digest
-    assert study(job, tolerance=1e-7).digest != first.digest
+    if kind == "accuracy-study":  # it has no one tolerance
+        assert study(job, duration=2.0, tolerances=first.job["tolerances"]).digest == first.digest
+        assert study(job, tolerances=[1e-7]).digest != first.digest
+    else:
+        assert study(job, accuracy="standard").digest == first.digest
+        assert study(job, tolerance=1e-7).digest != first.digest
     assert study(job, scene={**PRESS, "parameters": {"stiffness": 4e9}}).digest != first.digest
+
+
+def test_methods_and_tolerances_are_listed_once_and_in_order() -> None:
+    twice = study(
+        ACCURACY_STUDY, methods=["rk4", "tsitouras", "rk4"], tolerances=[1e-8, 1e-4, 1e-8]
+    )
+    assert twice.job["methods"] == ["tsitouras", "rk4"]
+    assert twice.job["tolerances"] == [1e-4, 1e-8]
+    assert (twice.job["duration"], twice.blocks) == (2.0, ((0, twice.points),))
+    # two references, two tolerances, six steps, and the default
+    assert twice.points == 11
+    pendulum = study(ACCURACY_STUDY, scene={"preset": "pendulum"})
+    assert pendulum.job["duration"] == 1.0
 
 
 def test_the_digest_tells_values_apart() -> None:

@@ -11,7 +11,13 @@ from hypothesis import strategies as st
 from solver.admission import admit
 from solver.errors import InvalidInput
 from solver.study.plan import Study
-from tests.solver.study.jobs_of_studies import BIFURCATION, ENSEMBLE, POINCARE, SWEEP
+from tests.solver.study.jobs_of_studies import (
+    ACCURACY_STUDY,
+    BIFURCATION,
+    ENSEMBLE,
+    POINCARE,
+    SWEEP,
+)
 
 SOUND: list[dict[str, Any]] = [
     {**BIFURCATION, "continuation": "both", "chains": 2, "settle": "auto", "observables": ["A.*"]},
@@ -19,6 +25,7 @@ SOUND: list[dict[str, Any]] = [
     {**POINCARE, "section": {"onset": "A"}, "indicators": ["lyapunov"]},
     {**POINCARE, "section": {"channel": "A.eccentricity_x", "value": 1e-4, "direction": "up"}},
     {**ENSEMBLE, "spread": 1e-3, "seed": 1},
+    {**ACCURACY_STUDY, "duration": 0.5, "methods": ["rodas", "rk4"], "tolerances": [1e-4, 1e-6]},
     {**SWEEP, "settle": 0.5, "channels": ["displacement"]},
     {
         "kind": "sweep",

@@ -22,7 +22,9 @@ SWEEP: dict[str, Any] = {
 }
 POINCARE: dict[str, Any] = {"kind": "poincare", "scene": PRESS}
 ENSEMBLE: dict[str, Any] = {"kind": "ensemble", "scene": PRESS, "members": 20}
-STUDIES = {job["kind"]: job for job in (BIFURCATION, SWEEP, POINCARE, ENSEMBLE)}
+ACCURACY_STUDY: dict[str, Any] = {"kind": "accuracy-study", "scene": PRESS}
+EVERY = (BIFURCATION, SWEEP, POINCARE, ENSEMBLE, ACCURACY_STUDY)
+STUDIES = {job["kind"]: job for job in EVERY}
 
 
 def study(job: dict[str, Any], **changes: Any) -> Study:

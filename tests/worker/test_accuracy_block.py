@@ -1,0 +1,98 @@
+"""The block of an accuracy-study into a real store, interrupted and resumed."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import zarr
+
+from solver.admission import Study, admit
+from solver.trade.trade import Trade
+from storage.studies import StudyReader
+from worker.execute import Answer
+from worker.study_block import StudyProgress, run_block, seal_store
+
+JOB = {
+    "kind": "accuracy-study",
+    "scene": {"preset": "seven-bar-press"},
+    "duration": 0.015,
+    "methods": ["tsitouras", "rk4"],
+    "tolerances": [1e-4, 1e-8],
+}
+"""To a few milliseconds after the first impact, at which the longest steps of rk4 fail."""
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    found = admit(JOB)
+    assert isinstance(found, Study)
+    return found
+
+
+@pytest.fixture(scope="module")
+def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> StudyReader:
+    folder = tmp_path_factory.mktemp("undisturbed") / "store"
+    assert run_block(study, 0, folder).state == "succeeded"
+    seal_store(study, folder)
+    return StudyReader(folder)
+
+
+def repeatable(reader: StudyReader) -> dict[str, Any]:
+    """All that does not depend on the clock."""
+    found = Trade.of(reader).document()
+    return found | {"points": [one | {"seconds": 0.0} for one in found["points"]]}
+
+
+def test_what_is_stored_has_units_and_says_what_failed(undisturbed: StudyReader) -> None:
+    undisturbed.verify()
+    assert undisturbed.complete
+    assert undisturbed.points == 11
+    assert {one.code for one in undisturbed.failures.values()} == {"fixed-step-too-long"}
+    numbers = zarr.open_group(undisturbed.path, mode="r")["statistics"]
+    assert isinstance(numbers, zarr.Group)
+    units = {name: numbers[name].attrs["units"] for name in ("error", "window", "seconds")}
+    assert units == {"error": "1", "window": "s", "seconds": "s"}
+    found = Trade.of(undisturbed).document()
+    assert len(found["points"]) == 9
+    assert found["advice"].startswith("The default, tsitouras at 1e-06")
+
+
+def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
+    study: Study, undisturbed: StudyReader, tmp_path: Path
+) -> None:
+    names: list[str] = []
+
+    def leave_after(points: int) -> Any:
+        def report(progress: StudyProgress) -> Answer:
+            if progress.watermark < points:
+                return Answer.go_on
+            names.append(progress.restart_point())
+            return Answer.leave
+
+        return report
+
+    first = run_block(study, 0, tmp_path, report=leave_after(5))
+    assert first.state == "left"
+    seconds = StudyReader(tmp_path).statistics["seconds"]
+    assert np.isfinite(seconds).tolist() == [True] * 5 + [False] * 6
+    resume_from = (names[0], first.fraction)
+    assert run_block(study, 0, tmp_path, attempt=2, resume_from=resume_from).state == "succeeded"
+    seal_store(study, tmp_path)
+    resumed = StudyReader(tmp_path)
+    np.testing.assert_array_equal(resumed.statistics["seconds"][:5], seconds[:5])
+    assert repeatable(resumed) == repeatable(undisturbed)
+
+
+def test_a_cancelled_study_keeps_what_was_measured_and_recommends_nothing(
+    study: Study, tmp_path: Path
+) -> None:
+    outcome = run_block(
+        study,
+        0,
+        tmp_path,
+        report=lambda done: Answer.cancel if done.watermark == 4 else Answer.go_on,
+    )
+    assert outcome.state == "cancelled"
+    found = Trade.of(StudyReader(tmp_path)).document()
+    assert (found["complete"], len(found["points"]), found["advice"]) == (False, 2, None)
