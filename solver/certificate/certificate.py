@@ -194,7 +194,10 @@ def _clearance(scene: Scene, name: str) -> float:
 
 def _extremes(companions: Companions, names: Sequence[str]) -> Floats:
     """Return lowest and highest minima and maxima of the lanes that sought them."""
-    found = [peaks_of(companions.bundle, lane, names) for lane in (RUN, *companions.loud)]
+    bundle, rows = companions.bundle, companions.bundle.kernel.rows
+    sought = [name for name in names if name in rows.watched or name in rows.multiples]
+    run = peaks_of(bundle, RUN, names)  # what drivers prescribe is the same in all lanes
+    found = [run, *(run | peaks_of(bundle, lane, sought) for lane in companions.loud)]
     low = np.array([[peaks[name].minimum for name in names] for peaks in found])
     high = np.array([[peaks[name].maximum for name in names] for peaks in found])
     return np.stack([low.min(0), low.max(0), high.min(0), high.max(0)], axis=1)

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from solver.certificate.certificate import Certificate, certify
 from solver.certificate.companions import RUN, Companions
-from solver.certificate.growth import Windows
+from solver.certificate.growth import Windows, tangents_of
 from solver.certificate.violation import Violation
 from solver.channels import Channel
-from solver.compiler.tangents import compile_tangents
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Status
@@ -25,7 +24,7 @@ class Survey:
     def __init__(self, bundle: Bundle, problem: LaneProblem, formulation: str) -> None:
         """Load companions; compile tangents, which takes seconds when they are not cached."""
         self.bundle, self.problem = bundle, problem
-        self.tangents = compile_tangents(bundle.kernel)
+        self.tangents = tangents_of(bundle.kernel, problem.scene)
         self.companions = Companions.beside(bundle, problem)
         self.violation = Violation(problem.scene) if formulation == "lagrange" else None
         self.windows: Windows | None = None
@@ -39,18 +38,27 @@ class Survey:
 
     def advance(self, budget: int) -> None:
         """Make at most so many attempts: of trajectory and companions, then of windows."""
-        running = self.bundle.counters[Counter.STATUS, RUN] == Status.RUNNING
-        if running or self.companions.running:
-            self.bundle.advance(self.companions.allowance(budget))
-            self.companions.collect()
-            if self.violation is not None:
-                count = self.bundle.counters[Counter.SAMPLE_ROWS, RUN]
-                self.violation.look(self.bundle.sample_rows[RUN, :count])
+        if self.bundle.counters[Counter.STATUS, RUN] == Status.RUNNING:
+            self._follow(budget)
             return
         self.bundle.advance(0)  # its rows have been handed out
+        while budget > 0 and self.companions.running:
+            budget -= self._follow(budget)
+        if budget <= 0 or self.companions.running:
+            return
         if self.windows is None:
             self.windows = self._windows()
         self.goes_on = self.windows.advance(budget)
+
+    def _follow(self, budget: int) -> int:
+        """Make attempts until a lane ends, at most so many; return how many."""
+        before = self.bundle.attempts
+        self.bundle.advance(self.companions.allowance(budget))
+        self.companions.collect()
+        if self.violation is not None:
+            count = self.bundle.counters[Counter.SAMPLE_ROWS, RUN]
+            self.violation.look(self.bundle.sample_rows[RUN, :count])
+        return self.bundle.attempts - before
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes."""

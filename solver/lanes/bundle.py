@@ -21,6 +21,7 @@ from solver.lanes.peaks import POINTS
 from solver.lanes.periods import look_ahead, plan
 from solver.lanes.problem import LaneProblem, LaneStart
 from solver.lanes.state import Counter, SectionKind, Setting, Status, row_width
+from solver.scene.document import Scene
 
 Floats = NDArray[np.float64]
 
@@ -88,6 +89,14 @@ class Bundle:
         begin(self, lane, problem)
         self._run(lane)
         self.first_energy[:, lane] = self.energy(lane)
+
+    def number_like(self, other: Bundle, lane: int, scene: Scene) -> None:
+        """Give the first lane the numbers of a scene that a lane of another bundle has already."""
+        work = self.work.reshape(-1, LANES)
+        work[: self.kernel.layout.size, 0] = other.work.reshape(-1, LANES)[:, lane]
+        if self.tangents is not None:
+            slots = [slot for slot, _ in self.tangents.fixed]
+            work[slots, 0] = self.tangents.fixed_values(scene)
 
     def extend(self, lane: int, duration: float, sections: int, *, forget: bool = False) -> None:
         """Let a lane that is done go on to a later end; `forget` its extremes so far.

@@ -48,6 +48,7 @@ def land(
     target = counters[Counter.LANDING, lane]
     onset = NO_ONSET
     joint = -1
+    overshot = False
     for j in range(slots[Slot.JOINTS]):
         if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
             continue
@@ -57,9 +58,18 @@ def land(
             return True
         if j == target and abs(gap) <= LANDED:
             continue
+        if j == target and gap > 0.0:
+            overshot = True  # it has its onset here; when does not matter, if no other has one
+            continue
         found = first_onset(j, lane, slots, work, spare, lend, probe, right_hand_side)
         if found < onset:
             onset, joint = found, j
+    if overshot:
+        found = -1.0
+        if joint >= 0:
+            found = first_onset(target, lane, slots, work, spare, lend, probe, right_hand_side)
+        if found < onset:
+            onset, joint = found, target
     if target >= 0:
         gap = work[(slots[Slot.GAP] + 4 * target) * LANES + lane]
         rate = work[(slots[Slot.GAP] + 4 * target + 1) * LANES + lane]

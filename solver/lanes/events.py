@@ -85,11 +85,12 @@ def locate_crossing(
     value, sense = settings[Setting.SECTION_VALUE, lane], settings[Setting.SECTION_SENSE, lane]
     low, high = 0.0, 1.0
     found = LANES - 1
+    lend(work, spare, lane)
     for _ in range(LEVELS):
         width = (high - low) / LANES
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = low + width * (i + 1)
-        dense(lane, work, spare, lend, probe, right_hand_side)
+        dense(lane, work, spare, probe, right_hand_side)
         observe(spare)
         found = LANES - 1
         for i in range(LANES):

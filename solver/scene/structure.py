@@ -23,7 +23,7 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
 
     @wraps(function)
     def remembered(scene: Scene) -> Found:
-        key = _structure(scene)
+        key = structure_of(scene)
         found = known.get(key)
         if found is None:
             while len(known) >= MOST_KEPT:
@@ -34,7 +34,8 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
     return remembered
 
 
-def _structure(scene: Scene) -> Hashable:
+def structure_of(scene: Scene) -> Hashable:
+    """Return what scenes of one structure have in common, to look things up by."""
     return (
         tuple(scene.bodies),
         tuple((name, j.type, ends(j), has_play(j)) for name, j in scene.joints.items()),
