@@ -6,24 +6,9 @@ import sys
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from jointplay.certificate import converged
-from solver.admission import admit
-from solver.certificate.certificate import Certificate
-from solver.certificate.instants import FIRST
-from solver.simulate import Simulation
-from tests.solver.completed_runs import CASE_3, Run, collect
-from worker.certificates import appendix_of
-
-Floats = NDArray[np.float64]
-
-REFERENCE, COARSER = 1e-12, 4e-12
-"""Tolerances of two references: where these differ by more than DOUBT of what is to be judged,
-the truth is not known."""
-DOUBT = 0.1
-ROUNDING = 1e-10
-"""Of a value: what a reference itself is off by, which for a constant is all there is."""
+from benchmarks.extreme_cases import Coverage, coverage_of
+from tests.solver.completed_runs import CASE_3
 
 
 class Case(NamedTuple):
@@ -102,55 +87,19 @@ CASES = {
 }
 
 
-class Coverage(NamedTuple):
-    """Of a case."""
-
-    covered: float
-    """Share of errors that the estimate covers, over channels and instants."""
-    known: float
-    """Share of errors within the converged spans of which the truth is known."""
-    converged: float
-    """Share of the instants."""
-    ratio: float
-    """Median of estimate by true error, where there is an error."""
-
-
 def coverage(case: Case) -> Coverage:
-    """Compare the estimated errors of a case with the true ones, at the certificate's instants."""
-    own, certificate = _run(case, case.tolerance, certificate=True)
-    assert certificate is not None
-    index = np.round(certificate.time / (case.duration / (len(own.time) - 1))).astype(int)
-    values, truth, doubtful = (
-        np.stack([run[name][index] for name in run.samples], axis=1)
-        for run in (own, *(_run(case, tolerance)[0] for tolerance in (REFERENCE, COARSER)))
-    )
-    within = converged(appendix_of(certificate), certificate.time)
-    error, doubt = np.abs(values - truth)[within], np.abs(truth - doubtful)[within]
-    estimate = certificate.error[within]
-    known = doubt <= DOUBT * np.maximum(estimate, error) + ROUNDING * np.abs(truth[within])
-    covered = error <= estimate + ROUNDING * np.abs(truth[within])
-    told = known & (error > ROUNDING * np.abs(truth[within])) & (error > 0.0)
-    ratio = float(np.median(estimate[told] / error[told])) if told.any() else np.nan
-    return Coverage(float(covered[known].mean()), float(known.mean()), float(within.mean()), ratio)
-
-
-def _run(
-    case: Case, tolerance: float, *, certificate: bool = False
-) -> tuple[Run, Certificate | None]:
-    admission = admit(
+    """Compare the estimated errors of a case with the true ones."""
+    found = coverage_of(
         {
             "kind": "simulate",
             "scene": {"preset": case.preset, "parameters": case.parameters},
             "duration": case.duration,
-            "tolerance": tolerance,
+            "tolerance": case.tolerance,
             "formulation": case.formulation,
-            "certificate": certificate,
-            "output_step": case.duration / FIRST / 16,
         }
     )
-    simulation = Simulation(admission)
-    run = collect(admission, list(simulation.slices()), simulation)
-    return run, simulation.certificate()
+    assert found is not None  # each has a reference
+    return found
 
 
 def report() -> str:

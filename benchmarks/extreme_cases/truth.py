@@ -1,0 +1,101 @@
+"""How much of a run's true error its certificate covers, where finer runs tell the true error."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.certificate import converged
+from solver.admission import Admission, admit
+from solver.certificate.certificate import Certificate
+from solver.errors import SimulationFailed
+from solver.simulate import Simulation
+from worker.certificates import appendix_of
+
+Floats = NDArray[np.float64]
+
+REFERENCE, FINEST = 1e-12, 1e-13
+"""Tolerance of a reference, and the smallest that a job may have."""
+FINER, COARSER = 1e-2, 4.0
+"""A reference has at most FINER of the tolerance of what it judges; a second one has COARSER times
+its own. Where the two differ by more than DOUBT of what is to be judged, no truth is known."""
+DOUBT = 0.1
+ROUNDING = 1e-10
+"""Of a value: what a reference itself is off by, which for a constant is all there is."""
+PATIENCE = 20.0
+"""Seconds of computing that a reference may take."""
+
+
+class Coverage(NamedTuple):
+    """Of the errors of a run, over channels and instants at which it is converged."""
+
+    covered: float
+    """Share of those whose truth is known that the estimate covers; not a number: none is known."""
+    known: float
+    """Share of which the truth is known."""
+    converged: float
+    """Share of the instants."""
+    ratio: float
+    """Median of estimate by true error, where there is an error."""
+
+
+def coverage_of(job: dict[str, Any]) -> Coverage | None:
+    """Compare the estimated errors of a job with the true ones, at the certificate's instants.
+
+    None where there is no such reference: for the finest tolerances, where a motion is prescribed,
+    and where a reference takes more than PATIENCE.
+    """
+    reference = min(REFERENCE, max(FINEST, FINER * job["tolerance"]))
+    if reference > FINER * job["tolerance"]:
+        return None
+    certificate = _run(job | {"certificate": True})[1]
+    assert certificate is not None
+    time = certificate.time
+    if not len(time):
+        return None
+    within = converged(appendix_of(certificate), time)
+    step = float(time[1])
+    index = np.round(time[within] / step).astype(int)
+    plain = job | {"certificate": False, "output_step": step}
+    if not index[-1]:
+        return Coverage(np.nan, 0.0, float(within.mean()), np.nan)
+    until = plain | {"duration": float(time[within][-1])}  # further on nothing is claimed
+    try:
+        values, truth, coarser = (
+            _run(finer, int(index[-1]) + 1)[0][index]
+            for finer in (
+                plain,
+                until | {"tolerance": reference},
+                until | {"tolerance": COARSER * reference},
+            )
+        )
+    except SimulationFailed:
+        return None
+    error, doubt = np.abs(values - truth), np.abs(truth - coarser)
+    estimate, rounding = certificate.error[within], ROUNDING * np.abs(truth)
+    known = doubt <= DOUBT * np.maximum(estimate, error) + rounding
+    covered = error <= estimate + rounding
+    told = known & (error > rounding) & (error > 0.0)
+    return Coverage(
+        float(covered[known].mean()) if known.any() else np.nan,
+        float(known.mean()),
+        float(within.mean()),
+        float(np.median(estimate[told] / error[told])) if told.any() else np.nan,
+    )
+
+
+def _run(job: dict[str, Any], enough: float = math.inf) -> tuple[Floats, Certificate | None]:
+    """Return samples, (samples, channels), of a run until there are enough; its certificate."""
+    admission = admit(job)
+    assert isinstance(admission, Admission)
+    simulation = Simulation(admission)
+    pieces, count = [], 0
+    for piece in simulation.slices(PATIENCE if math.isfinite(enough) else math.inf):
+        pieces.append(piece.samples)
+        count += len(piece.samples)
+        if count >= enough:
+            break
+    return np.concatenate(pieces), simulation.certificate()
