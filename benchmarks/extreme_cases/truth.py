@@ -17,11 +17,11 @@ from worker.certificates import appendix_of
 
 Floats = NDArray[np.float64]
 
-REFERENCE, FINEST = 1e-12, 1e-13
-"""Tolerance of a reference, and the smallest that a job may have."""
-FINER, COARSER = 1e-2, 4.0
-"""A reference has at most FINER of the tolerance of what it judges; a second one has COARSER times
-its own. Where the two differ by more than DOUBT of what is to be judged, no truth is known."""
+REFERENCE, COARSER = 1e-12, 4e-12
+"""Tolerances of two references: where they differ by more than DOUBT of what is to be judged, no
+truth is known."""
+FINER = 1e-2
+"""A reference has at most this share of the tolerance of what it judges."""
 DOUBT = 0.1
 ROUNDING = 1e-10
 """Of a value: what a reference itself is off by, which for a constant is all there is."""
@@ -48,8 +48,7 @@ def coverage_of(job: dict[str, Any]) -> Coverage | None:
     None where there is no such reference: for the finest tolerances, where a motion is prescribed,
     and where a reference takes more than PATIENCE.
     """
-    reference = min(REFERENCE, max(FINEST, FINER * job["tolerance"]))
-    if reference > FINER * job["tolerance"]:
+    if FINER * job["tolerance"] < REFERENCE:
         return None
     certificate = _run(job | {"certificate": True})[1]
     assert certificate is not None
@@ -68,8 +67,8 @@ def coverage_of(job: dict[str, Any]) -> Coverage | None:
             _run(finer, int(index[-1]) + 1)[0][index]
             for finer in (
                 plain,
-                until | {"tolerance": reference},
-                until | {"tolerance": COARSER * reference},
+                until | {"tolerance": REFERENCE},
+                until | {"tolerance": COARSER},
             )
         )
     except SimulationFailed:
