@@ -26,7 +26,7 @@ DOUBT = 0.1
 ROUNDING = 1e-10
 """Of a value: what a reference itself is off by, which for a constant is all there is."""
 PATIENCE = 20.0
-"""Seconds of computing that a reference may take."""
+"""Seconds of computing that a run may take."""
 
 
 class Coverage(NamedTuple):
@@ -45,12 +45,15 @@ class Coverage(NamedTuple):
 def coverage_of(job: dict[str, Any]) -> Coverage | None:
     """Compare the estimated errors of a job with the true ones, at the certificate's instants.
 
-    None where there is no such reference: for the finest tolerances, where a motion is prescribed,
-    and where a reference takes more than PATIENCE.
+    None where nothing tells them: for the finest tolerances, where a motion is prescribed, and
+    where a run fails or takes more than PATIENCE.
     """
     if FINER * job["tolerance"] < REFERENCE:
         return None
-    certificate = _run(job | {"certificate": True})[1]
+    try:
+        certificate = _run(job | {"certificate": True})[1]
+    except SimulationFailed:
+        return None
     assert certificate is not None
     time = certificate.time
     if not len(time):
@@ -92,7 +95,7 @@ def _run(job: dict[str, Any], enough: float = math.inf) -> tuple[Floats, Certifi
     assert isinstance(admission, Admission)
     simulation = Simulation(admission)
     pieces, count = [], 0
-    for piece in simulation.slices(PATIENCE if math.isfinite(enough) else math.inf):
+    for piece in simulation.slices(PATIENCE):
         pieces.append(piece.samples)
         count += len(piece.samples)
         if count >= enough:
