@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jointplay.figures import page, scene_facts, smooth
+from jointplay.figures import page, sampling, scene_facts, smooth
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.source import Floats, Source
@@ -42,9 +42,10 @@ def _draw(source: Source, selection: Selection) -> Figure:
     metres = scale("m", np.array(list(joints.values())))
     panels = [axes for row in grid for axes in row]
     for axes, (joint, clearance) in zip(panels, joints.items(), strict=False):
-        _, path = smooth.path(source, joint, _names(joint), selection)
+        time, path = smooth.path(source, joint, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
-        _orbit(axes, x, y, clearance / metres.factor)
+        beginning = sampling.beginning(source, time, selection)
+        _orbit(axes, x, y, clearance / metres.factor, beginning)
         axes.locator_params(nbins=_INTERVALS // columns)
         axes.set_xlabel(metres.label("eccentricity x"))
         page.corner_text(axes, f"joint {joint}, c = {clearance / metres.factor:.4g} {metres.unit}")
@@ -56,7 +57,7 @@ def _draw(source: Source, selection: Selection) -> Figure:
     return figure
 
 
-def _orbit(axes: Axes, x: Floats, y: Floats, radius: float) -> None:
+def _orbit(axes: Axes, x: Floats, y: Floats, radius: float, beginning: str) -> None:
     angle = np.linspace(0.0, 2.0 * np.pi, 241)
     axes.plot(
         x,
@@ -64,7 +65,7 @@ def _orbit(axes: Axes, x: Floats, y: Floats, radius: float) -> None:
         color=page.BLUE,
         linewidth=0.4,
         rasterized=len(x) > page.MOST_VECTOR_POINTS,
-        label="journal centre",
+        label=f"journal centre{beginning}",
     )
     axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=2.5, label="first sample")
     axes.plot(

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Final, Literal
 
+from jointplay.figures import tick_labels
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -170,6 +172,7 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
 
 def save(figure: Figure, form: Form) -> bytes:
     """Give the bytes of a file: the same for the same figure, without date or version."""
+    tick_labels.spread(figure)
     buffer = io.BytesIO()
     figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=_METADATA[form])
     return buffer.getvalue()

@@ -83,9 +83,9 @@ def _draw(source: Source, selection: Selection) -> Figure:
 def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -> None:
     names = (panel.position, panel.rate)
     if panel.joint:
-        _, path = smooth.path(source, panel.joint, names, selection)
+        time, path = smooth.path(source, panel.joint, names, selection)
     else:
-        _, path = sampling.in_a_plane(source, names, selection)
+        time, path = sampling.in_a_plane(source, names, selection)
     points = _sections(source, names, selection)
     across, up = (
         scale(scene_facts.channel(source, name).unit, path[name], points[name]) for name in names
@@ -96,7 +96,7 @@ def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -
         color=page.BLUE,
         linewidth=0.4,
         rasterized=len(path[panel.rate]) > page.MOST_VECTOR_POINTS,
-        label="trajectory",
+        label=f"trajectory{sampling.beginning(source, time, selection)}",
     )
     if len(points[panel.rate]):
         axes.plot(

@@ -46,6 +46,13 @@ def in_a_plane(source: Source, names: tuple[str, ...], selection: Selection) -> 
     return time, {name: np.concatenate([columns[name] for _, columns in parts]) for name in names}
 
 
+def beginning(source: Source, time: Floats, selection: Selection) -> str:
+    """Say from when on a curve in a plane is drawn, if not from the beginning of the window."""
+    first, _ = window(source, selection)
+    ((begin, _),) = source.blocks([], first, first + 1)
+    return f" from {time[0]:.4g} s" if time[0] > begin[0] else ""
+
+
 def _extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
     """Keep the smallest and the largest value of every `span` samples, in order of time."""
     if span <= 2:

@@ -337,3 +337,27 @@ def test_a_study_of_one_observable_without_rate_is_drawn():
     source = bifurcation(points=5)
     alone = replace(source, observables=(Channel("block.x", "m", "position"),))
     assert figures.required(alone, "bifurcation") == ("block.x",)
+
+
+def test_long_numbers_of_a_section_stand_apart():
+    """Values that differ in their fourth digit have labels of seven signs."""
+    source = one_point(record=100)
+    near = 4.9937e-4 + 8.2e-4 * source.section_values["left.eccentricity_x"]
+    moved = {**source.section_values, "left.eccentricity_x": near}
+    with page.style():
+        figure = figures.draw(replace(source, section_values=moved), "section", None)
+        page.save(figure, "png")
+        figure.draw_without_rendering()
+        stand_apart(figure)
+
+
+def test_long_numbers_of_a_map_stand_apart():
+    source = sweep((8, 6))
+    stroke = source.extremes["stroke"]
+    near = stroke._replace(maximum=0.52725 + 0.4 * (stroke.maximum - 0.527))
+    peaks = {**source.extremes, "stroke": near}
+    with page.style():
+        figure = figures.draw(replace(source, extremes=peaks), "sweep", None)
+        page.save(figure, "png")
+        figure.draw_without_rendering()
+        stand_apart(figure)
