@@ -15,8 +15,13 @@ from solver.compiler.kernel import Kernel, compile_kernel
 from solver.integrators import METHODS
 from solver.lanes.advance import advance
 from solver.lanes.observation import observe_rows
-from solver.mechanics.tree import spanning_tree
+from solver.mechanics.tree import Tree, spanning_tree
+from solver.mechanics.view import form
 from solver.scene.document import Scene
+
+_kernels: dict[tuple[str, Tree, str, str], Kernel] = {}
+MOST_KEPT = 16
+"""Kernels that a process keeps for the next job: recording the equations takes 20 ms and more."""
 
 
 def compile_loop() -> None:
@@ -48,8 +53,14 @@ def ready_kernel(scene: Scene, formulation: str, method: str = "tsitouras") -> K
     LimitExceeded
         The scene's equations are too long to compile.
     """
+    tree = spanning_tree(scene)
+    key = (form(scene), tree, formulation, method)
+    if key in _kernels:
+        return _kernels[key]
     aside = compile_loop_aside()
-    kernel = compile_kernel(scene, spanning_tree(scene), formulation, METHODS[method])
+    while len(_kernels) >= MOST_KEPT:
+        _kernels.pop(next(iter(_kernels)))
+    kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method])
     if aside is not None:
         aside.wait()
     return kernel

@@ -7,7 +7,8 @@ Names in the source are the emitter's own; nothing of a scene's text enters it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from solver.compiler.layout import LANES, Layout
 from solver.compiler.recorder import MOST_STATEMENTS, Expression, too_many
@@ -63,9 +64,10 @@ class FixedNodes:
 class _Body:
     """The statements of one lane's loop."""
 
-    def __init__(self, layout: Layout, fixed: FixedNodes | None) -> None:
+    def __init__(self, layout: Layout, fixed: FixedNodes | None, known: Mapping[int, str]) -> None:
         self.layout = layout
         self.fixed = fixed
+        self.known = known
         self.lines: list[str] = []
         self.names: dict[int, str] = {}
 
@@ -85,7 +87,9 @@ class _Body:
         return self.names[node.index]
 
     def state(self, node: Expression) -> None:
-        if node.operation == "variable":
+        if node.index in self.known:
+            self.define(node, self.place(self.layout[self.known[node.index]]))
+        elif node.operation == "variable":
             self.define(node, self.place(self.layout[str(node.data)]))
         elif not node.fixed:
             arguments = [self.operand(argument) for argument in node.arguments]
@@ -97,18 +101,21 @@ def lane_function(
     outputs: Sequence[tuple[str, Expression]],
     layout: Layout,
     fixed: FixedNodes | None = None,
+    known: Mapping[int, str] = MappingProxyType({}),
 ) -> str:
     """Return the source of a function W -> W that evaluates `outputs` (slot name, expression).
+
+    `known` : nodes, by index, that a function called before has left in a slot.
 
     Raises
     ------
     LimitExceeded
         More statements than can be compiled in reasonable time.
     """
-    ordered = reachable(expression for _, expression in outputs)
+    ordered = reachable((expression for _, expression in outputs), known)
     if len(ordered) > MOST_STATEMENTS:
         raise LimitExceeded([too_many(len(ordered))])
-    body = _Body(layout, fixed)
+    body = _Body(layout, fixed, known)
     for node in ordered:
         body.state(node)
     values = [body.operand(expression) for _, expression in outputs]
@@ -125,8 +132,10 @@ def nothing(name: str) -> str:
     return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
 
 
-def reachable(outputs: Iterable[Expression]) -> list[Expression]:
+def reachable(outputs: Iterable[Expression], known: Container[int] = ()) -> list[Expression]:
     """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
+
+    So are `known` nodes, given by their indices.
 
     A fixed node comes where it is first used, so that the order, and with it the source, does not
     depend on what the scene's numbers are computed from.
@@ -139,11 +148,12 @@ def reachable(outputs: Iterable[Expression]) -> list[Expression]:
         if node.index in found:
             continue
         found[node.index] = node
-        if not node.fixed:
+        if not (node.fixed or node.index in known):
             waiting.extend(node.arguments)
     ordered: dict[int, Expression] = {}
     for node in (found[index] for index in sorted(found) if not found[index].fixed):
-        for argument in (*node.arguments, node):
+        needed = () if node.index in known else node.arguments
+        for argument in (*needed, node):
             ordered.setdefault(argument.index, argument)
     for node in wanted:
         ordered.setdefault(node.index, node)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from solver.compiler.emit import reachable
 from solver.compiler.recorder import Expression, Recorder
 from solver.mechanics.lagrange import LagrangeMechanism
 from solver.mechanics.observe import channel_values, ledger_rates, stored_energy
@@ -29,7 +30,7 @@ class Equations:
     play: tuple[str, ...]
     accelerations: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
-    """Rates: driver work, contact loss, friction loss, gross work, then each joint's impulse."""
+    """Rates: contact loss, friction loss, then each driver's work, then each joint's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each joint with play."""
     channels: dict[str, Expression]
@@ -124,3 +125,13 @@ def slopes(equations: Equations) -> list[tuple[str, Expression]]:
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
     return outputs
+
+
+def trigonometry(equations: Equations) -> list[Expression]:
+    """Return the sines and cosines in the right-hand side: what observing needs again."""
+    functions = equations.recorder.functions
+    return [
+        node
+        for node in reachable(expression for _, expression in slopes(equations))
+        if node.index in functions and functions[node.index].name in ("sine", "cosine")
+    ]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from solver.compiler import implicit, scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.equations import Equations, record, slopes
+from solver.compiler.equations import Equations, record, slopes, trigonometry
 from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression
@@ -27,8 +27,8 @@ from solver.mechanics.tree import Tree
 from solver.mechanics.view import view
 from solver.scene.document import Scene
 
-LEDGER = 4
-"""Terms before the joints' impulses: driver work, contact loss, friction loss, gross work."""
+LOSSES = 2
+"""Terms of the ledger before the drivers' works and the joints' impulses."""
 
 
 class CompiledAddress(WrapperAddressProtocol):
@@ -48,7 +48,7 @@ class CompiledAddress(WrapperAddressProtocol):
         return self._signature
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Kernel:
     """Compiled functions over one work array, and what the slots mean."""
 
@@ -116,8 +116,12 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     equations = record(scene, tree, formulation)
     layout = Layout()
     states, joints = 2 * len(equations.coordinates), len(equations.play)
-    ledger = LEDGER + joints
+    drivers = len(equations.drivers)
+    ledger = LOSSES + drivers + joints
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
+    angles = trigonometry(equations)
+    layout.add_block("trigonometry", len(angles))
+    known = {node.index: f"trigonometry{i}" for i, node in enumerate(angles)}
     if isinstance(tableau, Rosenbrock):
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
@@ -125,8 +129,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     layout.add_block("taken", max(rows.scanned, layout["before_y0"] - layout["y0"]))
     layout.add("taken_end")
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
-    layout.add_block("phase", len(equations.drivers))
-    layout.add_block("wound", len(equations.drivers))
+    layout.add_block("phase", drivers)
+    layout.add_block("wound", drivers)
     fixed = FixedNodes(layout)
     steps = (
         implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout)
@@ -134,19 +138,24 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         else stepping.StepRecorder(tableau, states, ledger, joints, layout)
     )
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
+    energies = [
+        ("potential", equations.channels["energy.potential"]),
+        ("stored", equations.channels["stored"]),
+    ]
+    evaluated = slopes(equations) + [(known[node.index], node) for node in angles]
     source = "\n\n".join(
         [
             HEADER,
-            lane_function("right_hand_side", slopes(equations), layout, fixed),
-            lane_function("observe", observed[: rows.scanned], layout, fixed),
-            lane_function("observe_rest", observed[rows.scanned :], layout, fixed),
+            lane_function("right_hand_side", evaluated, layout, fixed),
+            lane_function("observe", observed[: rows.scanned], layout, fixed, known),
+            lane_function("observe_rest", observed[rows.scanned :], layout, fixed, known),
+            lane_function("weigh", energies, layout, fixed, known),
             steps.source(),
             scanning.source(layout, rows.scanned),
             stepping.lend_function(layout["numbers"], layout.size),
         ]
     )
     module = load(source)
-    drivers = len(equations.drivers)
     return Kernel(
         module,
         layout,

@@ -39,6 +39,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     for s in range(1, stages + 1):
         layout.add_block(f"kledger{s}_", ledger)
     layout.add_block("total", ledger)
+    layout.add("gross", "potential", "stored", "potential_start", "stored_start")
     layout.add_block("stage", states)
     layout.add_block("slope", states)
     layout.add_block("ledger", ledger)
@@ -254,7 +255,9 @@ class StepRecorder:
     def _take(self, *, some: bool) -> str:
         """Take the step, in every lane or in those that accept it, and keep the one before.
 
-        Lanes that are over take steps of no length, which change nothing that is handed out.
+        Lanes that are over take steps of no length, which change nothing that is handed out. The
+        gross work grows by the magnitudes of what a step's works come to: of each driver, of
+        gravity, of what contacts store and lose, of friction.
         """
         v = self.variable
         running = v("active")
@@ -271,11 +274,19 @@ class StepRecorder:
         for i in range(self.states // 2, self.states):
             fastest = maximum(fastest, abs(v(f"stage{i}")) * v(f"weight{i}"))
         outputs.append(("fastest", minimum(fastest, v("full"))))
+        gross = v("gross")
+        for energy in ("potential", "stored"):
+            gross = gross + abs(v(energy) - v(f"{energy}_start"))
+            outputs.append((f"{energy}_start", v(energy)))
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
             for s, b in enumerate(self._ledger_weights(), start=1):
                 total = total + b * v(f"kledger{s}_{i}")
-            outputs.append((f"total{i}", v(f"total{i}") + v("tried") * total))
+            added = v("tried") * total
+            outputs.append((f"total{i}", v(f"total{i}") + added))
+            if i < self.ledger - self.joints:
+                gross = gross + abs(added)
+        outputs.append(("gross", gross))
         for j in range(self.joints):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
@@ -293,7 +304,8 @@ class StepRecorder:
             self._copy("k1_0", "slope0", self.states, some=some),
         ]
         ledger = self._copy("kledger1_0", "ledger0", self.ledger, some=some)
-        return "\n".join([rest.rstrip("\n"), *copies, ledger, ""])
+        begun = rest.replace("(W):\n", "(W):\n    weigh(W)\n", 1)
+        return "\n".join([begun.rstrip("\n"), *copies, ledger, ""])
 
     def _mark(self) -> str:
         """Repeat what says which lanes accept their step, as often as flat loops need it."""

@@ -12,7 +12,7 @@ kernel's.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from types import ModuleType
 
 import numpy as np
@@ -62,6 +62,7 @@ class Tangents:
         return values_of([node for _, node in self.fixed], scene)
 
 
+@lru_cache(maxsize=16)
 def compile_tangents(kernel: Kernel) -> Tangents:
     """Derive, emit and load a kernel's tangent functions; seconds when they are not cached.
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.compiler.kernel import LEDGER
+from solver.compiler.kernel import LOSSES
 from solver.errors import SimulationFailed
 from solver.lanes.bundle import Bundle
 from solver.lanes.prescribed import prescribed_peaks
@@ -59,10 +59,14 @@ def contacts_of(bundle: Bundle, lane: int) -> NDArray[np.void]:
 def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     """Energy at the end less at the start must be the work put in less what was lost, J.
 
-    The residual is the error of that; the gross work, the sum of all works without their signs, is
-    what it is to be held against.
+    The residual is the error of that; the gross work, the sum of all works of single steps without
+    their signs, is what it is to be held against.
     """
-    driver, contact, friction, gross = (float(x) for x in bundle.table("total0", LEDGER)[:, lane])
+    drivers = len(bundle.kernel.drivers)
+    contact, friction, *works = (
+        float(x) for x in bundle.table("total0", LOSSES + drivers)[:, lane]
+    )
+    driver, gross = sum(works), float(bundle.table("gross")[0, lane])
     kinetic, potential, stored = (
         float(x) for x in bundle.energy(lane) - bundle.first_energy[:, lane]
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.compiler.kernel import LEDGER
+from solver.compiler.kernel import LOSSES
 from solver.compiler.layout import LANES
 from solver.lanes.problem import LaneProblem
 from solver.lanes.tangent import start_tangent
@@ -47,10 +47,14 @@ def begin(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
         lanes[at[f"approach{j}"]] = rate
         lanes[at[f"onset_time{j}"]] = lanes[at[f"onset_total{j}"]] = 0.0
     module.right_hand_side(bundle.work)
-    ledger = LEDGER + joints
+    ledger = LOSSES + len(kernel.drivers) + joints
     block("k1_0", kernel.states)[:] = block("slope0", kernel.states)
     block("kledger1_0", ledger)[:] = block("ledger0", ledger)
     block("total0", ledger)[:] = 0.0
+    module.weigh(bundle.work)
+    for energy in ("potential", "stored"):
+        lanes[at[f"{energy}_start"]] = lanes[at[energy]]
+    lanes[at["gross"]] = 0.0
     for j in range(joints):
         lanes[at[f"gap_start{j}"]] = lanes[at[f"gap{j}"]]
         lanes[at[f"gap_rate_start{j}"]] = lanes[at[f"gap_rate{j}"]]

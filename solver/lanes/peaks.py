@@ -84,8 +84,8 @@ def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float,
     left = bend(times, values, max(best - 1, 1))
     right = bend(times, values, min(best + 1, last - 1))
     smooth = sense * here < 0.0 and abs(left - here) + abs(right - here) < abs(here)
-    if not smooth:  # a kink, as where contact ends: no polynomial fits, and none is needed
-        return times[best], values[best]
+    if not smooth:  # a kink, as where friction reverses: no polynomial fits
+        return corner(times, values, best, sense)
     after = times[best + 1] - times[best]
     slope = (values[best + 1] - values[best]) / after - here * after
     vertex = times[best] - 0.5 * slope / here
@@ -93,6 +93,39 @@ def extreme(times: np.ndarray, values: np.ndarray, sense: float) -> tuple[float,
         return times[best], values[best]
     first = min(max(best - WINDOW // 2, 0), last + 1 - WINDOW)
     return vertex, interpolate(times, values, first, vertex)
+
+
+@kernel()
+def corner(times: np.ndarray, values: np.ndarray, best: int, sense: float) -> tuple[float, float]:
+    """Time and value where two smooth pieces meet next to the best sample, or that sample itself.
+
+    Each piece is continued by the parabola through its three samples nearest to the gap between
+    two samples in which they meet.
+    """
+    time, value = times[best], values[best]
+    for left in range(max(best - 1, 2), min(best, POINTS - 4) + 1):
+        low, high = times[left], times[left + 1]
+        rise = continued(times, values, left, -1, high) - values[left + 1]
+        fall = values[left] - continued(times, values, left + 1, 1, low)
+        if not sense * fall < 0.0 < sense * rise:
+            continue
+        at = low - fall * (high - low) / (rise - fall)
+        before = continued(times, values, left, -1, at)
+        after = continued(times, values, left + 1, 1, at)
+        met = min(before, after) if sense > 0.0 else max(before, after)
+        if sense * met > sense * value:
+            time, value = at, met
+    return time, value
+
+
+@kernel()
+def continued(times: np.ndarray, values: np.ndarray, i: int, side: int, at: float) -> float:
+    """Value at an instant of the parabola through sample i and two more on one side (-1 or 1)."""
+    first, second = i + side, i + 2 * side
+    slope = (values[first] - values[i]) / (times[first] - times[i])
+    next_slope = (values[second] - values[first]) / (times[second] - times[first])
+    bent = (next_slope - slope) / (times[second] - times[i])
+    return values[i] + (at - times[i]) * (slope + bent * (at - times[first]))
 
 
 @kernel()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 from solver.mechanics.motion import Motion
-from solver.mechanics.scalars import Scalar, absolute
+from solver.mechanics.scalars import Scalar
 
 
 def channel_values(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
@@ -54,33 +54,17 @@ def energies(numbers: SimpleNamespace, motion: Motion) -> tuple[Scalar, Scalar]:
 def ledger_rates(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
     """Return the powers whose integrals make the energy ledger, W, and the contact forces, N.
 
-    ``driver``: work put in by drivers; ``contact``, ``friction``: power lost there; ``gross``: the
-    magnitudes of the powers of each driver, of gravity, of each contact and its friction;
+    ``contact``, ``friction``: power lost there; ``driver:<driver>``: power put in by each;
     ``impulse:<joint>``: normal force, whose integral over a contact is its impulse.
     """
-    gross = absolute(gravity_power(numbers, motion))
-    rates: dict[str, Scalar] = {"driver": 0.0, "contact": 0.0, "friction": 0.0, "gross": gross}
+    rates: dict[str, Scalar] = {"contact": 0.0, "friction": 0.0}
     for name, effort in motion.driver_effort.items():
-        power = effort * motion.driver_speed[name]
-        rates["driver"] = rates["driver"] + power
-        rates["gross"] = rates["gross"] + absolute(power)
+        rates[f"driver:{name}"] = effort * motion.driver_speed[name]
     for name, found in motion.contacts.items():
         rates["contact"] = rates["contact"] + found.contact_loss
         rates["friction"] = rates["friction"] + found.friction_loss
-        work = absolute(found.normal_force * found.penetration_rate)
-        rates["gross"] = rates["gross"] + work + absolute(found.friction_loss)
         rates[f"impulse:{name}"] = found.normal_force
     return rates
-
-
-def gravity_power(numbers: SimpleNamespace, motion: Motion) -> Scalar:
-    """Return the power of gravity on all bodies, W."""
-    gx, gy = numbers.gravity
-    power: Scalar = 0.0
-    for name, body in motion.bodies.items():
-        vx, vy = body.velocity
-        power = power + numbers.bodies[name].mass * (gx * vx + gy * vy)
-    return power
 
 
 def stored_energy(motion: Motion) -> Scalar:

@@ -304,22 +304,12 @@ class StudyRun:
         self.lanes = [found and _run(found, arrays) for found in facts["lanes"]]
 
 
-_kernels: dict[tuple[str, int], tuple[Kernel, Tangents | None]] = {}
-MOST_KEPT = 8
-"""Kernels that a process keeps for the next block: recording the equations takes 0.1 s."""
-
-
 def kernel_of(study: Study, structure: int) -> tuple[Kernel, Tangents | None]:
     """Return the kernel of points of one structure, and its tangents where they are wanted."""
-    key = (study.digest, structure)
-    if key not in _kernels:
-        while len(_kernels) >= MOST_KEPT:
-            _kernels.pop(next(iter(_kernels)))
-        point = int(np.flatnonzero(study.structure == structure)[0])
-        kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
-        wanted = "lyapunov" in study.indicators
-        _kernels[key] = kernel, compile_tangents(kernel) if wanted else None
-    return _kernels[key]
+    point = int(np.flatnonzero(study.structure == structure)[0])
+    kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
+    wanted = "lyapunov" in study.indicators
+    return kernel, compile_tangents(kernel) if wanted else None
 
 
 def _facts(run: PointRun) -> dict[str, Any]:

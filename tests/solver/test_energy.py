@@ -56,9 +56,10 @@ def test_gross_work_counts_what_comes_back() -> None:
         depth = (2.5 * weight * (clearance + depth) / stiffness) ** 0.4
     drop = clearance + depth
     risen = found["journal.y"][-1] + drop
-    # |power| has a kink at the deepest point, inside a step of 1e-2 of the contact
+    # the step of about 2e-2 of the contact in which it turns counts only what it comes to: at most
+    # (pi / 4 * 2e-2)^2 = 2.5e-4 of the contact's work is left out
     assert found.statistics["energy"]["gross_work"] == pytest.approx(
-        weight * (3.0 * drop + risen), rel=1e-4
+        weight * (3.0 * drop + risen), rel=3e-4
     )
 
 

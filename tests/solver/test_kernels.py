@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solver.compiler.kernel import LEDGER, Kernel, compile_kernel
+from solver.compile_loop import ready_kernel
+from solver.compiler.kernel import LOSSES, Kernel, compile_kernel
 from solver.compiler.layout import LANES
 from solver.integrators import TSITOURAS5
 from solver.lanes.bundle import Bundle
@@ -73,7 +74,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         values = dict(zip(names, bundle.table("channel0", len(names))[:, lane], strict=True))
         values |= {f"a{i}": bundle.table(f"slope{count + i}")[0, lane] for i in range(count)}
         values |= {f"v{i}": bundle.table(f"slope{i}")[0, lane] for i in range(count)}
-        ledger = LEDGER + len(kernel.play)
+        ledger = LOSSES + len(kernel.drivers) + len(kernel.play)
         values |= {f"ledger{i}": bundle.table(f"ledger{i}")[0, lane] for i in range(ledger)}
         values.pop("stored")
         found.append(values)
@@ -156,6 +157,14 @@ def test_structure_selects_the_kernel() -> None:
     assert len({kernel.module for kernel in kernels}) == 3
     other_exponent = preset("bouncing-journal", friction=0.0, exponent=2.0)
     assert kernel_of(other_exponent).module is kernels[2].module
+
+
+def test_a_process_keeps_the_kernel_of_a_structure() -> None:
+    kept = ready_kernel(preset("bouncing-journal"), "reduced")
+    assert ready_kernel(preset("bouncing-journal", clearance=2e-4), "reduced") is kept
+    assert ready_kernel(preset("bouncing-journal"), "lagrange") is not kept
+    for scene in (preset("bouncing-journal", friction=0.0), preset("bouncing-journal")):
+        assert ready_kernel(scene, "reduced").module is kernel_of(scene).module
 
 
 CACHE_STATISTICS = """
