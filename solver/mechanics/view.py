@@ -34,8 +34,8 @@ def view(scene: Scene, number: NumberOf = plain_number) -> SimpleNamespace:
 
 
 def form(scene: Scene) -> str:
-    """Return what the form of a scene's equations depends on: equal for scenes of one structure."""
-    return repr(view(scene, lambda _path, _value: None))
+    """Return what a scene's equations and outputs depend on, but for numbers of a run."""
+    return repr((view(scene, lambda _path, _value: ...), scene.outputs))
 
 
 class _View:

@@ -163,6 +163,8 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
     kept = ready_kernel(preset("bouncing-journal"), "reduced")
     assert ready_kernel(preset("bouncing-journal", clearance=2e-4), "reduced") is kept
     assert ready_kernel(preset("bouncing-journal"), "lagrange") is not kept
+    given_or_derived = [preset("seven-bar-press", **p) for p in ({}, {"stiffness": 5e9})]
+    assert len({id(ready_kernel(scene, "reduced")) for scene in given_or_derived}) == 2
     for scene in (preset("bouncing-journal", friction=0.0), preset("bouncing-journal")):
         assert ready_kernel(scene, "reduced").module is kernel_of(scene).module
 
