@@ -9,6 +9,7 @@ ALL = (
     "peers",
     "adams",
     "accuracy",
+    "stiffness",
     "exponent",
     "sweep",
     "extremes",

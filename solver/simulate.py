@@ -28,6 +28,16 @@ from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Setting, Status
 from solver.results import Floats, Slice, Summary
 from solver.scene.document import Scene
+from solver.stiffness import (
+    IMPLICIT,
+    attempts_left,
+    is_open,
+    joined,
+    reason_for,
+    stiff,
+    tightened,
+    withheld,
+)
 
 SLICE_SECONDS = 0.1
 """Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
@@ -96,12 +106,11 @@ class DynamicRun:
     def __init__(self, admission: Admission, scene: Scene) -> None:
         self.admission = admission
         job = admission.job
-        self.kernel = ready_kernel(scene, job["formulation"], admission.method)
         offset = 0.0
         if admission.period is not None:
             angle = job["section"]["crank_angle"]
             offset = section_offset(scene, admission.period, angle)
-        problem = LaneProblem(
+        self.problem = LaneProblem(
             scene,
             job["duration"],
             admission.tolerance,
@@ -111,39 +120,70 @@ class DynamicRun:
             offset,
             step=job["step"],
         )
-        self.bundle = Bundle(self.kernel, [problem])
-        self.survey = (
-            Survey(self.bundle, problem, job["formulation"]) if job["certificate"] else None
-        )
-        rows = self.kernel.rows
-        self.columns = np.array([rows.index(c.name) for c in admission.channels], dtype=np.int64)
         self.seconds = 0.0
+        self.open = is_open(admission)
+        """Whether the method is still to be chosen."""
+        self._start(admission.method, reason_for(admission))
+
+    def _start(self, method: str, reason: str) -> None:
+        """Begin with a method."""
+        formulation, problem = self.admission.job["formulation"], self.problem
+        if method != self.admission.method:
+            problem = tightened(problem)
+        self.reason = reason
+        self.kernel = ready_kernel(problem.scene, formulation, method)
+        self.bundle = Bundle(self.kernel, [problem])
+        certified = self.admission.job["certificate"]
+        self.survey = Survey(self.bundle, problem, formulation) if certified else None
+        rows, channels = self.kernel.rows, self.admission.channels
+        self.columns = np.array([rows.index(c.name) for c in channels], dtype=np.int64)
         self.samples_done = 0
         self.sections_done = 0
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
         budget = FIRST_BUDGET
+        held: list[Slice] = []
         while self._runs():
             begun = time.perf_counter()
-            (self.survey or self.bundle).advance(budget)
+            allowed = min(budget, attempts_left(self.bundle)) if self.open else budget
+            (self.survey or self.bundle).advance(allowed)
             found = self._slice()
             spent = time.perf_counter() - begun
             self.seconds += spent
             budget = int(min(max(budget * SLICE_SECONDS / spent, 100), LARGEST_BUDGET, 4 * budget))
+            if self.open:
+                held.append(found)
+                if attempts_left(self.bundle):
+                    yield withheld(found)
+                    continue
+                found = joined(held) if self._goes_on() else withheld(found)
             yield found
         status = Status(self.bundle.counters[Counter.STATUS, LANE])
         if status != Status.DONE:
             raise failure_of(self.bundle, LANE, self.admission.tolerance)
 
+    def _goes_on(self) -> bool:
+        """Choose the method: whether the run goes on, or begins again with the implicit one."""
+        begun = time.perf_counter()
+        self.open = False
+        reason = stiff(self.bundle, self.problem, self.admission.job["formulation"])
+        if reason:
+            self._start(IMPLICIT, reason)
+        self.seconds += time.perf_counter() - begun
+        return not reason
+
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""
         facts = {
+            "method": self.kernel.tableau.name,
+            "reason": self.reason,
+            "open": self.open,
             "solver_seconds": self.seconds,
             "samples": self.samples_done,
             "sections": self.sections_done,
         }
-        arrays = self.survey.checkpoint() if self.survey else {}
+        arrays = self.survey.checkpoint() if self.survey and not self.open else {}
         arrays["state"] = np.frombuffer(self.bundle.state(), dtype=np.uint8)
         arrays["facts"] = np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8)
         buffer = io.BytesIO()
@@ -154,10 +194,14 @@ class DynamicRun:
         """Continue from a checkpoint."""
         with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
             facts = json.loads(saved["facts"].tobytes())
+            self.seconds, self.open = facts["solver_seconds"], facts["open"]
+            if self.open:  # nothing was handed out: from the start
+                return
+            if facts["method"] != self.kernel.tableau.name:
+                self._start(facts["method"], facts["reason"])
             self.bundle.restore(saved["state"].tobytes())
             if self.survey:
                 self.survey.restore(saved)
-        self.seconds = facts["solver_seconds"]
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
 
     def summary(self) -> Summary:
@@ -165,6 +209,7 @@ class DynamicRun:
         names = [channel.name for channel in self.admission.channels]
         statistics = statistics_of(self.bundle, LANE) | {
             "method": self.kernel.tableau.name,
+            "method_reason": self.reason,
             "solver_seconds": self.seconds,
         }
         return Summary(peaks_of(self.bundle, LANE, names), statistics)

@@ -123,6 +123,10 @@ class Statistics(BaseModel):
     complete: bool = Field(
         description="False: the job runs, or failed or was cancelled on the way."
     )
+    method: str | None = Field(default=None, description="The integration method that ran.")
+    method_reason: str | None = Field(
+        default=None, description="Why: asked for, not stiff, stiff, or as the tolerance wants it."
+    )
     steps: int | None = Field(default=None, description="Accepted steps of the integrator.")
     rejections: int | None = Field(default=None, description="Steps that were tried again.")
     onsets: int | None = Field(default=None, description="Contacts that began.")

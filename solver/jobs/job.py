@@ -84,9 +84,9 @@ class Job(MechanismJob):
         Method,
         Field(
             description=(
-                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it; rodas:"
-                " implicit, for stiff contact; rk4: a fixed step, without error control or located"
-                " onsets"
+                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it, or rodas"
+                " where the run turns out to be stiff; rodas: implicit; rk4: a fixed step, without"
+                " error control or located onsets"
             )
         ),
     ] = "auto"
