@@ -10,7 +10,7 @@ import math
 from itertools import pairwise
 
 from solver.compiler.emit import HEADER, lane_function
-from solver.compiler.kernel import LEDGER, Kernel
+from solver.compiler.kernel import Kernel
 from solver.compiler.lane_functions import exp2, log2
 from solver.compiler.recorder import Expression, Recorder
 from solver.mechanics.scalars import maximum, minimum, select_positive
@@ -34,7 +34,7 @@ class AdamsRecorder:
 
     def __init__(self, kernel: Kernel, highest: int) -> None:
         self.states, self.joints, self.highest = kernel.states, len(kernel.play), highest
-        self.ledger = LEDGER + self.joints
+        self.ledger = len(kernel.equations.ledger)
         self.layout, self.recorder = kernel.layout.copy(), Recorder()
         self.layout.add(*SLOTS, *ESTIMATES)
         for name in ("spacing", "inverse", "new_inverse", "scale", "factor"):
