@@ -16,20 +16,26 @@ _GAP: Final = 2.0
 def spread(figure: Figure) -> None:
     """Leave out every second number of an axis where they would run into each other.
 
-    Only a drawn page tells: numbers such as 0.49925 are wider than their count lets expect.
+    Only a page that is laid out tells: numbers such as 0.49925 are wider than their count lets
+    expect. The layout then stays as it is, for it takes as long as drawing.
     """
     from matplotlib.ticker import FixedLocator
 
-    figure.draw_without_rendering()
+    engine = figure.get_layout_engine()
+    if engine is None:
+        return
+    engine.execute(figure)
     gap = _GAP * figure.dpi / 72.0
     for axes in figure.axes:
         while len(places := _crowded(axes.xaxis, gap)) > 1:
             axes.xaxis.set_major_locator(FixedLocator(places[::2]))
-            figure.draw_without_rendering()
+            engine.execute(figure)
+    figure.set_layout_engine("none")
 
 
 def _crowded(axis: Axis, gap: float) -> list[float]:
     """Give the places of an axis's numbers if two of them touch, else none."""
+    axis.get_tightbbox(None)  # brings the numbers up to date with the page
     low, high = sorted(axis.get_view_interval())
     shown = sorted(
         (box.x0, box.x1, float(tick.get_loc()))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from jointplay import figures
 from jointplay.dataset import Channel, Dataset
@@ -89,3 +90,14 @@ def test_units_of_the_power_are_those_of_the_channel_squared_a_hertz():
         "(N·m)²/Hz",
         "1/Hz",
     ]
+
+
+@pytest.mark.parametrize("samples", [4000, 4001, 777])
+def test_the_power_is_that_of_welch(samples):
+    noise = np.random.default_rng(2).normal(1.0, 1.0, samples)
+    frequency, power, _ = curve(sampled(samples, 100.0, noise=lambda t: noise), "noise")
+    length = round(100.0 / (frequency[1] - frequency[0]))
+    there, expected = signal.welch(noise, 100.0, "hann", nperseg=length)
+    np.testing.assert_allclose(frequency, there[1:], rtol=1e-12)
+    # the same sums of up to 4000 numbers in another order
+    np.testing.assert_allclose(power, expected[1:], rtol=1e-9)
