@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from solver.compiler.cache import cache_folder
+from solver.compiler.cache import cache_folder, without_collection
 from solver.compiler.kernel import Kernel, compile_kernel
 from solver.integrators import METHODS
 from solver.lanes.advance import advance
@@ -26,8 +26,9 @@ MOST_KEPT = 16
 
 def compile_loop() -> None:
     """Compile what every run shares, or load it from the cache."""
-    advance.compile()
-    observe_rows.compile()
+    with without_collection():
+        advance.compile()
+        observe_rows.compile()
     _marker().touch()
 
 

@@ -45,7 +45,7 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 
 
 def _draw(source: Source, selection: Selection) -> Figure:
-    from matplotlib.ticker import NullFormatter, StrMethodFormatter
+    from matplotlib.ticker import NullLocator, StrMethodFormatter
 
     names = _channels(source, selection)
     end = float(_of(source).attributes["horizon"])
@@ -71,7 +71,7 @@ def _draw(source: Source, selection: Selection) -> Figure:
         axes.plot(time / seconds.factor, drawn, color=page.BLUE, label="estimated error")
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
-        axes.yaxis.set_minor_formatter(NullFormatter())
+        axes.yaxis.set_minor_locator(NullLocator())  # a low panel has room for decades
         horizon.shade(axes, spans, seconds.factor)
         if time[0] <= end <= time[-1]:
             axes.axvline(

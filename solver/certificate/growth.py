@@ -8,7 +8,7 @@ grow, and how unevenly they do.
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,15 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.certificate.companions import RUN, TIGHTEST, Companions
-from solver.compiler.kernel import Kernel
 from solver.compiler.layout import LANES
-from solver.compiler.tangents import Tangents, compile_tangents
+from solver.compiler.tangents import Tangents
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem, LaneStart
 from solver.lanes.state import Counter, Status
 from solver.lanes.tangent import tangent_length
-from solver.scene.document import Scene
-from solver.scene.structure import structure_of
 
 Floats = NDArray[np.float64]
 
@@ -32,25 +29,6 @@ SHARE, FEWEST, MOST = 0.05, 200, 1_000_000
 """Steps of a window: a share of the run's, within bounds."""
 ALIGNING = 0.25
 """Share of a window in which a tangent turns to the direction that grows fastest."""
-
-
-_known: dict[tuple[Hashable, str], Tangents] = {}
-MOST_KNOWN = 8
-"""Tangents that a process keeps for the next run of the same structure: to derive them again takes
-as long as a revolution of the press."""
-
-
-def tangents_of(kernel: Kernel, scene: Scene) -> Tangents:
-    """Return a kernel's tangents; seconds when they are not compiled.
-
-    The digest of its source, which names a kernel's module, tells methods and formulations apart.
-    """
-    key = (structure_of(scene), kernel.module.__name__)
-    if key not in _known:
-        while len(_known) >= MOST_KNOWN:
-            _known.pop(next(iter(_known)))
-        _known[key] = compile_tangents(kernel)
-    return _known[key]
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from solver.certificate.certificate import Certificate, certify
 from solver.certificate.companions import RUN, Companions
-from solver.certificate.growth import Windows, tangents_of
+from solver.certificate.growth import Windows
 from solver.certificate.violation import Violation
 from solver.channels import Channel
+from solver.compiler.tangents import compile_tangents
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem
 from solver.lanes.state import Counter, Status
@@ -24,7 +25,7 @@ class Survey:
     def __init__(self, bundle: Bundle, problem: LaneProblem, formulation: str) -> None:
         """Load companions; compile tangents, which takes seconds when they are not cached."""
         self.bundle, self.problem = bundle, problem
-        self.tangents = tangents_of(bundle.kernel, problem.scene)
+        self.tangents = compile_tangents(bundle.kernel)
         self.companions = Companions.beside(bundle, problem)
         self.violation = Violation(problem.scene) if formulation == "lagrange" else None
         self.windows: Windows | None = None

@@ -23,7 +23,7 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
 
     @wraps(function)
     def remembered(scene: Scene) -> Found:
-        key = structure_of(scene)
+        key = _structure(scene)
         found = known.get(key)
         if found is None:
             while len(known) >= MOST_KEPT:
@@ -34,7 +34,7 @@ def per_structure(function: Callable[[Scene], Found]) -> Callable[[Scene], Found
     return remembered
 
 
-def structure_of(scene: Scene) -> Hashable:
+def _structure(scene: Scene) -> Hashable:
     """Return what scenes of one structure have in common, to look things up by."""
     return (
         tuple(scene.bodies),
