@@ -12,9 +12,10 @@ from sqlalchemy.exc import SQLAlchemyError
 from storage.catalogue import Catalogue, Glance
 
 _PERIOD = 0.01
-"""Seconds between two looks while they find something new, or have not for long; growing to ..."""
+"""Seconds between two looks when somebody begins to wait; growing to ..."""
 _LONGEST_PERIOD = 0.1
-_GROWTH = 1.03  # so that this takes seconds: most jobs that are waited for are short
+_GROWTH = 1.04  # so that this takes seconds: most jobs that are waited for are short, and what
+# looks often at one that is not takes a tenth of a core from those who compute it
 _AT_ONCE = 500  # jobs in one question to the database
 _log = logging.getLogger(__name__)
 
@@ -85,11 +86,10 @@ class Watcher:
         while self._watches:
             self._woken.clear()
             try:
-                changed = self._show(await self._glances(list(self._watches)))
+                self._show(await self._glances(list(self._watches)))
             except SQLAlchemyError as error:
                 _log.warning("the catalogue does not answer, looking again: %s", error)
-                changed = False
-            pause = _PERIOD if changed else min(_GROWTH * pause, _LONGEST_PERIOD)
+            pause = min(_GROWTH * pause, _LONGEST_PERIOD)
             try:
                 await asyncio.wait_for(self._woken.wait(), pause)
                 pause = _PERIOD
@@ -102,14 +102,11 @@ class Watcher:
             found += await run_in_threadpool(self._catalogue.glances, some)
         return found
 
-    def _show(self, glances: list[Glance]) -> bool:
-        changed = False
+    def _show(self, glances: list[Glance]) -> None:
         for glance in glances:
             for watch in self._watches.get(glance.job, ()):
                 if watch.latest != glance:
                     watch.show(glance)
-                    changed = True
-        return changed
 
 
 def _batched(jobs: list[str]) -> Iterator[list[str]]:
