@@ -116,12 +116,21 @@ def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Express
 
 
 def slopes(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return what the right-hand side writes: (slot name, expression)."""
-    recorder: Recorder = equations.recorder
+    """Return what every stage of a step needs: (slot name, expression).
+
+    The slopes of the coordinates are the stage's speeds and need not be written.
+    """
     count = len(equations.coordinates)
-    outputs = [(f"slope{i}", recorder.variable(f"stage{count + i}")) for i in range(count)]
-    outputs += [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
+    outputs = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
     outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
+    return outputs
+
+
+def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
+    """Return what is needed where a step ends: all slopes, the ledger's, and the gaps."""
+    count = len(equations.coordinates)
+    speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
+    outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
     return outputs
@@ -132,6 +141,6 @@ def trigonometry(equations: Equations) -> list[Expression]:
     functions = equations.recorder.functions
     return [
         node
-        for node in reachable(expression for _, expression in slopes(equations))
+        for node in reachable(expression for _, expression in right_hand_side(equations))
         if node.index in functions and functions[node.index].name in ("sine", "cosine")
     ]

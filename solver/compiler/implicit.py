@@ -159,7 +159,7 @@ def solve(W):
         v, gamma = self.variable, self.method.gamma
         outputs: list[tuple[str, Expression]] = []
         for i in range(self.states):
-            total = v(f"k1_{i}" if s == 1 else f"slope{i}")
+            total = v(f"k1_{i}") if s == 1 else self._inner_slope(i)
             total = total + (self.method.drifts[s - 1] * v("tried")) * v(f"drift{i}")
             for j, c in enumerate(self.method.couplings[s - 1], start=1):
                 total = total + c * v(f"k{j + 1}_{i}")
@@ -207,7 +207,7 @@ def solve(W):
     def _calls(self) -> list[str]:
         calls = ["start(W)", "jacobian(W)", "right_1(W)", "solve(W)"]
         for s in range(2, len(self.method.nodes) + 1):
-            calls += [f"point_{s}(W)", "right_hand_side(W)", f"right_{s}(W)", "solve(W)"]
+            calls += [f"point_{s}(W)", "slopes(W)", f"right_{s}(W)", "solve(W)"]
         for name in ("inner_1", "inner_2", "finish"):
             calls += [f"{name}(W)", "right_hand_side(W)"]
         return calls

@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from solver.compiler import implicit, scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.equations import Equations, record, slopes, trigonometry
+from solver.compiler.equations import (
+    Equations,
+    record,
+    right_hand_side,
+    slopes,
+    trigonometry,
+)
 from solver.compiler.lane_functions import FOLD
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression
@@ -142,10 +148,11 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         ("potential", equations.channels["energy.potential"]),
         ("stored", equations.channels["stored"]),
     ]
-    evaluated = slopes(equations) + [(known[node.index], node) for node in angles]
+    evaluated = right_hand_side(equations) + [(known[node.index], node) for node in angles]
     source = "\n\n".join(
         [
             HEADER,
+            lane_function("slopes", slopes(equations), layout, fixed),
             lane_function("right_hand_side", evaluated, layout, fixed),
             lane_function("observe", observed[: rows.scanned], layout, fixed, known),
             lane_function("observe_rest", observed[rows.scanned :], layout, fixed, known),

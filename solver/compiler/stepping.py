@@ -91,8 +91,9 @@ class StepRecorder:
 
     def _calls(self) -> list[str]:
         """Return what an attempt calls before the judge, in its order."""
-        stages = range(2, self.tableau.stages + 1)
-        return [call for s in stages for call in (f"stage_{s}(W)", "right_hand_side(W)")]
+        last = self.tableau.stages
+        inner = [call for s in range(2, last) for call in (f"stage_{s}(W)", "slopes(W)")]
+        return [*inner, f"stage_{last}(W)", "right_hand_side(W)"]
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return self.tableau.matrix[-1]
@@ -110,11 +111,12 @@ class StepRecorder:
         weights = self.tableau.matrix[s - 1]
         step = self._tried() if s == 2 else v("tried")
         outputs: list[tuple[str, Expression]] = [("tried", step)] if s == 2 else []
-        slopes = [f"k{j}_" for j in range(1, s - 1)] + ["k1_" if s == 2 else "slope"]
         for i in range(self.states):
+            slopes = [v(f"k{j}_{i}") for j in range(1, s - 1)]
+            slopes.append(v(f"k1_{i}") if s == 2 else self._inner_slope(i))
             total: Expression = self.recorder.constant(0.0)
             for a, slope in zip(weights, slopes, strict=True):
-                total = total + a * v(f"{slope}{i}")
+                total = total + a * slope
             outputs.append((f"stage{i}", v(f"y{i}") + step * total))
         node = self.tableau.nodes[s - 1]
         moment = v("time") + node * step
@@ -122,14 +124,22 @@ class StepRecorder:
         if s == self.tableau.stages:
             outputs.append(("arrival", moment))
         if s > 2:
-            outputs += self._kept(s - 1)
+            outputs += [(f"k{s - 1}_{i}", self._inner_slope(i)) for i in range(self.states)]
+            outputs += self._kept_ledger(s - 1)
         return self._function(f"stage_{s}", outputs)
 
+    def _inner_slope(self, i: int) -> Expression:
+        """Slope of state i at the stage just evaluated: of a coordinate, the stage's speed."""
+        count = self.states // 2
+        return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
+
+    def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:
+        return [(f"kledger{s}_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
+
     def _kept(self, s: int) -> list[tuple[str, Expression]]:
-        v = self.variable
-        kept = [(f"k{s}_{i}", v(f"slope{i}")) for i in range(self.states)]
-        kept += [(f"kledger{s}_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
-        return kept
+        """Keep the slopes where the step ends."""
+        kept = [(f"k{s}_{i}", self.variable(f"slope{i}")) for i in range(self.states)]
+        return kept + self._kept_ledger(s)
 
     def _judge(self) -> str:
         """Error of the step, the next step size, and what needs attention."""
