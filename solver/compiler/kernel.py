@@ -12,7 +12,7 @@ import numpy as np
 from numba.core.types.function_type import WrapperAddressProtocol
 from numpy.typing import NDArray
 
-from solver.compiler import implicit, scanning, stepping
+from solver.compiler import implicit, probing, scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
 from solver.compiler.equations import (
@@ -159,7 +159,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             lane_function("weigh", energies, layout, fixed, known),
             steps.source(),
             scanning.source(layout, rows.scanned),
-            stepping.lend_function(layout["numbers"], layout.size),
+            probing.lend_function(layout["numbers"], layout.size),
         ]
     )
     module = load(source)
