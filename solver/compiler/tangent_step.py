@@ -81,7 +81,7 @@ def carry_0(W):
         outputs += [(f"passing{i}", self._passed(share, i)) for i in range(self.states)]
         for i in range(self.states):
             begun = v(f"middle{i}") if half else v(f"tangent{i}")
-            slope = v(f"carried_slope{i}")
+            slope = self._slope(i)
             if stage == 0:
                 middle = self._after_half(v(f"tangent{i}"), i)
                 outputs += [(f"middle{i}", middle), (f"carried{i}", middle)]
@@ -90,6 +90,12 @@ def carry_0(W):
             outputs.append((f"carried{i}", begun + (0.5 * NODES[stage]) * v("tried") * slope))
             outputs.append((f"{kept}{i}", slope))
         return lane_function(f"carry_{s}", outputs, self.layout)
+
+    def _slope(self, i: int) -> Expression:
+        """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
+        count = self.states // 2
+        name = f"carried{count + i}" if i < count else f"carried_slope{i}"
+        return self.recorder.variable(name)
 
     def _passed(self, share: float, i: int) -> Expression:
         """State i after a share of the step: the cubic through both ends and their slopes."""
@@ -101,7 +107,7 @@ def carry_0(W):
 
     def _after_half(self, begun: Expression, i: int) -> Expression:
         v = self.recorder.variable
-        slopes = [v(f"{name}_slope{i}") for name in ("first", "second", "carried")]
+        slopes = [v(f"first_slope{i}"), v(f"second_slope{i}"), self._slope(i)]
         return begun + 0.5 * v("tried") * _sum(WEIGHTS, slopes)
 
     def _arrive(self) -> str:

@@ -130,10 +130,7 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
         along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
     kinks.bend(derivative, bends)
-    outputs = [
-        (f"carried_slope{i}", recorder.variable(f"carried{count + i}")) for i in range(count)
-    ]
-    outputs += [
+    outputs = [  # the slopes of coordinates are the carried speeds
         (f"carried_slope{count + i}", derivative(acceleration))
         for i, acceleration in enumerate(equations.accelerations)
     ]
