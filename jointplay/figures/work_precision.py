@@ -17,7 +17,7 @@ from jointplay.study_source import StudySource
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_HEIGHT = 110.0  # mm
+_PANEL_HEIGHT = 55.0  # mm
 _LEGEND_COLUMNS = 3  # names of methods are long
 _STYLES = (
     (page.BLUE, "o", "-"),
@@ -46,11 +46,16 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
         raise NotDrawable("No run has been compared with the reference yet.")
     admitted = np.array([run["admitted"] for run in runs])
     cost = _column(source, "evaluations")
-    figure, ((above,), (below,)) = page.panels(2, 1, _HEIGHT, share_x=True)
+    drawn = {"error": errors, "energy astray / losses": _column(source, "astray")}
+    if not (drawn["energy astray / losses"][measured] > 0.0).any():  # nothing takes any
+        del drawn["energy astray / losses"]
+    height = _PANEL_HEIGHT * len(drawn)
+    figure, grid = page.panels(len(drawn), 1, height, share_x=True)
+    above, last = grid[0][0], grid[-1][0]
     methods = dict.fromkeys(runs[i]["method"] for i in measured)
     for name, (colour, mark, dashes) in zip(methods, _STYLES, strict=False):
         chosen = np.array([i for i in measured if runs[i]["method"] == name])
-        for axes, values in ((above, errors), (below, _column(source, "astray"))):
+        for (axes,), values in zip(grid, drawn.values(), strict=True):
             shown = chosen[values[chosen] > 0.0]
             axes.plot(cost[shown], values[shown], color=colour, linestyle=dashes, label=name)
             for inside, each in ((colour, admitted[shown]), ("white", ~admitted[shown])):
@@ -63,7 +68,7 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
                     markerfacecolor=inside,
                     markeredgewidth=0.6,
                 )
-    for axes, label in ((above, "error"), (below, "energy astray / losses")):
+    for (axes,), label in zip(grid, drawn, strict=True):
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_ylabel(label)
@@ -75,8 +80,9 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
         low = min(above.get_ylim()[0], uncertainty)
         above.axhspan(0.1 * low, uncertainty, color=page.SHADE, linewidth=0.0)
         above.set_ylim(bottom=low)
-    below.axhline(_MOST_ASTRAY, color=page.GREY, linewidth=0.6, linestyle="--")
-    below.set_xlabel("evaluations; what jobs may not ask for is open")
+    if last is not above:
+        last.axhline(_MOST_ASTRAY, color=page.GREY, linewidth=0.6, linestyle="--")
+    last.set_xlabel("evaluations; what jobs may not ask for is open")
     figure.align_ylabels()
     names = above.get_legend_handles_labels()
     figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)

@@ -178,18 +178,17 @@ def solve(W):
         if place == 1:
             outputs += self._stored(len(self.method.nodes))
         else:
-            outputs += [(f"kledger2_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
+            outputs += self._kept_ledger(2)
         return self._function(f"inner_{place}", outputs)
 
     def _finish(self) -> str:
         v = self.variable
         outputs = [(f"stage{i}", self._moved(self.method.weights, i)) for i in range(self.states)]
         outputs += [("stage_time", v("time") + v("tried")), ("arrival", v("time") + v("tried"))]
-        outputs += [(f"kledger3_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
-        return self._function("finish", outputs)
+        return self._function("finish", outputs + self._kept_ledger(3))
 
     def _kept(self, s: int) -> list[tuple[str, Expression]]:
-        return [(f"kledger4_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
+        return self._kept_ledger(4)
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return LOBATTO

@@ -51,8 +51,7 @@ def _scan(layout: Layout, rows: int, *, some: bool) -> str:
             f"change {kept} rose",
             f"within {kept} 0.0",
         )
-    body = f"""    candidates = 0
-    for i in range({rows * LANES}):
+    body = f"""    for i in range({rows * LANES}):
         value = W[{at["channel"]} + i]
         before = W[{at["previous"]} + i]
         rose = W[{at["change"]} + i]
@@ -64,13 +63,9 @@ def _scan(layout: Layout, rows: int, *, some: bool) -> str:
         uneven = rose + change
         within = {LOPSIDED} * uneven * uneven + ({SPARE} * both - nearest) * both
         within = 0.0 if rose * change > 0.0 else within
-        within = {found}
-        candidates += 1 if within > 0.0 else 0
-        W[{at["channel"]} + i] = within
+        W[{at["channel"]} + i] = {found}
         W[{at["previous"]} + i] = {value}
-        W[{at["change"]} + i] = {change}
-    if candidates == 0:
-        return 0.0"""
+        W[{at["change"]} + i] = {change}"""
     name = "scan_some" if some else "scan"
     return "\n".join([RETURNING, f"def {name}(W):", body, _largest(layout, at, rows)])
 

@@ -135,6 +135,12 @@ def test_errors_stand_over_evaluations_and_what_is_refused_is_open():
     assert opened.get_markerfacecolor() == "white"
 
 
+def test_where_nothing_takes_energy_there_is_no_panel_of_it():
+    (only,) = drawn_with(accuracy_study(lossless=True), "work-precision", None).axes
+    assert only.get_ylabel() == "error"
+    assert only.get_xlabel().startswith("evaluations")
+
+
 def test_work_and_precision_are_drawn_of_what_has_been_compared():
     with pytest.raises(NotDrawable, match="No run has been compared"):
         figures.draw(accuracy_study(2), "work-precision")

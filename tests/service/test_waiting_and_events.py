@@ -84,7 +84,7 @@ def test_many_may_wait_at_once(http, service_url, worker):
     threads = [threading.Thread(target=wait) for _ in range(60)]
     for thread in threads:
         thread.start()
-    time.sleep(0.5)
+    time.sleep(0.5)  # for the sixty requests to arrive, which nothing tells from outside
     assert http.get("/healthz").is_success
     worker.finish(claim, BlockState.done)
     for thread in threads:

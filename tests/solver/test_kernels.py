@@ -163,6 +163,14 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
     kept = ready_kernel(preset("bouncing-journal"), "reduced")
     assert ready_kernel(preset("bouncing-journal", clearance=2e-4), "reduced") is kept
     assert ready_kernel(preset("bouncing-journal"), "lagrange") is not kept
+    outputs = preset("bouncing-journal").model_dump(mode="json")
+    outputs["outputs"].append(
+        {"name": "twice", "channel": "journal.y", "factor": 2.0, "offset": 0.0, "help": "Twice y."}
+    )
+    shifted = {**outputs, "outputs": [dict(each) for each in outputs["outputs"]]}
+    shifted["outputs"][-1]["offset"] = 1.0
+    kernels = [ready_kernel(Scene.model_validate(each), "reduced") for each in (outputs, shifted)]
+    assert [each.rows.multiples["twice"][2] for each in kernels] == [0.0, 1.0]
     given_or_derived = [preset("seven-bar-press", **p) for p in ({}, {"stiffness": 5e9})]
     assert len({id(ready_kernel(scene, "reduced")) for scene in given_or_derived}) == 2
     for scene in (preset("bouncing-journal", friction=0.0), preset("bouncing-journal")):
