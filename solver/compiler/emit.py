@@ -1,48 +1,35 @@
-"""Writes recorded expressions as Python source: one straight line of arithmetic over eight lanes.
+"""Writes recorded expressions as tapes: straight lines of arithmetic over eight lanes.
 
-What makes the loop vectorise was measured: no library call, no branch but selects, and one flat
-array with constant offsets, so that the compiler needs no run-time check for aliasing.
-Names in the source are the emitter's own; nothing of a scene's text enters it.
+What makes them fast was measured: no library call, no branch but selects, and one flat array with
+constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from types import MappingProxyType
 
-from solver.compiler.layout import LANES, Layout
+from solver.compiler.layout import Layout
 from solver.compiler.recorder import MOST_STATEMENTS, Expression, too_many
 from solver.errors import LimitExceeded
 
-FORMATS = {
-    "add": "{} + {}",
-    "sub": "{} - {}",
-    "mul": "{} * {}",
-    "div": "{} / {}",
-    "neg": "-{}",
-    "abs": "abs({})",
-    "sqrt": "sqrt({})",
-    "floor": "floor({})",
-    "select": "{1} if {0} > 0.0 else {2}",
-    "exponent_of": "exponent_of({})",
-    "mantissa_of": "mantissa_of({})",
-    "power_of_two": "power_of_two({})",
-}
-
 HEADER = '''"""A generated kernel: see solver.compiler."""
 
-from math import sqrt
-
 from numba import float64, int64, njit, void
-from numpy import floor
 
-from solver.compiler.bits import exponent_of, mantissa_of, power_of_two
+from solver.compiler.straight_line import over_lanes, over_one_lane, over_rows
 
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
 '''
 DECORATOR = "@njit(void(float64[::1]), **options)"
 RETURNING = "@njit(float64(float64[::1]), **options)"
-PROBING = "@njit(void(float64[::1], float64[::1], int64), **options)"
+
+Outputs = Sequence[tuple[str, Expression]]
+"""Slot name and what is to be in it."""
+Known = Mapping[Expression, str]
+"""Expressions that a function called before has left in a slot, given by its name."""
+NONE: Known = MappingProxyType({})
 
 
 class FixedNodes:
@@ -52,79 +39,162 @@ class FixedNodes:
         self.layout = layout
         self.nodes: dict[int, Expression] = {}
 
-    def slot(self, node: Expression) -> int:
-        """Return the slot that holds the node's value, giving it one on first use."""
+    def slot(self, node: Expression) -> str:
+        """Return the name of the slot that holds the node's value, giving it one on first use."""
         name = f"fixed{node.index}"
         if name not in self.layout:
             self.layout.add(name)
             self.nodes[node.index] = node
-        return self.layout[name]
+        return name
 
 
-class _Body:
-    """The statements of one lane's loop."""
+class Tape:
+    """Statements in their order; a value is named by its number, so equal equations look alike.
 
-    def __init__(self, layout: Layout, fixed: FixedNodes | None, known: Mapping[int, str]) -> None:
-        self.layout = layout
-        self.fixed = fixed
-        self.known = known
+    Parameters
+    ----------
+    fixed
+        Collects what depends on the scene's numbers alone; None: there is no such expression.
+    known
+        What need not be computed again.
+    fetch
+        How a slot is read, by its name; None: all its lanes.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        fixed: FixedNodes | None = None,
+        known: Known = NONE,
+        fetch: Callable[[str], str] | None = None,
+    ) -> None:
+        self.layout, self.fixed, self.known = layout, fixed, known
+        self.fetch = fetch or (lambda name: f"load {layout[name]}")
         self.lines: list[str] = []
-        self.names: dict[int, str] = {}
+        self.values: dict[Expression, str] = {}
+        self.carried: dict[str, str] = {}
 
-    def place(self, slot: int) -> str:
-        return f"W[{slot * LANES} + l]"
+    def carry(self, outputs: Outputs) -> None:
+        """Evaluate what later statements shall find in slots, though it is not stored there."""
+        for name, expression in outputs:
+            self.carried[name] = self._evaluate(expression)
 
-    def define(self, node: Expression, text: str) -> None:
-        # numbered as they come, so that equal equations make equal sources
-        self.names[node.index] = f"v{len(self.names)}"
-        self.lines.append(f"        {self.names[node.index]} = {text}")
+    def store(self, outputs: Outputs) -> None:
+        """Evaluate outputs, of what slots hold before any is stored, and store each at once.
 
-    def operand(self, node: Expression) -> str:
-        if node.operation == "constant":
-            return f"({node.value!r})" if node.value < 0.0 else repr(node.value)
-        if node.index not in self.names and self.fixed is not None:
-            self.define(node, self.place(self.fixed.slot(node)))
-        return self.names[node.index]
+        To hold all of them until the last is known would take more registers than there are.
+        """
+        place = {name: i for i, (name, _) in enumerate(outputs)}
+        for i, (_, expression) in enumerate(outputs):
+            for node in reachable([expression], self._found()):
+                if node.operation == "variable" and place.get(str(node.data), i) < i:
+                    self._evaluate(node)
+        for name, expression in outputs:
+            value = self._evaluate(expression)
+            self.lines.append(f"store {self.layout[name]} {value}")
 
-    def state(self, node: Expression) -> None:
-        if node.index in self.known:
-            self.define(node, self.place(self.layout[self.known[node.index]]))
+    def keep(self, names: Iterable[str]) -> None:
+        """Store what is carried."""
+        self.lines += [f"store {self.layout[name]} {self.carried[name]}" for name in names]
+
+    def give(self, expression: Expression) -> None:
+        """End with the largest of an expression's lanes as the function's value."""
+        self.lines.append(f"return {self._evaluate(expression)}")
+
+    def mark(self, name: str, expression: Expression) -> None:
+        """Note the lanes in which an expression is positive, in the row's byte of a block."""
+        self.lines.append(f"mark {self.layout[name]} {self._evaluate(expression)}")
+
+    def store_rows(self, outputs: Outputs) -> None:
+        """Evaluate outputs, then store them in the row of blocks, given by their first slots."""
+        values = [self._evaluate(expression) for _, expression in outputs]
+        for (name, _), value in zip(outputs, values, strict=True):
+            self.lines.append(f"store {self.layout[name]}+ {value}")
+
+    def function(self, name: str) -> str:
+        """Return the source of a function of W."""
+        if self.lines[-1].startswith("return"):
+            return self._source(name, "float64", "W", "over_lanes")
+        return self._source(name, "void", "W", "over_lanes")
+
+    def function_of_one_lane(self, name: str) -> str:
+        """Return the source of a function of W, S and a lane: S is written, from a lane of W."""
+        return self._source(name, "void", "W, S, lane", "over_one_lane")
+
+    def function_of_rows(self, name: str, rows: int) -> str:
+        """Return the source of a function of W that runs the tape for each row."""
+        return self._source(name, "int64", "W", "over_rows", f", {rows}")
+
+    def _source(
+        self, name: str, value: str, arguments: str, compiler: str, further: str = ""
+    ) -> str:
+        types = "float64[::1], float64[::1], int64" if "," in arguments else "float64[::1]"
+        lines = [
+            f'{name}_tape = {compiler}("""',
+            *self.lines,
+            f'"""{further})',
+            "",
+            "",
+            f"@njit({value}({types}), **options)",
+            f"def {name}({arguments}):",
+            f"    {'' if value == 'void' else 'return '}{name}_tape({arguments})",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def _found(self) -> AbstractSet[Expression]:
+        return self.known.keys() | self.values.keys()
+
+    def _evaluate(self, expression: Expression) -> str:
+        ordered = reachable([expression], self._found())
+        if len(ordered) > MOST_STATEMENTS:
+            raise LimitExceeded([too_many(len(ordered))])
+        for node in ordered:
+            if node not in self.values:
+                self._state(node)
+        return self._operand(expression)
+
+    def _state(self, node: Expression) -> None:
+        if node in self.known:
+            self._define(node, self.fetch(self.known[node]))
         elif node.operation == "variable":
-            self.define(node, self.place(self.layout[str(node.data)]))
+            name = str(node.data)
+            if name in self.carried:
+                self.values[node] = self.carried[name]
+            else:
+                self._define(node, self.fetch(name))
         elif not node.fixed:
-            arguments = [self.operand(argument) for argument in node.arguments]
-            self.define(node, FORMATS[node.operation].format(*arguments))
+            arguments = [self._operand(argument) for argument in node.arguments]
+            self._define(node, " ".join([node.operation, *arguments]))
+
+    def _operand(self, node: Expression) -> str:
+        if node.operation == "constant":
+            return repr(node.value)
+        if node not in self.values and self.fixed is not None:
+            self._define(node, self.fetch(self.fixed.slot(node)))
+        return self.values[node]
+
+    def _define(self, node: Expression, text: str) -> None:
+        self.values[node] = f"v{len(self.lines)}"
+        self.lines.append(f"{self.values[node]} = {text}")
 
 
 def lane_function(
     name: str,
-    outputs: Sequence[tuple[str, Expression]],
+    outputs: Outputs,
     layout: Layout,
     fixed: FixedNodes | None = None,
-    known: Mapping[int, str] = MappingProxyType({}),
+    known: Known = NONE,
 ) -> str:
-    """Return the source of a function W -> W that evaluates `outputs` (slot name, expression).
-
-    `known` : nodes, by index, that a function called before has left in a slot.
+    """Return the source of a function W -> W that evaluates `outputs`.
 
     Raises
     ------
     LimitExceeded
         More statements than can be compiled in reasonable time.
     """
-    ordered = reachable((expression for _, expression in outputs), known)
-    if len(ordered) > MOST_STATEMENTS:
-        raise LimitExceeded([too_many(len(ordered))])
-    body = _Body(layout, fixed, known)
-    for node in ordered:
-        body.state(node)
-    values = [body.operand(expression) for _, expression in outputs]
-    stores = [
-        f"        {body.place(layout[slot_name])} = {value}"
-        for (slot_name, _), value in zip(outputs, values, strict=True)
-    ]
-    header = [DECORATOR, f"def {name}(W):", f"    for l in range({LANES}):"]
-    return "\n".join([*header, *body.lines, *stores]) + "\n"
+    tape = Tape(layout, fixed, known)
+    tape.store(outputs)
+    return tape.function(name)
 
 
 def nothing(name: str) -> str:
@@ -132,10 +202,10 @@ def nothing(name: str) -> str:
     return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
 
 
-def reachable(outputs: Iterable[Expression], known: Container[int] = ()) -> list[Expression]:
+def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:
     """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
 
-    So are `known` nodes, given by their indices.
+    So are `known` nodes.
 
     A fixed node comes where it is first used, so that the order, and with it the source, does not
     depend on what the scene's numbers are computed from.
@@ -148,11 +218,11 @@ def reachable(outputs: Iterable[Expression], known: Container[int] = ()) -> list
         if node.index in found:
             continue
         found[node.index] = node
-        if not (node.fixed or node.index in known):
+        if not (node.fixed or node in known):
             waiting.extend(node.arguments)
     ordered: dict[int, Expression] = {}
     for node in (found[index] for index in sorted(found) if not found[index].fixed):
-        needed = () if node.index in known else node.arguments
+        needed = () if node in known else node.arguments
         for argument in (*needed, node):
             ordered.setdefault(argument.index, argument)
     for node in wanted:

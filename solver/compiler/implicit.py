@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from solver.compiler.derivative import Derivative
-from solver.compiler.emit import DECORATOR, FixedNodes, lane_function
+from solver.compiler.emit import DECORATOR, FixedNodes, Known, lane_function
 from solver.compiler.equations import Equations
 from solver.compiler.layout import LANES, Layout
 from solver.compiler.recorder import Expression
@@ -39,9 +39,10 @@ class RosenbrockRecorder(StepRecorder):
         fixed: FixedNodes,
         ledger: int,
         layout: Layout,
+        known: Known,
     ) -> None:
         states = 2 * len(equations.coordinates)
-        super().__init__(method, states, ledger, len(equations.play), layout)
+        super().__init__(method, states, ledger, len(equations.play), layout, known)
         self.method, self.equations, self.fixed = method, equations, fixed
 
     def _steps(self) -> list[str]:

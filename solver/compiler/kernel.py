@@ -12,7 +12,7 @@ import numpy as np
 from numba.core.types.function_type import WrapperAddressProtocol
 from numpy.typing import NDArray
 
-from solver.compiler import implicit, probing, scanning, stepping
+from solver.compiler import implicit, inside, scanning, stepping
 from solver.compiler.cache import load
 from solver.compiler.emit import HEADER, FixedNodes, lane_function
 from solver.compiler.equations import (
@@ -83,16 +83,15 @@ class Kernel:
         m = self.module
         functions = (
             m.attempt,
-            m.mark,
             m.take,
             m.take_some,
-            m.right_hand_side,
             m.observe,
             m.scan,
             m.scan_some,
-            m.lend,
-            m.probe,
-            m.probe_around,
+            m.states_within,
+            m.gaps_within,
+            m.channels_within,
+            m.channels_around,
         )
         return tuple(CompiledAddress(function) for function in functions)
 
@@ -127,39 +126,38 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
     angles = trigonometry(equations)
     layout.add_block("trigonometry", len(angles))
-    known = {node.index: f"trigonometry{i}" for i, node in enumerate(angles)}
+    known = {node: f"trigonometry{i}" for i, node in enumerate(angles)}
     if isinstance(tableau, Rosenbrock):
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
-    layout.add_block("taken", max(rows.scanned, layout["before_y0"] - layout["y0"]))
-    layout.add("taken_end")
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", drivers)
     layout.add_block("wound", drivers)
     fixed = FixedNodes(layout)
     steps = (
-        implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout)
+        implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout, known)
         if isinstance(tableau, Rosenbrock)
-        else stepping.StepRecorder(tableau, states, ledger, joints, layout)
+        else stepping.StepRecorder(tableau, states, ledger, joints, layout, known)
     )
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     energies = [
         ("potential", equations.channels["energy.potential"]),
         ("stored", equations.channels["stored"]),
     ]
-    evaluated = right_hand_side(equations) + [(known[node.index], node) for node in angles]
+    evaluated = right_hand_side(equations) + [(known[node], node) for node in angles]
+    scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
     source = "\n\n".join(
         [
             HEADER,
             lane_function("slopes", slopes(equations), layout, fixed),
             lane_function("right_hand_side", evaluated, layout, fixed),
-            lane_function("observe", observed[: rows.scanned], layout, fixed, known),
-            lane_function("observe_rest", observed[rows.scanned :], layout, fixed, known),
+            lane_function("observe", scanned, layout, fixed, known),
+            lane_function("observe_rest", rest, layout, fixed, known),
             lane_function("weigh", energies, layout, fixed, known),
-            steps.source(),
+            steps.source(energies, fixed),
             scanning.source(layout, rows.scanned),
-            probing.lend_function(layout["numbers"], layout.size),
+            inside.source(equations, steps.dense(), scanned, layout, fixed),
         ]
     )
     module = load(source)

@@ -32,7 +32,7 @@ class Slot(IntEnum):
     NEXT_STEP = 16
     END = 17
     NEXT_DUE = 18
-    PEAK = 19
+    MARKED = 19
     STAGE = 20
     TOTAL = 21
     GAP = 22

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 
-from solver.compiler.emit import DECORATOR, RETURNING, lane_function
+from solver.compiler.emit import RETURNING, FixedNodes, Known, Outputs, Tape, lane_function
 from solver.compiler.lane_functions import exp2, log2
-from solver.compiler.layout import LANES, Layout
-from solver.compiler.probing import probe_function
+from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.integrators import Method
 from solver.mechanics.scalars import maximum, minimum, select_positive
@@ -66,24 +65,28 @@ class StepRecorder:
         ledger: int,
         joints: int,
         layout: Layout,
+        known: Known,
     ) -> None:
+        """`known` : what the right-hand side leaves in slots."""
         self.tableau = tableau
         self.states, self.ledger, self.joints = states, ledger, joints
-        self.layout = layout
+        self.layout, self.known = layout, known
         self.recorder = Recorder()
 
     def variable(self, name: str) -> Expression:
         """Return the expression of a slot."""
         return self.recorder.variable(name)
 
-    def source(self) -> str:
-        """Return the source of all functions of a step."""
+    def source(self, energies: Outputs, fixed: FixedNodes) -> str:
+        """Return the source of all functions of a step.
+
+        `energies` : what gravity and contacts store, at the stage.
+        """
         parts = [*self._steps(), self._judge(), self._attempt()]
-        parts += [self._mark(), self._take(some=False), self._take(some=True)]
-        parts += [self._probe(), self._probe_around()]
+        parts += [self._take(energies, fixed, some=some) for some in (False, True)]
         return "\n\n".join(parts)
 
-    def _function(self, name: str, outputs: list[tuple[str, Expression]]) -> str:
+    def _function(self, name: str, outputs: Outputs) -> str:
         return lane_function(name, outputs, self.layout)
 
     def _steps(self) -> list[str]:
@@ -161,15 +164,17 @@ class StepRecorder:
         for j in range(self.joints):
             begins, ends = self._contact_flags(j)
             onset, release = maximum(onset, begins), maximum(release, ends)
-        flag = flag + onset + release
+        flag = select_positive(v("active"), flag + onset + release, number(0.0))
         outputs = [
             ("accept", good * v("active")),
-            ("flag", select_positive(v("active"), flag, number(0.0))),
+            ("flag", flag),
             ("next_step", next_step),
             ("new_memory", magnitude),
         ]
-        outputs += self._kept(last)
-        return self._function("judge", outputs)
+        tape = Tape(self.layout)
+        tape.store([*outputs, *self._kept(last)])
+        tape.give(flag)
+        return tape.function("judge")
 
     def _squared_error(self) -> Expression:
         """Square of the step's error, in tolerances."""
@@ -247,23 +252,11 @@ class StepRecorder:
         return select_positive(closed, nothing, onset), select_positive(closed, release, nothing)
 
     def _attempt(self) -> str:
+        """Attempt a step; the largest flag of a lane."""
         calls = [f"    {call}" for call in self._calls()]
-        flag = self.layout["flag"] * LANES
-        return "\n".join(
-            [
-                RETURNING,
-                "def attempt(W):",
-                *calls,
-                "    judge(W)",
-                "    flags = 0.0",
-                f"    for l in range({LANES}):",
-                f"        flags += W[{flag} + l]",
-                "    return flags",
-                "",
-            ]
-        )
+        return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
 
-    def _take(self, *, some: bool) -> str:
+    def _take(self, energies: Outputs, fixed: FixedNodes, *, some: bool) -> str:
         """Take the step, in every lane or in those that accept it, and keep the one before.
 
         Lanes that are over take steps of no length, which change nothing that is handed out. The
@@ -297,75 +290,49 @@ class StepRecorder:
             outputs.append((f"total{i}", v(f"total{i}") + added))
             if i < self.ledger - self.joints:
                 gross = gross + abs(added)
-        outputs.append(("gross", gross))
+        outputs.insert(0, ("gross", gross))
         for j in range(self.joints):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
             outputs.append((f"before_mode{j}", v(f"mode{j}")))
             outputs.append((f"before_impact_rate{j}", v(f"impact_rate{j}")))
+        outputs += self._moved_on()
         if some:
             taken = v("accept")
             outputs = [(slot, select_positive(taken, new, v(slot))) for slot, new in outputs]
-        name = "take_some" if some else "take"
-        rest = self._function(name, [*outputs, ("step", v("next_step"))])
-        dense_output = self.layout["before_y0"] - self.layout["y0"]
-        copies = [
-            self._copy("before_y0", "y0", dense_output, some=some),
-            self._copy("y0", "stage0", self.states, some=some),
-            self._copy("k1_0", "slope0", self.states, some=some),
-        ]
-        ledger = self._copy("kledger1_0", "ledger0", self.ledger, some=some)
-        begun = rest.replace("(W):\n", "(W):\n    weigh(W)\n", 1)
-        return "\n".join([begun.rstrip("\n"), *copies, ledger, ""])
+        tape = Tape(self.layout, fixed, self.known)
+        tape.carry(energies)
+        tape.store([*outputs, ("step", v("next_step"))])
+        return tape.function("take_some" if some else "take")
 
-    def _mark(self) -> str:
-        """Repeat what says which lanes accept their step, as often as flat loops need it."""
-        accept, first = self.layout["accept"] * LANES, self.layout["taken0"] * LANES
-        rows = range(self.layout["taken_end"] - self.layout["taken0"])
-        stores = [f"        W[{first + row * LANES} + l] = accept" for row in rows]
-        loop = [f"    for l in range({LANES}):", f"        accept = W[{accept} + l]"]
-        return "\n".join([DECORATOR, "def mark(W):", *loop, *stores, ""])
-
-    def _copy(self, target: str, source: str, count: int, *, some: bool) -> str:
-        """Return a flat loop that copies consecutive slots."""
-        at, here = self.layout[source] * LANES, self.layout[target] * LANES
-        lines = [f"    for i in range({count * LANES}):", f"        new = W[{at} + i]"]
-        if some:
-            lines.append(f"        old = W[{here} + i]")
-            mark = self.layout["taken0"] * LANES
-            lines.append(f"        new = new if W[{mark} + i] > 0.0 else old")
-        return "\n".join([*lines, f"        W[{here} + i] = new"])
-
-    def _probe(self) -> str:
-        """Dense output of one lane at eight instants: `theta` of S says where in the step."""
-        return probe_function("probe", [(f"range({LANES})", "", self._dense(""))], self.layout)
-
-    def _probe_around(self) -> str:
-        """Dense output of one lane at quarters of the step before, then of this one."""
-        half = LANES // 2
-        pieces = [
-            (f"range({half})", f"{1.0 / half} * l", self._dense("before_")),
-            (f"range({half}, {LANES})", f"{1.0 / half} * (l - {half})", self._dense("")),
-        ]
-        return probe_function("probe_around", pieces, self.layout)
-
-    def _dense(self, prefix: str) -> list[tuple[str, Expression]]:
+    def _moved_on(self) -> list[tuple[str, Expression]]:
+        """Keep the dense output of this step; the next one begins where it ends."""
         v = self.variable
-        theta = v("theta")
-        step = v(f"{prefix}step" if prefix else "tried")
+        pieces = [f"y{i}" for i in range(self.states)]
+        for s in range(1, self.tableau.stages + 1):
+            pieces += [f"k{s}_{i}" for i in range(self.states)]
+        moved = [(f"before_{name}", v(name)) for name in pieces]
+        for i in range(self.states):
+            moved += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
+        return moved + [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
+
+    def dense(self) -> list[tuple[str, Expression]]:
+        """Return time, state, modes and impact rates at the share `theta` of the step."""
+        v = self.variable
+        theta, step = v("theta"), v("tried")
         weights: list[Expression] = []
         for row in self.tableau.dense:
             total: Expression = self.recorder.constant(0.0)
             for coefficient in reversed(row):
                 total = (total + coefficient) * theta
             weights.append(total)
-        outputs = [("stage_time", v(f"{prefix}time") + theta * step)]
+        outputs = [("stage_time", v("time") + theta * step)]
         for i in range(self.states):
             slope: Expression = self.recorder.constant(0.0)
             for s, weight in enumerate(weights, start=1):
-                slope = slope + weight * v(f"{prefix}k{s}_{i}")
-            outputs.append((f"stage{i}", v(f"{prefix}y{i}") + step * slope))
+                slope = slope + weight * v(f"k{s}_{i}")
+            outputs.append((f"stage{i}", v(f"y{i}") + step * slope))
         for j in range(self.joints):
-            outputs.append((f"mode{j}", v(f"{prefix}mode{j}")))
-            outputs.append((f"impact_rate{j}", v(f"{prefix}impact_rate{j}")))
+            outputs.append((f"mode{j}", v(f"mode{j}")))
+            outputs.append((f"impact_rate{j}", v(f"impact_rate{j}")))
         return outputs

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 from solver.compiler.emit import DECORATOR, lane_function
 from solver.compiler.kinks import MEMORY
-from solver.compiler.layout import LANES, Layout
+from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.mechanics.scalars import select_positive
 
@@ -55,22 +55,12 @@ class TangentRecorder:
         return "\n\n".join([*parts, f"{DECORATOR}\n{body}\n"])
 
     def _begin(self) -> str:
-        """Stage 0, where the step begins: one long loop a block.
-
-        Lane by lane, each copy would become a call.
-        """
-        at = {
-            name: self.layout[name] * LANES
-            for name in ("passing0", "y0", "carried0", "tangent0", "passing_time", "time")
-        }
-        return f"""{DECORATOR}
-def carry_0(W):
-    for i in range({self.states * LANES}):
-        W[{at["passing0"]} + i] = W[{at["y0"]} + i]
-        W[{at["carried0"]} + i] = W[{at["tangent0"]} + i]
-    for l in range({LANES}):
-        W[{at["passing_time"]} + l] = W[{at["time"]} + l]
-"""
+        """Stage 0, where the step begins."""
+        v = self.recorder.variable
+        outputs = [("passing_time", v("time"))]
+        for i in range(self.states):
+            outputs += [(f"passing{i}", v(f"y{i}")), (f"carried{i}", v(f"tangent{i}"))]
+        return lane_function("carry_0", outputs, self.layout)
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""

@@ -42,7 +42,8 @@ from solver.lanes.tangent import latch_tangent, record_growth
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))
-PROBE_FUNCTION = types.FunctionType(void(float64[::1], float64[::1], int64))
+ROWS_FUNCTION = types.FunctionType(int64(float64[::1]))
+ONE_LANE_FUNCTION = types.FunctionType(void(float64[::1], float64[::1], int64))
 REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
 """What a lane's flag is the sum of; see `solver.compiler.stepping`."""
 
@@ -58,9 +59,8 @@ def attend(
     counters: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
-    lend: LaneFunction,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
+    states_within: LaneFunction,
+    gaps_within: LaneFunction,
 ) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
     opening = note_openings(lane, slots, work) if flag & RELEASE else 1.0
@@ -77,13 +77,13 @@ def attend(
     if flag & REJECTED:
         return False
     if flag & ONSET or counters[Counter.LANDING, lane] >= 0:
-        landed = land(lane, slots, work, spare, counters, lend, probe, right_hand_side)
+        landed = land(lane, slots, work, spare, counters, gaps_within)
         if not landed:
             work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
             return False
     if flag & DUE:
         return emit(
-            lane, slots, work, spare, settings, counters, sample_rows, section_rows, probe
+            lane, slots, work, spare, settings, counters, sample_rows, section_rows, states_within
         )  # fmt: skip
     return False
 
@@ -182,21 +182,21 @@ def still_landing(counters: np.ndarray) -> bool:
     return landing > 0
 
 
-TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
+ROWS = float64[:, :, ::1]
 
 
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 5,
-        *[FLAG_FUNCTION] * 2,
-        *[PROBE_FUNCTION] * 3,
+        *[LANE_FUNCTION] * 3,
+        *[ROWS_FUNCTION] * 2,
+        *[ONE_LANE_FUNCTION] * 4,
         *[LANE_FUNCTION] * 2,
         int64[::1],
         *[float64[::1]] * 2,
-        TABLE,
+        float64[:, ::1],
         int64[:, ::1],
-        TABLE,
+        float64[::1],
         *[ROWS] * 4,
         int64,
         int64,
@@ -204,16 +204,15 @@ TABLE, ROWS = float64[:, ::1], float64[:, :, ::1]
 )
 def advance(
     attempt: LaneFunction,
-    mark: LaneFunction,
     take: LaneFunction,
     take_some: LaneFunction,
-    right_hand_side: LaneFunction,
     observe: LaneFunction,
     scan: LaneFunction,
     scan_some: LaneFunction,
-    lend: LaneFunction,
-    probe: LaneFunction,
-    probe_around: LaneFunction,
+    states_within: LaneFunction,
+    gaps_within: LaneFunction,
+    channels_within: LaneFunction,
+    channels_around: LaneFunction,
     tangent_step: LaneFunction,
     tangent_gaps: LaneFunction,
     slots: np.ndarray,
@@ -221,7 +220,7 @@ def advance(
     spare: np.ndarray,
     settings: np.ndarray,
     counters: np.ndarray,
-    scratch: np.ndarray,
+    table: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
@@ -233,8 +232,8 @@ def advance(
 
     Parameters
     ----------
-    attempt, mark, take, take_some, right_hand_side, observe, scan, scan_some, lend
-    probe, probe_around
+    attempt, take, take_some, observe, scan, scan_some
+    states_within, gaps_within, channels_within, channels_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     tangent_step, tangent_gaps
         `Tangents.functions`; not called where `growth_rows` has no room.
@@ -242,8 +241,8 @@ def advance(
         Where quantities live in `work` and `spare`, both (slots * LANES,).
     settings, counters
         (kinds, LANES): see `solver.lanes.state`.
-    scratch : (rows + 1, POINTS + 1)
-        See `solver.lanes.peaks`.
+    table
+        See `solver.lanes.extreme`.
     sample_rows, section_rows : (LANES, capacity, width)
         Dense states at samples and sections; `solver.lanes.state.row_width` gives the width.
     impact_rows : (LANES, capacity, 6)
@@ -260,7 +259,7 @@ def advance(
     """
     work, spare, slots = borrowed(work), borrowed(spare), borrowed(slots)
     settings, counters = borrowed(settings), borrowed(counters)
-    scratch = borrowed(scratch)
+    table, marked = borrowed(table), borrowed(work.view(np.uint64))
     running = count_active(slots, work)
     landing = still_landing(counters)
     crossing = any_crossing(settings)
@@ -279,9 +278,8 @@ def advance(
                 ):
                     full |= attend(
                         flag, lane, slots, work, spare, settings, counters,
-                        sample_rows, section_rows, lend, probe, right_hand_side,
+                        sample_rows, section_rows, states_within, gaps_within,
                     )  # fmt: skip
-            mark(work)
         if watch:
             observe(work)
         if crossing:
@@ -289,28 +287,20 @@ def advance(
                 if work[slots[Slot.ACCEPT] * LANES + lane] > 0.0 and crosses(
                     lane, slots, work, settings
                 ):
-                    if quiet:
-                        mark(work)
-                        quiet = False
-                    found = locate_crossing(
-                        lane, slots, work, spare, settings, lend, probe, right_hand_side, observe
-                    )
+                    quiet = False
+                    found = locate_crossing(lane, slots, work, spare, settings, channels_within)
                     full |= record_event(
                         found, lane, slots, work, spare, settings, counters, section_rows
                     )
-        candidate = 0.0
+        candidates = 0
         if watch:
-            candidate = scan(work) if quiet else scan_some(work)
-        if candidate > 0.0:
+            candidates = scan(work) if quiet else scan_some(work)
+        if candidates > 0:
             for lane in range(LANES):
-                if (
-                    work[slots[Slot.PEAK] * LANES + lane] > 0.0
-                    and work[slots[Slot.ACCEPT] * LANES + lane] > 0.0
-                ):
+                if candidates >> lane & 1 and work[slots[Slot.ACCEPT] * LANES + lane] > 0.0:
                     refine_peaks(
-                        lane, slots, work, spare, counters, settings, scratch,
-                        lend, probe_around, right_hand_side, observe,
-                    )  # fmt: skip
+                        lane, slots, work, spare, marked, counters, settings, table, channels_around
+                    )
         if tangents and (quiet or any_accepted(slots, work)):
             tangent_step(work)
         if quiet:

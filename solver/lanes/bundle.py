@@ -16,8 +16,8 @@ from solver.lanes.advance import advance
 from solver.lanes.beginning import begin
 from solver.lanes.binding import FIRST_STEP, bind
 from solver.lanes.clock import product_difference
+from solver.lanes.extreme import SIZE as TABLE_SIZE
 from solver.lanes.observation import observe_rows
-from solver.lanes.peaks import POINTS
 from solver.lanes.periods import look_ahead, plan
 from solver.lanes.problem import LaneProblem, LaneStart
 from solver.lanes.state import Counter, SectionKind, Setting, Status, row_width
@@ -70,7 +70,7 @@ class Bundle:
         self.section_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
         self.impact_rows = np.zeros((LANES, ROWS_AT_ONCE, 6))
         self.growth_rows = np.zeros((LANES, 0 if tangents is None else ROWS_AT_ONCE, 2))
-        self.scratch = np.zeros((kernel.rows.scanned + 1, POINTS + 1))
+        self.table_of_extremes = np.zeros(TABLE_SIZE)
         for lane, problem in enumerate(problems):
             self.load(lane, problem)
 
@@ -153,7 +153,7 @@ class Bundle:
                 self.spare,
                 self.settings,
                 self.counters,
-                self.scratch,
+                self.table_of_extremes,
                 self.sample_rows,
                 self.section_rows,
                 self.impact_rows,

@@ -36,9 +36,7 @@ def land(
     work: np.ndarray,
     spare: np.ndarray,
     counters: np.ndarray,
-    lend: LaneFunction,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
+    gaps_within: LaneFunction,
 ) -> bool:
     """Whether this step may be taken: it has no onset inside, or ends on one.
 
@@ -61,13 +59,13 @@ def land(
         if j == target and gap > 0.0:
             overshot = True  # it has its onset here; when does not matter, if no other has one
             continue
-        found = first_onset(j, lane, slots, work, spare, lend, probe, right_hand_side)
+        found = first_onset(j, lane, slots, work, spare, gaps_within)
         if found < onset:
             onset, joint = found, j
     if overshot:
         found = -1.0
         if joint >= 0:
-            found = first_onset(target, lane, slots, work, spare, lend, probe, right_hand_side)
+            found = first_onset(target, lane, slots, work, spare, gaps_within)
         if found < onset:
             onset, joint = found, target
     if target >= 0:

@@ -7,7 +7,6 @@ import numpy as np
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
-from solver.lanes.onset import dense
 from solver.lanes.rows import write_row
 from solver.lanes.state import Counter, SectionKind, Setting
 
@@ -75,23 +74,18 @@ def locate_crossing(
     work: np.ndarray,
     spare: np.ndarray,
     settings: np.ndarray,
-    lend: LaneFunction,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
-    observe: LaneFunction,
+    channels_within: LaneFunction,
 ) -> int:
     """Return the lane of `spare` that holds the state at the first crossing inside the step."""
     row = int(settings[Setting.SECTION_PLACE, lane])
     value, sense = settings[Setting.SECTION_VALUE, lane], settings[Setting.SECTION_SENSE, lane]
     low, high = 0.0, 1.0
     found = LANES - 1
-    lend(work, spare, lane)
     for _ in range(LEVELS):
         width = (high - low) / LANES
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = low + width * (i + 1)
-        dense(lane, work, spare, probe, right_hand_side)
-        observe(spare)
+        channels_within(work, spare, lane)
         found = LANES - 1
         for i in range(LANES):
             if sense * (spare[(slots[Slot.CHANNEL] + row) * LANES + i] - value) >= 0.0:

@@ -15,41 +15,25 @@ NEWTON_STEPS = 4
 
 
 @kernel()
-def dense(
-    lane: int,
-    work: np.ndarray,
-    spare: np.ndarray,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
-) -> None:
-    """Evaluate lane lane of `work`, lent before, at the eight instants in `theta` of `spare`."""
-    probe(work, spare, lane)
-    right_hand_side(spare)
-
-
-@kernel()
 def first_onset(
     j: int,
     lane: int,
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    lend: LaneFunction,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
+    gaps_within: LaneFunction,
 ) -> float:
     """Return the share of the step after which joint j's gap first closes; infinite: it does not.
 
     The gap is looked at in eight places; where its rate turns between two of them without the gap
     closing, the turning point is looked at more closely (a grazing contact).
     """
-    lend(work, spare, lane)
     low, high = 0.0, 1.0
     gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
     for level in range(4):
         for i in range(LANES):
             spare[slots[Slot.THETA] * LANES + i] = low + (high - low) * (i + 1) / LANES
-        dense(lane, work, spare, probe, right_hand_side)
+        gaps_within(work, spare, lane)
         before_rate = work[(gap_slot + 3) * LANES + lane] if level == 0 else 1.0
         turning = -1
         for i in range(LANES):
@@ -57,7 +41,7 @@ def first_onset(
             if gap > 0.0:
                 left = low + (high - low) * i / LANES
                 right = low + (high - low) * (i + 1) / LANES
-                return polish(j, left, right, lane, slots, work, spare, probe, right_hand_side)
+                return polish(j, left, right, lane, slots, work, spare, gaps_within)
             if before_rate > 0.0 and rate < 0.0:
                 turning = i
             before_rate = rate
@@ -78,8 +62,7 @@ def polish(
     slots: np.ndarray,
     work: np.ndarray,
     spare: np.ndarray,
-    probe: LaneFunction,
-    right_hand_side: LaneFunction,
+    gaps_within: LaneFunction,
 ) -> float:
     """Return the root of joint j's gap in a bracket: sectioning, then Newton inside the bracket."""
     gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
@@ -90,7 +73,7 @@ def polish(
             spare[slots[Slot.THETA] * LANES + i] = left + (right - left) * (i + 1) / LANES
         if step > 0:
             spare[slots[Slot.THETA] * LANES + 0] = root
-        dense(lane, work, spare, probe, right_hand_side)
+        gaps_within(work, spare, lane)
         if step > 0:
             gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
             better = root - gap / (rate * tried) if rate > 0.0 else root

@@ -46,7 +46,7 @@ def emit(
     counters: np.ndarray,
     sample_rows: np.ndarray,
     section_rows: np.ndarray,
-    probe: LaneFunction,
+    states_within: LaneFunction,
 ) -> bool:
     """Write the samples and sections inside this step; whether a buffer was too full for them.
 
@@ -71,7 +71,7 @@ def emit(
                 work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
                 work[slots[Slot.NEXT_STEP] * LANES + lane] = work[slots[Slot.STEP] * LANES + lane]
                 return True
-            probe(work, spare, lane)
+            states_within(work, spare, lane)
             for i in range(count):
                 write_row(rows[lane, counters[filled, lane]], i, lane, slots, work, spare, counters)
                 counters[filled, lane] += 1

@@ -6,8 +6,24 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from solver.lanes.peaks import POINTS, extreme
+from solver.lanes import extreme as nine
+from solver.lanes.extreme import POINTS
+
+
+def extreme(
+    times: NDArray[np.float64], values: NDArray[np.float64], sense: float
+) -> tuple[float, float]:
+    """Return time and value of the extreme near nine samples."""
+    table = np.zeros(nine.SIZE)
+    table[nine.TIMES : nine.TIMES + POINTS] = times
+    table[nine.VALUES : nine.VALUES + POINTS] = values
+    nine.compare_times(table)
+    nine.compare_values(table)
+    time, value = nine.extreme(table, sense)
+    return time, value
+
 
 SENSES = pytest.mark.parametrize("sense", [1.0, -1.0])
 

@@ -1,0 +1,118 @@
+"""Tapes: every statement and operation over eight lanes, against the same on floats."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numba import njit
+
+from solver.compiler.lane_arithmetic import OPERATIONS
+from solver.compiler.lane_functions import FOLD
+from solver.compiler.layout import LANES
+from solver.compiler.straight_line import over_lanes, over_one_lane, over_rows
+
+SLOTS = 24
+POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}
+EVERY_OPERATION = {
+    operation: len(operand)
+    for operation, operand in {
+        **dict.fromkeys(("add", "sub", "mul", "div"), "xy"),
+        **dict.fromkeys(OPERATIONS.keys() - {"add", "sub", "mul", "div", "select"}, "x"),
+        "select": "xab",
+    }.items()
+}
+
+
+def compiled(tape, compiler=over_lanes, *further):
+    """Return what a tape does to W, or to W, S and a lane."""
+    run = compiler(tape, *further)
+    if compiler is over_one_lane:
+        return njit(lambda work, spare, lane: run(work, spare, lane))
+    return njit(lambda work: run(work), error_model="numpy")
+
+
+RUNS = {
+    operation: compiled(
+        "\n".join(
+            [f"v{i} = load {i}" for i in range(count)]
+            + [f"v9 = {operation} " + " ".join(f"v{i}" for i in range(count)), "store 9 v9"]
+        )
+    )
+    for operation, count in EVERY_OPERATION.items()
+}
+
+
+@pytest.mark.parametrize("operation", sorted(OPERATIONS))
+@given(numbers=st.lists(st.floats(-1e3, 1e3), min_size=3 * LANES, max_size=3 * LANES))
+def test_every_operation_does_in_each_lane_what_it_does_to_floats(
+    operation: str, numbers: list[float]
+) -> None:
+    count = EVERY_OPERATION[operation]
+    operands = np.array(numbers).reshape(3, LANES)
+    if operation in POSITIVE:
+        operands = np.abs(operands) + 1e-3
+    if operation == "div":
+        operands[1] += np.where(operands[1] < 0.0, -1e-3, 1e-3)
+    if operation == "power_of_two":
+        operands = np.floor(operands)
+    work = np.zeros((SLOTS, LANES))
+    work[:3] = operands
+    RUNS[operation](work.reshape(-1))
+    expected = [FOLD[operation](*map(float, operands[:count, lane])) for lane in range(LANES)]
+    assert work[9].tolist() == expected
+
+
+def test_a_select_between_what_is_compared_takes_the_second_where_there_is_no_number() -> None:
+    run = compiled("v0 = load 0\nv1 = load 1\nv2 = sub v0 v1\nv3 = select v2 v0 v1\nstore 2 v3")
+    work = np.zeros((SLOTS, LANES))
+    work[0, :4], work[1, :4] = [1.0, 3.0, math.nan, math.inf], [2.0, 2.0, 5.0, math.inf]
+    run(work.reshape(-1))
+    assert work[2, :4].tolist() == [2.0, 3.0, 5.0, math.inf]
+
+
+def test_the_largest_lane_is_returned() -> None:
+    run = compiled("v0 = load 1\nreturn v0")
+    for lane in range(LANES):
+        work = -np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
+        work[1, lane] = 7.0
+        assert run(work.reshape(-1)) == 7.0
+
+
+def test_one_lane_is_seen_from_all() -> None:
+    tape = """
+v0 = spread 1
+v1 = spread 2 3
+v2 = given 4
+v3 = lanes 0.0 1.0 2.0 3.0 4.0 5.0 6.0 7.0
+v4 = add v1 v2
+store 5 v0
+store 6 v4
+store 7 v3
+"""
+    run = compiled(tape, over_one_lane)
+    work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
+    spare = 1000.0 * np.ones((SLOTS, LANES))
+    for lane in range(LANES):
+        run(work.reshape(-1), spare.reshape(-1), lane)
+        assert spare[5].tolist() == [work[1, lane]] * LANES
+        assert spare[6].tolist() == [1000.0 + work[2, lane]] * 4 + [1000.0 + work[3, lane]] * 4
+        assert spare[7].tolist() == list(range(LANES))
+
+
+@given(numbers=st.lists(st.floats(-1.0, 1.0), min_size=5 * LANES, max_size=5 * LANES))
+def test_rows_mark_the_lanes_that_are_positive(numbers: list[float]) -> None:
+    work = np.zeros((SLOTS, LANES))
+    work[8:13] = np.array(numbers).reshape(5, LANES)
+    found = ROWS(work.reshape(-1))
+    marked = work[1].view(np.uint8)[:5]
+    for row in range(5):
+        assert marked[row] == sum(1 << lane for lane in range(LANES) if work[8 + row, lane] > 0.0)
+    assert found == np.bitwise_or.reduce(marked)
+    assert np.array_equal(work[16:21], 2.0 * work[8:13])
+
+
+ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", over_rows, 5)
