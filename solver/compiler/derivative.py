@@ -151,6 +151,7 @@ RULES: dict[str, Rule] = {
     "exponent_of": _nothing,
     "mantissa_of": lambda node, rates: node / node.arguments[0] * rates[0],
     "power_of_two": _nothing,
+    "quarter_turns": lambda node, rates: rates[1].quarter_turns(node.arguments[0], rates[2]),
     "sine": _function(1.0),
     "cosine": _function(-1.0),
     "power": _power,

@@ -27,6 +27,11 @@ def _power_of_two(x: float) -> float:
     return math.ldexp(1.0, int(min(max(x, -1022.0), 1023.0)))
 
 
+def _quarter_turns(n: float, sine: float, cosine: float) -> float:
+    """Return the sine of an angle n quarter turns on."""
+    return (sine, cosine, -sine, -cosine)[int(n) % 4]
+
+
 FOLD: dict[str, Callable[..., float]] = {
     "add": operator.add,
     "sub": operator.sub,
@@ -43,6 +48,7 @@ FOLD: dict[str, Callable[..., float]] = {
     "exponent_of": _exponent_of,
     "mantissa_of": _mantissa_of,
     "power_of_two": _power_of_two,
+    "quarter_turns": _quarter_turns,
 }
 """Every operation of the recorder on floats."""
 
@@ -88,14 +94,9 @@ def sine_cosine(x: Any) -> tuple[Any, Any]:
     z = r * r
     sine = r + r * z * _polynomial(z, SINE)
     cosine = 1.0 - 0.5 * z + z * z * _polynomial(z, COSINE)
-    quadrant = n - 4.0 * _floor(n * 0.25)
-    half = _floor(quadrant * 0.5)
-    odd = quadrant - 2.0 * half - 0.5
-    swapped_sine = select_positive(odd, cosine, sine)
-    swapped_cosine = select_positive(odd, sine, cosine)
-    sign_sine = 1.0 - 2.0 * half
-    sign_cosine = select_positive(odd, -sign_sine, sign_sine)
-    return sign_sine * swapped_sine, sign_cosine * swapped_cosine
+    if isinstance(x, float):
+        return _quarter_turns(n, sine, cosine), _quarter_turns(n + 1.0, sine, cosine)
+    return sine.quarter_turns(n, cosine), sine.quarter_turns(n + 1.0, cosine)
 
 
 LOG2_E = 1.4426950408889634

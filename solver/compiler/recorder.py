@@ -190,6 +190,10 @@ class Expression:
         """2^x for a whole number x, limited to the range of a float."""
         return self.recorder.apply("power_of_two", self)
 
+    def quarter_turns(self, n: Expression, cosine: Expression) -> Expression:
+        """Return the sine of an angle n quarter turns on, of which this is the sine."""
+        return self.recorder.apply("quarter_turns", n, self, cosine)
+
     def select_positive(self, if_positive: object, otherwise: object) -> Expression:
         """`if_positive` where x > 0, else `otherwise`."""
         a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)

@@ -17,14 +17,15 @@ from solver.compiler.straight_line import over_lanes, over_one_lane, over_rows
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}
-EVERY_OPERATION = {
-    operation: len(operand)
-    for operation, operand in {
-        **dict.fromkeys(("add", "sub", "mul", "div"), "xy"),
-        **dict.fromkeys(OPERATIONS.keys() - {"add", "sub", "mul", "div", "select"}, "x"),
-        "select": "xab",
-    }.items()
+EVERY_OPERATION = dict.fromkeys(OPERATIONS, 1) | {
+    "add": 2,
+    "sub": 2,
+    "mul": 2,
+    "div": 2,
+    "select": 3,
+    "quarter_turns": 3,
 }
+"""How many operands each has."""
 
 
 def compiled(tape, compiler=over_lanes, *further):
@@ -57,7 +58,7 @@ def test_every_operation_does_in_each_lane_what_it_does_to_floats(
         operands = np.abs(operands) + 1e-3
     if operation == "div":
         operands[1] += np.where(operands[1] < 0.0, -1e-3, 1e-3)
-    if operation == "power_of_two":
+    if operation in ("power_of_two", "quarter_turns"):
         operands = np.floor(operands)
     work = np.zeros((SLOTS, LANES))
     work[:3] = operands
