@@ -53,9 +53,9 @@ FOLD: dict[str, Callable[..., float]] = {
 """Every operation of the recorder on floats."""
 
 TWO_OVER_PI = 0.6366197723675814
-HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
-"""pi/2 in three parts (Cody-Waite): the first two have 33 bits, so n times them is exact for
-n below 2^20; angles up to 1e6 rad keep 15 digits."""
+HALF_PI = (1.5707963267341256, 6.0771005065061922e-11)
+"""pi/2 in two parts (Cody-Waite): the first has 33 bits, so n times it is exact for n below 2^20;
+the second errs by 1e-26, so angles up to 1e6 rad are reduced to within 1e-20 rad."""
 
 SINE = (
     -1.66666666666666324348e-01,
@@ -87,13 +87,19 @@ def _polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
     return total
 
 
+def _of_six(z: Any, w: Any, c: tuple[float, ...]) -> Any:
+    """Polynomial of degree 5 in z, w = z²: pairs side by side, for what follows waits for it."""
+    return ((c[0] + c[1] * z) + w * (c[2] + c[3] * z)) + (w * w) * (c[4] + c[5] * z)
+
+
 def sine_cosine(x: Any) -> tuple[Any, Any]:
     """Sine and cosine for angles up to 1e6 rad, within two units in the last place of 1."""
     n = _floor(x * TWO_OVER_PI + 0.5)
-    r = x - n * HALF_PI[0] - n * HALF_PI[1] - n * HALF_PI[2]
+    r = (x - n * HALF_PI[0]) - n * HALF_PI[1]
     z = r * r
-    sine = r + r * z * _polynomial(z, SINE)
-    cosine = 1.0 - 0.5 * z + z * z * _polynomial(z, COSINE)
+    w = z * z
+    sine = r + (r * z) * _of_six(z, w, SINE)
+    cosine = (1.0 - 0.5 * z) + w * _of_six(z, w, COSINE)
     if isinstance(x, float):
         return _quarter_turns(n, sine, cosine), _quarter_turns(n + 1.0, sine, cosine)
     return sine.quarter_turns(n, cosine), sine.quarter_turns(n + 1.0, cosine)

@@ -80,8 +80,9 @@ def contact(
     """
     ex, ey = eccentricity
     vx, vy = rate
-    distance = sqrt(ex * ex + ey * ey) + CENTRED
-    inverse = 1.0 / distance
+    square = ex * ex + ey * ey
+    distance = sqrt(square) + CENTRED
+    inverse = distance * (1.0 / (square + CENTRED))  # beside the root, not after it
     nx, ny = ex * inverse, ey * inverse  # eq. (2)
     penetration = distance - clearance.radial_clearance  # eq. (3)
     penetration_rate = vx * nx + vy * ny
