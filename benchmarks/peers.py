@@ -1,15 +1,17 @@
 """What a user would write instead, beside a bare run of ours, at equal error, in one run.
 
-    python -m benchmarks peers
+    taskset -c 0 python -m benchmarks peers
 
+One core, because threads of JAX that only wait take processor time on a second one.
 The press with stiffness from its elastic constants, bearing radius 10 mm, restitution 0.9, friction
 0.1, limit velocities 1e-3 and 1e-2 m/s, clearance 0.5 mm, over one revolution of 2 s on one core.
 SciPy's methods and CVODE (if `pip install scikit-sundae` was done) get our compiled right-hand
 side, diffrax (`pip install diffrax jax`) the same equations as a JAX function, vmapped over eight
-clearances; all restart at located onsets and releases. Only the paper's equations are in plain
-Python. Errors are the largest of all coordinates and speeds at 0.03 s against a run at 1e-13. A
-peer is compared with our cheapest run whose errors are no larger, alone or with eight lanes busy as
-the peer is. Times are of the processor, a revolution and lane, without compiling.
+clearances; all these restart at located onsets and releases. EXUDYN (`pip install exudyn`) gets the
+press as a kinematic tree, contact in Python; the paper's equations are all in Python. Errors are
+the largest of all coordinates and speeds at 0.03 s against a run at 1e-13. A peer is compared with
+our cheapest run whose errors are no larger, alone or with eight lanes busy as the peer is. Times
+are of the processor, a revolution and lane, without compiling.
 """
 
 import statistics
@@ -22,6 +24,7 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.paper_equations import seconds_a_period
 from benchmarks.peer_diffrax import measure_diffrax
+from benchmarks.peer_exudyn import measure_exudyn
 from solver.admission import Admission, admit
 from solver.compile_loop import ready_kernel
 from solver.compiler.kernel import Kernel
@@ -39,6 +42,8 @@ CASE = {
 }
 REVOLUTION, CHECK_TIME = 2.0, 0.03
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
+EXUDYN_RUNS = (*(("DOPRI5", tolerance) for tolerance in (1e-4, 1e-6, 1e-8, 1e-10)), ("RK44", 1e-5))
+"""Tolerances, and a fixed step in s."""
 REPEATS = 9
 FIRST_STEP, LONGEST_STEP = 1e-7, 1e-3
 """Of peers, s: a force that is zero at an onset misleads their choice of the first one."""
@@ -258,6 +263,18 @@ def diffrax(
     return Measured("diffrax Tsit5, 8 lanes", tolerance, seconds, evaluations, *wrong)
 
 
+def exudyn(
+    scene: Scene, start: np.ndarray, method: str, size: float, reference: np.ndarray
+) -> Measured | None:
+    """Measure EXUDYN at a tolerance, or with a step in s; none where it is not installed."""
+    checked = measure_exudyn(scene, start, method, size, CHECK_TIME)
+    found = measure_exudyn(scene, start, method, size, REVOLUTION)
+    if checked is None or found is None:
+        return None
+    name = "EXUDYN RK44, step in s" if method == "RK44" else f"EXUDYN {method}"
+    return Measured(name, size, found[0], found[1], *errors(checked[2], reference))
+
+
 def main() -> None:
     """Print the table."""
     scene = problem(5e-4, 1e-6, REVOLUTION).scene
@@ -288,6 +305,12 @@ def main() -> None:
             print(f"diffrax Tsit5 at {tolerance:g}: diffrax is not installed")
             continue
         print(line(row_of_eight, busy), flush=True)
+    for method, size in EXUDYN_RUNS:
+        row_of_tree = exudyn(scene, equations.start, method, size, reference)
+        if row_of_tree is None:
+            print(f"EXUDYN {method} at {size:g}: exudyn is not installed")
+            continue
+        print(line(row_of_tree, alone), flush=True)
     plain = seconds_a_period(scene)
     fastest = next(row.seconds for row in alone if row.tolerance == 1e-6)
     print(
