@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 RUN = 0
 """Lane of the trajectory itself."""
-RATIO = math.sqrt(2.5)
+RATIO = 2.0
 LADDER = (RATIO**-2, RATIO**-1, RATIO, RATIO**2)
 """Tolerances of lanes 1 to 4, in the run's own; the first decides what all this costs."""
 TIGHTEST, TIGHTER = 1, 2

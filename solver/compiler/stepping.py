@@ -23,6 +23,9 @@ LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 
+LANDED = 1e-13
+"""Largest penetration, m, at which an onset counts as located."""
+
 REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
 """What a lane's flag is the sum of."""
 
@@ -224,30 +227,35 @@ class StepRecorder:
         return limited
 
     def _contact_flags(self, j: int) -> tuple[Expression, Expression]:
-        """Flag a gap that closed, or nearly, inside the step; and one in contact that opened."""
+        """Flag a gap that closed, or nearly, inside the step; and one in contact that opened.
+
+        Either may be over at the step's end, so both look at the extreme in between.
+        """
         v, number = self.variable, self.recorder.constant
         gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
         start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
         step = v("tried")
-        # highest point of the cubic through both ends, at the zero of the linear rate
+        # the extreme of the cubic through both ends, at the zero of the linear rate
         turn = start_rate / (start_rate - rate + 1e-300)
         rest = 1.0 - turn
-        top = (
+        extreme = (
             rest * rest * (1.0 + 2.0 * turn) * start
             + turn * turn * (3.0 - 2.0 * turn) * gap
             + turn * rest * step * (rest * start_rate - turn * rate)
         )
-        ends = select_positive(gap - start, gap, start)
-        near = top + 0.1 * abs(top - ends)
+        near = extreme + 0.1 * abs(extreme - maximum(gap, start))
+        away = 0.1 * abs(extreme - minimum(gap, start)) - extreme
         touches = select_positive(near, number(ONSET), number(0.0))
         grazing = select_positive(
             start_rate, select_positive(-rate, touches, number(0.0)), number(0.0)
         )
-        if not self.tableau.error:  # a fixed step is not shortened: contacts begin where it ends
-            grazing = number(0.0)
+        parts = select_positive(away, number(RELEASE), number(0.0))
+        dip = select_positive(rate, select_positive(-start_rate, parts, number(0.0)), number(0.0))
+        if not self.tableau.error:  # a fixed step is not shortened: contacts change where it ends
+            grazing = dip = number(0.0)
         onset = select_positive(gap, number(ONSET), grazing)
-        opened = select_positive(-rate, number(RELEASE), number(0.0))
-        release = select_positive(gap, number(0.0), opened)
+        opened = select_positive(maximum(-rate, start - LANDED), number(RELEASE), number(0.0))
+        release = select_positive(gap, dip, opened)
         closed, nothing = v(f"mode{j}"), number(0.0)
         return select_positive(closed, nothing, onset), select_positive(closed, release, nothing)
 

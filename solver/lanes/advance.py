@@ -63,7 +63,9 @@ def attend(
     gaps_within: LaneFunction,
 ) -> bool:
     """Look after one lane between its attempt and its commit; whether a buffer is full."""
-    opening = note_openings(lane, slots, work) if flag & RELEASE else 1.0
+    opening = 1.0
+    if flag & RELEASE:
+        opening = note_openings(lane, slots, work, spare, gaps_within)
     if flag & REJECTED:
         counters[Counter.REJECTIONS, lane] += 1
         counters[Counter.LANDING, lane] = -1  # its attempts count on, or they might go in circles
@@ -125,12 +127,10 @@ def settle(
             )  # fmt: skip
     if flag & RELEASE:
         for j in range(slots[Slot.JOINTS]):
-            gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
-            rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + lane]
-            if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and gap <= 0.0 and rate < 0.0:
+            opened = work[(slots[Slot.OPENED] + j) * LANES + lane]
+            if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and opened < math.inf:
                 work[(slots[Slot.MODE] + j) * LANES + lane] = 0.0
-                opened = begun + work[(slots[Slot.OPENED] + j) * LANES + lane]
-                end_contact(j, opened, lane, slots, work, counters, impact_rows)
+                end_contact(j, begun + opened, lane, slots, work, counters, impact_rows)
         full |= counters[Counter.IMPACT_ROWS, lane] + slots[Slot.JOINTS] > impact_rows.shape[1]
     over = work[slots[Slot.TIME] * LANES + lane] >= work[slots[Slot.END] * LANES + lane]
     if over or has_all_events(lane, settings, counters):

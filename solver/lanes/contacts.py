@@ -6,13 +6,12 @@ import numpy as np
 
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
+from solver.compiler.stepping import LANDED
 from solver.jit import LaneFunction, kernel
 from solver.lanes.onset import NO_ONSET, first_onset
 from solver.lanes.periods import stop
 from solver.lanes.state import Counter, Status
 
-LANDED = 1e-13
-"""Largest penetration, m, at which an onset counts as located."""
 MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
 MOST_APPROACHES = 30
@@ -143,10 +142,37 @@ def end_contact(
 
 
 @kernel()
-def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
-    """Note how far into this step each gap opens: the root of the cubic through both its ends.
+def dip(
+    j: int,
+    lane: int,
+    slots: np.ndarray,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+) -> float:
+    """Return the share of the step after which joint j's gap is open, though closed at both ends.
 
-    Return the smallest of these shares of the step; 1 where no contact worth mentioning ends.
+    1: it stays closed.
+    """
+    for i in range(LANES):
+        spare[slots[Slot.THETA] * LANES + i] = (i + 1) / LANES
+    gaps_within(work, spare, lane)
+    for i in range(LANES):
+        if spare[(slots[Slot.GAP] + 4 * j) * LANES + i] < 0.0:
+            return (i + 1) / LANES
+    return 1.0
+
+
+@kernel()
+def note_openings(
+    lane: int, slots: np.ndarray, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
+) -> float:
+    """Note when in this step each gap opens: at the root of the cubic through both its ends.
+
+    Infinite where it is not open at the end; where contact has only just begun, it must be on its
+    way apart. Return the smallest of these shares of the step, 1 where no contact worth mentioning
+    ends. A gap that is closed again at the end was open nevertheless: what touches then is another
+    contact, with an impact rate of its own.
     """
     step = work[slots[Slot.TRIED] * LANES + lane]
     soonest = 1.0
@@ -154,6 +180,9 @@ def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
         place = (slots[Slot.GAP] + 4 * j) * LANES + lane
         gap, rate = work[place], work[place + LANES] * step
         start, start_rate = work[place + 2 * LANES], work[place + 3 * LANES] * step
+        closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
+        fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
+        shortened = start > LANDED and closed and not fixed
         low, high = 0.0, 1.0
         if start > 0.0 >= gap:
             for _ in range(BISECTIONS):
@@ -165,12 +194,13 @@ def note_openings(lane: int, slots: np.ndarray, work: np.ndarray) -> float:
                     low = x
                 else:
                     high = x
-            closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
-            fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
-            if start > LANDED and closed and not fixed:
-                soonest = min(soonest, high)
+        elif shortened and start_rate < 0.0 < rate:
+            high = dip(j, lane, slots, work, spare, gaps_within)
+        if shortened:
+            soonest = min(soonest, high)
         opened = work[slots[Slot.TIME] * LANES + lane] + high * step
-        work[(slots[Slot.OPENED] + j) * LANES + lane] = opened
+        open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
+        work[(slots[Slot.OPENED] + j) * LANES + lane] = opened if open_now else np.inf
     return soonest
 
 

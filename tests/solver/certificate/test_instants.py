@@ -58,7 +58,8 @@ def test_tighter_companions_take_more_steps_and_looser_ones_fewer() -> None:
     steps = [companions.attempts(lane) for lane in (RUN, *range(1, len(LADDER) + 1))]
     # the ends of the ladder: neighbours differ less than their impacts do, soon not the same ones
     assert steps[1] > steps[0] > steps[-1]
-    # fifth order: 2/5 of the tolerance takes 2.5^0.2 = 1.2 times the steps; soon the impacts
-    # are not the same ones, which is worth a sixth of the steps either way
-    assert 1.05 < steps[1] / steps[0] < 1.45
+    # fifth order: a quarter of the tolerance takes 4^0.2 = 1.32 times the steps, less where they
+    # are at the limit of stability; soon the impacts are not the same ones, which is worth a sixth
+    # of the steps either way
+    assert 1.05 < steps[1] / steps[0] < 1.55
     assert (bundle.counters[Counter.STATUS] == Status.DONE).all()
