@@ -132,6 +132,7 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
     ("module", "never"),
     [
         ("jointplay.client", ["numba", "celery", "fastapi", "sqlalchemy", "zarr", "matplotlib"]),
+        ("jointplay.local.folder_results", ["numba", "celery", "httpx", "matplotlib"]),
         ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
         ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
         ("solver.admission", ["numba", "celery", "fastapi", "zarr"]),

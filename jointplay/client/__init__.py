@@ -6,9 +6,9 @@
 ...     print(job.window("energy.kinetic", points=500)["energy.kinetic"].max())
 """
 
-from jointplay.client.batches import Batch
-from jointplay.client.client import Client
-from jointplay.client.connection import DEFAULT_URL
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from jointplay.client.errors import (
     ClientError,
     Expired,
@@ -33,6 +33,11 @@ from jointplay.client.job_record import JobError, JobRecord, Progress
 from jointplay.client.picture import Picture
 from jointplay.client.results import Impacts, Peak, Results
 from jointplay.client.window import ChannelSeries, Window
+
+if TYPE_CHECKING:
+    from jointplay.client.batches import Batch
+    from jointplay.client.client import Client
+    from jointplay.client.connection import DEFAULT_URL
 
 __all__ = [
     "DEFAULT_URL",
@@ -66,3 +71,16 @@ __all__ = [
     "Unreachable",
     "Window",
 ]
+
+_ONLINE = {"Batch": "batches", "Client": "client", "DEFAULT_URL": "connection"}
+
+
+def __getattr__(name: str) -> Any:
+    """Load what speaks HTTP when it is asked for: jobs in a folder need none of it."""
+    if name in _ONLINE:
+        return getattr(import_module(f"jointplay.client.{_ONLINE[name]}"), name)
+    raise AttributeError(f"module 'jointplay.client' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any, Self
 
 from jointplay.client.errors import JobCancelled, JobFailed, ResultsNotReady, TimedOut
 from jointplay.client.html import html_table
-from jointplay.client.keeper import Keeper
 from jointplay.client.readable_job import ReadableJob
 from jointplay.client.waiting import shown
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from jointplay.client.keeper import Keeper
 
 
 class Job(ReadableJob):
@@ -26,7 +27,7 @@ class Job(ReadableJob):
     `study`, `results` and figures need neither.
     """
 
-    def __init__(self, document: Mapping[str, Any], keeper: Keeper) -> None:
+    def __init__(self, document: Mapping[str, Any], keeper: "Keeper") -> None:
         super().__init__(document, keeper.results)
         self._keeper = keeper
 

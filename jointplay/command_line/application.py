@@ -57,9 +57,9 @@ application.command()(cite.cite)
 application.command()(openapi.openapi)
 application.add_typer(scene.application, name="scene")
 
-OBJECTS_BETWEEN_COLLECTIONS = 100_000
+OBJECTS_BETWEEN_COLLECTIONS = 500_000
 """A command imports and draws: most objects live on, and Python would look at them all, and again,
-for a seventh of the time of a short run."""
+for a seventh of the time of a short run. So many objects that nobody needs take some 50 MB."""
 
 _WRONG_PATH = (
     FileNotFoundError,

@@ -22,7 +22,7 @@ from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
 from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
-from jointplay.figures.page import Form
+from jointplay.figures.page import Form, warm_up
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
 from jointplay.figures.section import SECTION
 from jointplay.figures.spectrum import SPECTRUM
@@ -53,6 +53,7 @@ __all__ = [
     "render_mechanism",
     "required",
     "select",
+    "warm_up",
 ]
 
 ROSTER: Final[tuple[RunFigure, ...]] = (

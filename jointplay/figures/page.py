@@ -89,6 +89,13 @@ def style() -> Iterator[None]:
         yield
 
 
+def warm_up() -> None:
+    """Load what every figure needs, fonts too; the first one of a process else waits for it."""
+    with style():
+        figure, _ = panels(1, 1, 40.0)
+        save(figure, "png")
+
+
 def panels(
     rows: int,
     columns: int,
@@ -171,8 +178,18 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
 
 
 def save(figure: Figure, form: Form) -> bytes:
-    """Give the bytes of a file: the same for the same figure, without date or version."""
+    """Give the bytes of a file: the same for the same figure, without date or version.
+
+    `savefig` draws twice, at first into nowhere, to lay the page out. It is laid out by then.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     tick_labels.spread(figure)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=_METADATA[form])
+    if form == "png":
+        figure.set_dpi(DOTS_PER_INCH)
+        canvas: Any = FigureCanvasAgg(figure)  # its stubs leave types out
+        canvas.print_png(buffer, metadata=_METADATA[form])
+    else:
+        figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=_METADATA[form])
     return buffer.getvalue()

@@ -1,9 +1,12 @@
-"""The command starts fast because it loads nothing before it is needed."""
+"""The command starts fast because it loads nothing before it is needed, and ends at once."""
 
+import gc
 import subprocess
 import sys
 
 import pytest
+
+from jointplay.command_line import application, main
 
 HEAVY = ["numba", "scipy", "matplotlib", "celery", "sqlalchemy", "fastapi", "zarr", "numpy"]
 HEAVY += ["pydantic", "httpx", "rich"]
@@ -36,3 +39,14 @@ def test_a_client_command_loads_no_service():
     assert loaded_by("ls", "--url", "http://127.0.0.1:9").isdisjoint(
         {"numba", "celery", "fastapi", "zarr", "matplotlib", "sqlalchemy"}
     )
+
+
+def test_it_ends_without_a_look_at_what_is_still_there(monkeypatch):
+    monkeypatch.setattr(application, "run", lambda: 3)
+    try:
+        with pytest.raises(SystemExit) as ended:
+            main()
+        assert ended.value.code == 3
+        assert gc.get_freeze_count() > 10_000
+    finally:
+        gc.unfreeze()
