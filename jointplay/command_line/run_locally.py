@@ -11,6 +11,7 @@ from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job
+    from jointplay.local.second_drawer import SecondDrawer
 
 
 def run(
@@ -58,6 +59,7 @@ def run(
     """
     from jointplay.local import load
     from jointplay.local.computing import compute
+    from jointplay.local.second_drawer import second_drawer
     from jointplay.progress import progress
     from solver.admission import Study, admit
 
@@ -94,15 +96,17 @@ def run(
     if processes is not None and not isinstance(admission, Study):
         raise Stopped(Exit.BAD_INPUT, "--processes is of studies; this is one simulation.")
     _make(output)
-    with progress(output.name) as report:
-        compute(admission, output, processes, report)
-    job = load(output)
-    tell = _of_study if isinstance(admission, Study) else _of_simulation
-    if job.kind == "accuracy-study":
-        tell = _of_accuracy
-    told: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None} | tell(
-        job, output, as_json
-    )
+    with second_drawer(admission) as second:
+        with progress(output.name) as report:
+            compute(admission, output, processes, report)
+        job = load(output)
+        told: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None}
+        if job.kind == "accuracy-study":
+            told |= _of_accuracy(job, output, as_json)
+        elif isinstance(admission, Study):
+            told |= _of_study(job, output, as_json)
+        else:
+            told |= _of_simulation(job, output, second, as_json)
     if as_json:
         print_json({"job": job.to_document(), **told})
     job.check()
@@ -119,7 +123,9 @@ def _make(output: Path) -> None:
         raise Stopped(Exit.BAD_INPUT, line) from None
 
 
-def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
+def _of_simulation(
+    job: "Job", output: Path, second: "SecondDrawer | None", as_json: bool
+) -> dict[str, Any]:
     """Write figures and peaks, and tell the peaks."""
     from jointplay.command_line.certificate import print_headline
     from jointplay.command_line.drawing import draw_all
@@ -128,7 +134,7 @@ def _of_simulation(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:
     rows = list(rows_of(job.results.peaks()))
     table = output / "peaks.csv"
     table.write_text("".join(peak_lines(rows)))
-    draw_all(job, output / "figures")
+    draw_all(job, output / "figures", second)
     if not as_json:
         first = headline(job.results.source(None, None, None))
         print_peaks(row for row in rows if row.channel in first)

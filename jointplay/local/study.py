@@ -1,7 +1,6 @@
 """All blocks of a study on this machine's cores, each result through the study's store."""
 
 import multiprocessing
-import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, MutableSequence
@@ -11,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+from jointplay.local.cores import cores
 from jointplay.local.interruption import interruption
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     """
     from worker.study_block import create_store, seal_store
 
-    wanted = min(processes or _cores(), len(study.blocks))
+    wanted = min(processes or cores(), len(study.blocks))
     report(0.0, "preparing the kernels")
     create_store(study, folder)
     run = _here if wanted == 1 else _spread
@@ -62,12 +62,6 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     report(1.0, f"{study.points} of {study.points} points")
     seal_store(study, folder)
     return True
-
-
-def _cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _here(study: "Study", folder: Path, processes: int, report: Report) -> bool:
