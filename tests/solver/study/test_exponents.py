@@ -42,6 +42,7 @@ def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
     }
     job = {"kind": "poincare", "scene": scene, "settle": 20, "record": 100}
     end = Computed({**job, "indicators": ["lyapunov"]}).ends[0]
-    # 6.9 +- 0.1 over longer runs at tolerances down to 1e-11
-    assert abs(end.indicators["lyapunov"] - 6.9) < 4.0 * end.indicators["lyapunov_error"] + 0.3
-    assert end.indicators["lyapunov_error"] < 0.5
+    # 6.9 +- 0.1 over longer runs at tolerances down to 1e-11; over these hundred periods 5.9 to
+    # 7.1 with errors of 0.45 to 0.75, at tolerances from 1e-6 to 1e-9
+    assert abs(end.indicators["lyapunov"] - 6.9) < 2.5 * end.indicators["lyapunov_error"]
+    assert end.indicators["lyapunov_error"] < 1.0
