@@ -76,7 +76,8 @@ COSINE = (
 """Minimax coefficients on [-pi/4, pi/4] (fdlibm, Sun Microsystems 1993)."""
 
 
-def _floor(x: Any) -> Any:
+def floor(x: Any) -> Any:
+    """Largest whole number not above x."""
     return math.floor(x) * 1.0 if isinstance(x, float) else x.floor()
 
 
@@ -87,22 +88,35 @@ def _polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
     return total
 
 
-def _of_six(z: Any, w: Any, c: tuple[float, ...]) -> Any:
+def of_six(z: Any, w: Any, c: tuple[float, ...]) -> Any:
     """Polynomial of degree 5 in z, w = z²: pairs side by side, for what follows waits for it."""
     return ((c[0] + c[1] * z) + w * (c[2] + c[3] * z)) + (w * w) * (c[4] + c[5] * z)
 
 
 def sine_cosine(x: Any) -> tuple[Any, Any]:
     """Sine and cosine for angles up to 1e6 rad, within two units in the last place of 1."""
-    n = _floor(x * TWO_OVER_PI + 0.5)
+    n = floor(x * TWO_OVER_PI + 0.5)
     r = (x - n * HALF_PI[0]) - n * HALF_PI[1]
     z = r * r
     w = z * z
-    sine = r + (r * z) * _of_six(z, w, SINE)
-    cosine = (1.0 - 0.5 * z) + w * _of_six(z, w, COSINE)
+    sine = r + (r * z) * of_six(z, w, SINE)
+    cosine = (1.0 - 0.5 * z) + w * of_six(z, w, COSINE)
     if isinstance(x, float):
         return _quarter_turns(n, sine, cosine), _quarter_turns(n + 1.0, sine, cosine)
     return sine.quarter_turns(n, cosine), sine.quarter_turns(n + 1.0, cosine)
+
+
+def split(x: Any) -> tuple[Any, Any]:
+    """Return e and m with x = m 2^e and 1 <= m < 2, for a normal x > 0."""
+    if isinstance(x, float):
+        return _exponent_of(x), _mantissa_of(x)
+    exponent, mantissa = x.exponent_and_mantissa()
+    return exponent, mantissa
+
+
+def power_of_two(whole: Any) -> Any:
+    """2^n for a whole number n, limited to the range of a float."""
+    return _power_of_two(whole) if isinstance(whole, float) else whole.power_of_two()
 
 
 LOG2_E = 1.4426950408889634
@@ -116,9 +130,7 @@ SMALLEST = 1e-300
 
 def log2(x: Any) -> Any:
     """Base-2 logarithm of x > 0, within 4e-16 of max(1, |log2 x|)."""
-    exponent, mantissa = (
-        (_exponent_of(x), _mantissa_of(x)) if isinstance(x, float) else x.exponent_and_mantissa()
-    )
+    exponent, mantissa = split(x)
     upper = mantissa - math.sqrt(2.0)
     mantissa = select_positive(upper, 0.5 * mantissa, mantissa)
     exponent = select_positive(upper, exponent + 1.0, exponent)
@@ -128,10 +140,9 @@ def log2(x: Any) -> Any:
 
 def exp2(x: Any) -> Any:
     """2 ** x, relative error within 4e-16 for |x| < 1000."""
-    whole = _floor(x + 0.5)
+    whole = floor(x + 0.5)
     fraction = _polynomial((x - whole) * LN_2, EXPONENTIAL_SERIES)
-    scale = _power_of_two(whole) if isinstance(whole, float) else whole.power_of_two()
-    return fraction * scale
+    return fraction * power_of_two(whole)
 
 
 def power(x: Any, exponent: Any) -> Any:

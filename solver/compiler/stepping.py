@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
+from solver.compiler.coarse_functions import coarse_exp2, coarse_log2
 from solver.compiler.emit import RETURNING, FixedNodes, Known, Outputs, Tape, lane_function
-from solver.compiler.lane_functions import exp2, log2
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.integrators import Method
@@ -154,7 +154,7 @@ class StepRecorder:
         last = self.tableau.stages
         squared = self._squared_error() if self.tableau.error else self._overflow()
         good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
-        magnitude = 0.5 * log2(squared)
+        magnitude = 0.5 * coarse_log2(squared)
         if self.tableau.error:
             next_step = v("tried") * self._growth(good, magnitude)
         else:  # fixed; after an overflow there is none
@@ -220,7 +220,7 @@ class StepRecorder:
         onwards = PROPORTIONAL * self.variable("memory") - smooth * magnitude
         again = -exponent * magnitude
         safety = math.log2(SAFETY)
-        growth: Expression = exp2(safety + select_positive(good, onwards, again))
+        growth: Expression = coarse_exp2(safety + select_positive(good, onwards, again))
         growth = select_positive(good, growth, minimum(growth, 1.0))
         growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
         limited: Expression = minimum(growth, number(LARGEST_GROWTH))

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solver.compiler import coarse_functions as coarse
 from solver.compiler import lane_functions as lane
 
 ULP_OF_ONE = 2.0**-52
@@ -68,3 +69,13 @@ def test_power_of_zero_is_zero(exponent: float) -> None:
 def test_power_grows_with_its_base(x: float, exponent: float) -> None:
     # neighbours one part in 1e12 apart: rounding of 1e-13 at most keeps their order
     assert lane.power(x, exponent) < lane.power(x * (1.0 + 1e-12), exponent)
+
+
+@given(st.floats(min_value=1e-300, max_value=1e300))
+def test_the_coarse_logarithm_is_within_its_stated_bound(x: float) -> None:
+    assert coarse.coarse_log2(x) == pytest.approx(math.log2(x), abs=1.3e-5)
+
+
+@given(st.floats(-1000.0, 1000.0))
+def test_the_coarse_exponential_is_within_its_stated_bound(x: float) -> None:
+    assert coarse.coarse_exp2(x) == pytest.approx(math.exp2(x), rel=1e-7)
