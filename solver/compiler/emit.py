@@ -18,12 +18,14 @@ HEADER = '''"""A generated kernel: see solver.compiler."""
 
 from numba import float64, int64, njit, void
 
-from solver.compiler.straight_line import over_lanes, over_one_lane, over_rows
+from solver.compiler.straight_line import over_lanes, over_one_lane, over_one_row, over_rows
 
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
 '''
 DECORATOR = "@njit(void(float64[::1]), **options)"
 RETURNING = "@njit(float64(float64[::1]), **options)"
+
+TYPES = {"W": "float64[::1]", "S": "float64[::1]", "lane": "int64", "row": "int64"}
 
 Outputs = Sequence[tuple[str, Expression]]
 """Slot name and what is to be in it."""
@@ -121,6 +123,10 @@ class Tape:
         """Return the source of a function of W, S and a lane: S is written, from a lane of W."""
         return self._source(name, "void", "W, S, lane", "over_one_lane")
 
+    def function_of_one_row(self, name: str) -> str:
+        """Return the source of a function of W and a row."""
+        return self._source(name, "void", "W, row", "over_one_row")
+
     def function_of_rows(self, name: str, rows: int) -> str:
         """Return the source of a function of W that runs the tape for each row."""
         return self._source(name, "int64", "W", "over_rows", f", {rows}")
@@ -128,7 +134,7 @@ class Tape:
     def _source(
         self, name: str, value: str, arguments: str, compiler: str, further: str = ""
     ) -> str:
-        types = "float64[::1], float64[::1], int64" if "," in arguments else "float64[::1]"
+        types = ", ".join(TYPES[argument] for argument in arguments.split(", "))
         lines = [
             f'{name}_tape = {compiler}("""',
             *self.lines,

@@ -188,8 +188,19 @@ def solve(W):
         outputs += [("stage_time", v("time") + v("tried")), ("arrival", v("time") + v("tried"))]
         return self._function("finish", outputs + self._kept_ledger(3))
 
-    def _kept(self, s: int) -> list[tuple[str, Expression]]:
-        return self._kept_ledger(4)
+    def _slope(self, s: int, i: int) -> str:
+        return f"k{s}_{i}"
+
+    def _inner_slope(self, i: int) -> Expression:
+        """Slope of state i at the point just evaluated: of a coordinate, the speed there."""
+        count = self.states // 2
+        return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
+
+    def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:
+        return [(f"kledger{s}_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
+
+    def _ledger_at(self, s: int, i: int) -> str:
+        return f"ledger{i}" if s == len(LOBATTO) else f"kledger{s}_{i}"
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return LOBATTO
@@ -205,9 +216,10 @@ def solve(W):
         return squared
 
     def _calls(self) -> list[str]:
+        place = self.layout["slope0"] - self.layout["k1_0"]
         calls = ["start(W)", "jacobian(W)", "right_1(W)", "solve(W)"]
         for s in range(2, len(self.method.nodes) + 1):
-            calls += [f"point_{s}(W)", "slopes(W)", f"right_{s}(W)", "solve(W)"]
+            calls += [f"point_{s}(W)", f"slopes(W, {place})", f"right_{s}(W)", "solve(W)"]
         for name in ("inner_1", "inner_2", "finish"):
             calls += [f"{name}(W)", "right_hand_side(W)"]
         return calls

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from solver.compiler.emit import FixedNodes, Outputs, Tape
 from solver.compiler.equations import Equations
 from solver.compiler.layout import LANES, Layout
+from solver.compiler.stepping import before
 
-RENAMED = {"tried": "before_step"}
-"""What is called otherwise, of the step before, than this with ``before_``."""
 QUARTERS = [lane / (LANES // 2) for lane in range(LANES // 2)]
 
 
@@ -74,9 +73,8 @@ def _around(layout: Layout) -> Callable[[str], str]:
     def fetch(name: str) -> str:
         if name == "theta":
             return " ".join(["lanes", *map(repr, QUARTERS * 2)])
-        before = RENAMED.get(name, f"before_{name}")
-        if before in layout:
-            return f"spread {layout[before]} {layout[name]}"
+        if before(name) in layout:
+            return f"spread {layout[before(name)]} {layout[name]}"
         return f"spread {layout[name]}"
 
     return fetch

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from solver.compiler import implicit, inside, scanning, stepping
 from solver.compiler.cache import load
-from solver.compiler.emit import HEADER, FixedNodes, lane_function
+from solver.compiler.emit import HEADER, FixedNodes, Tape, lane_function
 from solver.compiler.equations import (
     Equations,
     record,
@@ -83,6 +83,8 @@ class Kernel:
         m = self.module
         functions = (
             m.attempt,
+            m.remember,
+            m.remember_some,
             m.take,
             m.take_some,
             m.observe,
@@ -150,7 +152,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     source = "\n\n".join(
         [
             HEADER,
-            lane_function("slopes", slopes(equations), layout, fixed),
+            _slope_function(equations, layout, fixed),
             lane_function("right_hand_side", evaluated, layout, fixed),
             lane_function("observe", scanned, layout, fixed, known),
             lane_function("observe_rest", rest, layout, fixed, known),
@@ -180,6 +182,18 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         equations,
         tableau,
     )
+
+
+def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of slopes(W, row), which writes slopes where a stage's are kept.
+
+    `row` : slots from those of the first stage.
+    """
+    tape = Tape(layout, fixed)
+    kept = {"slope": "k1_", "ledger": "kledger1_"}
+    named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
+    tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
+    return tape.function_of_one_row("slopes")
 
 
 def values_of(nodes: Sequence[Expression], scene: Scene) -> NDArray[np.float64]:

@@ -10,7 +10,15 @@ from __future__ import annotations
 import math
 
 from solver.compiler.coarse_functions import coarse_exp2, coarse_log2
-from solver.compiler.emit import RETURNING, FixedNodes, Known, Outputs, Tape, lane_function
+from solver.compiler.emit import (
+    RETURNING,
+    FixedNodes,
+    Known,
+    Outputs,
+    Tape,
+    lane_function,
+    reachable,
+)
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.integrators import Method
@@ -35,17 +43,15 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
-    for prefix in ("", "before_"):  # two equal pieces, so that one can be copied to the other
-        layout.add_block(f"{prefix}y", states)
-        for s in range(1, stages + 1):
-            layout.add_block(f"{prefix}k{s}_", states)
-    for s in range(1, stages + 1):
+    layout.add_block("y", states)
+    for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
+        layout.add_block(f"k{s}_", states)
         layout.add_block(f"kledger{s}_", ledger)
+    layout.add_block("slope", states)
+    layout.add_block("ledger", ledger)
     layout.add_block("total", ledger)
     layout.add("gross", "potential", "stored", "potential_start", "stored_start")
     layout.add_block("stage", states)
-    layout.add_block("slope", states)
-    layout.add_block("ledger", ledger)
     layout.add_block("weight", states)
     for j in range(joints):
         layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
@@ -53,9 +59,11 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add_block("impact_rate", joints)
     for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
         layout.add_block(name, joints)
-    layout.add("before_time", "before_step")
-    layout.add_block("before_mode", joints)
-    layout.add_block("before_impact_rate", joints)
+
+
+def before(name: str) -> str:
+    """Return the slot of a quantity of the step before."""
+    return {"tried": "before_step"}.get(name, f"before_{name}")
 
 
 class StepRecorder:
@@ -75,6 +83,7 @@ class StepRecorder:
         self.states, self.ledger, self.joints = states, ledger, joints
         self.layout, self.known = layout, known
         self.recorder = Recorder()
+        layout.add(*(before(name) for name in self._remembered()))
 
     def variable(self, name: str) -> Expression:
         """Return the expression of a slot."""
@@ -86,6 +95,7 @@ class StepRecorder:
         `energies` : what gravity and contacts store, at the stage.
         """
         parts = [*self._steps(), self._judge(), self._attempt()]
+        parts += [self._remember(some=some) for some in (False, True)]
         parts += [self._take(energies, fixed, some=some) for some in (False, True)]
         return "\n\n".join(parts)
 
@@ -99,8 +109,11 @@ class StepRecorder:
     def _calls(self) -> list[str]:
         """Return what an attempt calls before the judge, in its order."""
         last = self.tableau.stages
-        inner = [call for s in range(2, last) for call in (f"stage_{s}(W)", "slopes(W)")]
-        return [*inner, f"stage_{last}(W)", "right_hand_side(W)"]
+        calls = []
+        for s in range(2, last):
+            place = self.layout[f"k{s}_0"] - self.layout["k1_0"]
+            calls += [f"stage_{s}(W)", f"slopes(W, {place})"]
+        return [*calls, f"stage_{last}(W)", "right_hand_side(W)"]
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return self.tableau.matrix[-1]
@@ -113,45 +126,37 @@ class StepRecorder:
         return tried
 
     def _stage(self, s: int) -> str:
-        """Stage s of the step: y + h Σ a k, and keep the slope of the stage before."""
+        """Stage s of the step: y + h Σ a k. The slopes of its coordinates are its speeds."""
         v = self.variable
         weights = self.tableau.matrix[s - 1]
         step = self._tried() if s == 2 else v("tried")
         outputs: list[tuple[str, Expression]] = [("tried", step)] if s == 2 else []
         for i in range(self.states):
-            slopes = [v(f"k{j}_{i}") for j in range(1, s - 1)]
-            slopes.append(v(f"k1_{i}") if s == 2 else self._inner_slope(i))
             total: Expression = self.recorder.constant(0.0)
-            for a, slope in zip(weights, slopes, strict=True):
-                total = total + a * slope
-            outputs.append((f"stage{i}", v(f"y{i}") + step * total))
+            for j, a in enumerate(weights, start=1):
+                total = total + a * v(f"k{j}_{i}")
+            moved = v(f"y{i}") + step * total
+            outputs.append((f"stage{i}", moved))
+            coordinate = i - self.states // 2
+            if coordinate >= 0 and s < self.tableau.stages:
+                outputs.append((f"k{s}_{coordinate}", moved))
         node = self.tableau.nodes[s - 1]
         moment = v("time") + node * step
         outputs.append(("stage_time", moment))
         if s == self.tableau.stages:
             outputs.append(("arrival", moment))
-        if s > 2:
-            outputs += [(f"k{s - 1}_{i}", self._inner_slope(i)) for i in range(self.states)]
-            outputs += self._kept_ledger(s - 1)
         return self._function(f"stage_{s}", outputs)
 
-    def _inner_slope(self, i: int) -> Expression:
-        """Slope of state i at the stage just evaluated: of a coordinate, the stage's speed."""
-        count = self.states // 2
-        return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
+    def _slope(self, s: int, i: int) -> str:
+        """Return the slot of the slope of state i at stage s: the last is where the step ends."""
+        return f"slope{i}" if s == self.tableau.stages else f"k{s}_{i}"
 
-    def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:
-        return [(f"kledger{s}_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
-
-    def _kept(self, s: int) -> list[tuple[str, Expression]]:
-        """Keep the slopes where the step ends."""
-        kept = [(f"k{s}_{i}", self.variable(f"slope{i}")) for i in range(self.states)]
-        return kept + self._kept_ledger(s)
+    def _ledger_at(self, s: int, i: int) -> str:
+        return f"kledger{s}_{i}"
 
     def _judge(self) -> str:
         """Error of the step, the next step size, and what needs attention."""
         v, number = self.variable, self.recorder.constant
-        last = self.tableau.stages
         squared = self._squared_error() if self.tableau.error else self._overflow()
         good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
         magnitude = 0.5 * coarse_log2(squared)
@@ -175,7 +180,7 @@ class StepRecorder:
             ("new_memory", magnitude),
         ]
         tape = Tape(self.layout)
-        tape.store([*outputs, *self._kept(last)])
+        tape.store(outputs)
         tape.give(flag)
         return tape.function("judge")
 
@@ -189,13 +194,12 @@ class StepRecorder:
 
     def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
         """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
-        v, last = self.variable, self.tableau.stages
+        v = self.variable
         squared: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
-            slopes = [f"k{s}_{i}" for s in range(1, last)] + [f"slope{i}"]
             error: Expression = self.recorder.constant(0.0)
-            for weight, slope in zip(weights, slopes, strict=True):
-                error = error + weight * v(slope)
+            for s, weight in enumerate(weights, start=1):
+                error = error + weight * v(self._slope(s, i))
             scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
         return squared
@@ -275,8 +279,6 @@ class StepRecorder:
         running = v("active")
         smallest = minimum(v("tried"), v("smallest_step"))
         outputs = [
-            ("before_time", v("time")),
-            ("before_step", v("tried")),
             ("time", v("arrival")),
             ("memory", v("new_memory")),
             ("steps", v("steps") + running),
@@ -293,7 +295,7 @@ class StepRecorder:
         for i in range(self.ledger):
             total: Expression = self.recorder.constant(0.0)
             for s, b in enumerate(self._ledger_weights(), start=1):
-                total = total + b * v(f"kledger{s}_{i}")
+                total = total + b * v(self._ledger_at(s, i))
             added = v("tried") * total
             outputs.append((f"total{i}", v(f"total{i}") + added))
             if i < self.ledger - self.joints:
@@ -302,27 +304,34 @@ class StepRecorder:
         for j in range(self.joints):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
-            outputs.append((f"before_mode{j}", v(f"mode{j}")))
-            outputs.append((f"before_impact_rate{j}", v(f"impact_rate{j}")))
-        outputs += self._moved_on()
+        for i in range(self.states):
+            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
+        outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
         if some:
-            taken = v("accept")
-            outputs = [(slot, select_positive(taken, new, v(slot))) for slot, new in outputs]
+            outputs = self._where_accepted(outputs)
         tape = Tape(self.layout, fixed, self.known)
         tape.carry(energies)
         tape.store([*outputs, ("step", v("next_step"))])
         return tape.function("take_some" if some else "take")
 
-    def _moved_on(self) -> list[tuple[str, Expression]]:
-        """Keep the dense output of this step; the next one begins where it ends."""
-        v = self.variable
-        pieces = [f"y{i}" for i in range(self.states)]
-        for s in range(1, self.tableau.stages + 1):
-            pieces += [f"k{s}_{i}" for i in range(self.states)]
-        moved = [(f"before_{name}", v(name)) for name in pieces]
-        for i in range(self.states):
-            moved += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
-        return moved + [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
+    def _remember(self, *, some: bool) -> str:
+        """Keep the dense output of this step, before the next one begins."""
+        outputs = [(before(name), self.variable(name)) for name in self._remembered()]
+        if some:
+            outputs = self._where_accepted(outputs)
+        return self._function("remember_some" if some else "remember", outputs)
+
+    def _remembered(self) -> list[str]:
+        """Return the slots that dense output reads."""
+        return sorted(
+            str(node.data)
+            for node in reachable(expression for _, expression in self.dense())
+            if node.operation == "variable" and node.data != "theta"
+        )
+
+    def _where_accepted(self, outputs: Outputs) -> list[tuple[str, Expression]]:
+        taken = self.variable("accept")
+        return [(slot, select_positive(taken, new, self.variable(slot))) for slot, new in outputs]
 
     def dense(self) -> list[tuple[str, Expression]]:
         """Return time, state, modes and impact rates at the share `theta` of the step."""
@@ -338,7 +347,7 @@ class StepRecorder:
         for i in range(self.states):
             slope: Expression = self.recorder.constant(0.0)
             for s, weight in enumerate(weights, start=1):
-                slope = slope + weight * v(f"k{s}_{i}")
+                slope = slope + weight * v(self._slope(s, i))
             outputs.append((f"stage{i}", v(f"y{i}") + step * slope))
         for j in range(self.joints):
             outputs.append((f"mode{j}", v(f"mode{j}")))

@@ -11,7 +11,8 @@ A tape has one statement a line::
     store 14 v3             into slot 14 of S, or of W where there is no S
     return v3               the largest of its lanes
 
-A tape for many rows has slots that move with the row, and tells where something is positive::
+A tape for one of many rows has slots that move with the row, and one for all of them tells where
+something is positive::
 
     v0 = load 12+           slot 12 + row
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
@@ -76,6 +77,21 @@ def over_one_lane(tape: str) -> Any:
             return context.get_dummy_value()
 
         return types.void(W, S, lane), generate
+
+    return run
+
+
+def over_one_row(tape: str) -> Any:
+    """Return a function of W and a row, inside kernels, that does what the tape says."""
+
+    @intrinsic
+    def run(_typing, W, row):  # noqa: N803
+        def generate(context, builder, signature, arguments):
+            work = _first_number(context, builder, signature, arguments, 0)
+            _run(tape, _Tape(builder, work, work, row=arguments[1]))
+            return context.get_dummy_value()
+
+        return types.void(W, row), generate
 
     return run
 

@@ -188,7 +188,7 @@ ROWS = float64[:, :, ::1]
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 3,
+        *[LANE_FUNCTION] * 5,
         *[ROWS_FUNCTION] * 2,
         *[ONE_LANE_FUNCTION] * 4,
         *[LANE_FUNCTION] * 2,
@@ -204,6 +204,8 @@ ROWS = float64[:, :, ::1]
 )
 def advance(
     attempt: LaneFunction,
+    remember: LaneFunction,
+    remember_some: LaneFunction,
     take: LaneFunction,
     take_some: LaneFunction,
     observe: LaneFunction,
@@ -232,7 +234,7 @@ def advance(
 
     Parameters
     ----------
-    attempt, take, take_some, observe, scan, scan_some
+    attempt, remember, remember_some, take, take_some, observe, scan, scan_some
     states_within, gaps_within, channels_within, channels_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     tangent_step, tangent_gaps
@@ -292,15 +294,17 @@ def advance(
                     full |= record_event(
                         found, lane, slots, work, spare, settings, counters, section_rows
                     )
-        candidates = 0
         if watch:
             candidates = scan(work) if quiet else scan_some(work)
-        if candidates > 0:
-            for lane in range(LANES):
+            for lane in range(LANES if candidates > 0 else 0):
                 if candidates >> lane & 1 and work[slots[Slot.ACCEPT] * LANES + lane] > 0.0:
                     refine_peaks(
                         lane, slots, work, spare, marked, counters, settings, table, channels_around
                     )
+            if quiet:
+                remember(work)
+            else:
+                remember_some(work)
         if tangents and (quiet or any_accepted(slots, work)):
             tangent_step(work)
         if quiet:

@@ -78,4 +78,4 @@ def test_the_coarse_logarithm_is_within_its_stated_bound(x: float) -> None:
 
 @given(st.floats(-1000.0, 1000.0))
 def test_the_coarse_exponential_is_within_its_stated_bound(x: float) -> None:
-    assert coarse.coarse_exp2(x) == pytest.approx(math.exp2(x), rel=1e-7)
+    assert coarse.coarse_exp2(x) == pytest.approx(math.exp2(x), rel=1.2e-7)
