@@ -84,9 +84,7 @@ class Kernel:
         functions = (
             m.attempt,
             m.remember,
-            m.remember_some,
             m.take,
-            m.take_some,
             m.observe,
             m.scan,
             m.scan_some,

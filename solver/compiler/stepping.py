@@ -95,8 +95,7 @@ class StepRecorder:
         `energies` : what gravity and contacts store, at the stage.
         """
         parts = [*self._steps(), self._judge(), self._attempt()]
-        parts += [self._remember(some=some) for some in (False, True)]
-        parts += [self._take(energies, fixed, some=some) for some in (False, True)]
+        parts += [self._remember(), self._take(energies, fixed)]
         return "\n\n".join(parts)
 
     def _function(self, name: str, outputs: Outputs) -> str:
@@ -268,11 +267,10 @@ class StepRecorder:
         calls = [f"    {call}" for call in self._calls()]
         return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
 
-    def _take(self, energies: Outputs, fixed: FixedNodes, *, some: bool) -> str:
-        """Take the step, in every lane or in those that accept it, and keep the one before.
+    def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
+        """Take the step in the lanes that accept it.
 
-        Lanes that are over take steps of no length, which change nothing that is handed out. The
-        gross work grows by the magnitudes of what a step's works come to: of each driver, of
+        The gross work grows by the magnitudes of what a step's works come to: of each driver, of
         gravity, of what contacts store and lose, of friction.
         """
         v = self.variable
@@ -307,19 +305,16 @@ class StepRecorder:
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
-        if some:
-            outputs = self._where_accepted(outputs)
+        outputs = self._where_accepted(outputs)
         tape = Tape(self.layout, fixed, self.known)
         tape.carry(energies)
         tape.store([*outputs, ("step", v("next_step"))])
-        return tape.function("take_some" if some else "take")
+        return tape.function("take")
 
-    def _remember(self, *, some: bool) -> str:
+    def _remember(self) -> str:
         """Keep the dense output of this step, before the next one begins."""
         outputs = [(before(name), self.variable(name)) for name in self._remembered()]
-        if some:
-            outputs = self._where_accepted(outputs)
-        return self._function("remember_some" if some else "remember", outputs)
+        return self._function("remember", self._where_accepted(outputs))
 
     def _remembered(self) -> list[str]:
         """Return the slots that dense output reads."""

@@ -188,7 +188,7 @@ ROWS = float64[:, :, ::1]
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 5,
+        *[LANE_FUNCTION] * 3,
         *[ROWS_FUNCTION] * 2,
         *[ONE_LANE_FUNCTION] * 4,
         *[LANE_FUNCTION] * 2,
@@ -205,9 +205,7 @@ ROWS = float64[:, :, ::1]
 def advance(
     attempt: LaneFunction,
     remember: LaneFunction,
-    remember_some: LaneFunction,
     take: LaneFunction,
-    take_some: LaneFunction,
     observe: LaneFunction,
     scan: LaneFunction,
     scan_some: LaneFunction,
@@ -234,7 +232,7 @@ def advance(
 
     Parameters
     ----------
-    attempt, remember, remember_some, take, take_some, observe, scan, scan_some
+    attempt, remember, take, observe, scan, scan_some
     states_within, gaps_within, channels_within, channels_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     tangent_step, tangent_gaps
@@ -301,16 +299,12 @@ def advance(
                     refine_peaks(
                         lane, slots, work, spare, marked, counters, settings, table, channels_around
                     )
-            if quiet:
-                remember(work)
-            else:
-                remember_some(work)
+            remember(work)
         if tangents and (quiet or any_accepted(slots, work)):
             tangent_step(work)
+        take(work)
         if quiet:
-            take(work)
             continue
-        take_some(work)
         for lane in range(LANES):
             if work[slots[Slot.ACCEPT] * LANES + lane] == 0.0:
                 continue

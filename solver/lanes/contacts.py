@@ -16,7 +16,9 @@ MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
 MOST_APPROACHES = 30
 """Times that the step is shortened to a quarter for one onset."""
-BISECTIONS = 40
+MOST_ITERATIONS = 40
+ROOT = 1e-15
+"""Change of a root, as a share of the step, that ends the search for it."""
 CAUTIOUS = 0.3
 """Of the size that the estimate asks for: a rejected step that starts where contact does. The force
 grows as a broken power of time there, and the estimate sees about a third of the error."""
@@ -164,6 +166,32 @@ def dip(
 
 
 @kernel()
+def falling_root(start: float, start_rate: float, end: float, end_rate: float) -> float:
+    """Return where in 0..1 the cubic through both ends falls to zero: Newton inside a bracket.
+
+    Rates are changes over the whole interval; start > 0 >= end.
+    """
+    square = 3.0 * (end - start) - 2.0 * start_rate - end_rate
+    cube = 2.0 * (start - end) + start_rate + end_rate
+    low, high = 0.0, 1.0
+    x = start / (start - end)
+    for _ in range(MOST_ITERATIONS):
+        value = start + x * (start_rate + x * (square + x * cube))
+        slope = start_rate + x * (2.0 * square + 3.0 * x * cube)
+        if value > 0.0:
+            low = x
+        else:
+            high = x
+        better = x - value / slope if slope < 0.0 else low
+        if not low < better < high:
+            better = 0.5 * (low + high)
+        if abs(better - x) <= ROOT:
+            break
+        x = better
+    return x
+
+
+@kernel()
 def note_openings(
     lane: int, slots: np.ndarray, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
 ) -> float:
@@ -183,17 +211,9 @@ def note_openings(
         closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
         fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
         shortened = start > LANDED and closed and not fixed
-        low, high = 0.0, 1.0
+        high = 1.0
         if start > 0.0 >= gap:
-            for _ in range(BISECTIONS):
-                x = 0.5 * (low + high)
-                rest = 1.0 - x
-                value = rest * rest * ((1.0 + 2.0 * x) * start + x * start_rate)
-                value += x * x * ((3.0 - 2.0 * x) * gap - rest * rate)
-                if value > 0.0:
-                    low = x
-                else:
-                    high = x
+            high = falling_root(start, start_rate, gap, rate)
         elif shortened and start_rate < 0.0 < rate:
             high = dip(j, lane, slots, work, spare, gaps_within)
         if shortened:

@@ -11,7 +11,7 @@ from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
 
 NO_ONSET = math.inf
-NEWTON_STEPS = 4
+NEWTON_STEPS = 3
 
 
 @kernel()
