@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from benchmarks.paper_equations import seconds_a_period
 from benchmarks.peer_diffrax import measure_diffrax
 from benchmarks.peer_exudyn import measure_exudyn
@@ -30,7 +31,6 @@ from solver.compile_loop import ready_kernel
 from solver.compiler.kernel import Kernel
 from solver.lanes.bundle import Bundle
 from solver.lanes.problem import LaneProblem
-from solver.lanes.state import Counter
 from solver.scene.document import Scene
 
 CASE = {
@@ -206,22 +206,13 @@ def cvode_leg(equations: CompiledEquations, method: str, tolerance: float) -> Le
 def ours(
     kernel: Kernel, tolerance: float, clearances: list[float], reference: np.ndarray
 ) -> Measured:
-    """Measure a bare run, one or more lanes busy; seconds a revolution and lane."""
-    seconds = []
+    """Measure bare runs, one alone or a queue for eight lanes; seconds a revolution and lane."""
     problems = [problem(clearance, tolerance, REVOLUTION) for clearance in clearances]
-    for _ in range(REPEATS):
-        bundle = Bundle(kernel, problems, watch=False)
-        begun = time.process_time()
-        while bundle.advance(10_000_000):
-            pass
-        seconds.append((time.process_time() - begun) / len(problems))
-    name = "ours, alone" if len(problems) == 1 else f"ours, {len(problems)} lanes busy"
-    found = at_check(kernel, tolerance)
-    made = sum(float(bundle.table("steps")[0, lane]) for lane in range(len(problems)))
-    made += float(bundle.counters[Counter.REJECTIONS].sum())
-    evaluations = (kernel.tableau.stages - 1) * made / len(problems)
-    median = statistics.median(seconds)
-    return Measured(name, tolerance, median, evaluations, *errors(found, reference))
+    runs = [busy_lanes(kernel, problems, watch=False) for _ in range(REPEATS)]
+    seconds, made = (statistics.median(column) for column in zip(*runs, strict=True))
+    name = "ours, alone" if len(problems) == 1 else "ours, 8 lanes busy"
+    found = errors(at_check(kernel, tolerance), reference)
+    return Measured(name, tolerance, seconds, (kernel.tableau.stages - 1) * made, *found)
 
 
 def at_check(kernel: Kernel, tolerance: float) -> np.ndarray:
@@ -282,7 +273,7 @@ def main() -> None:
     reference = at_check(kernel, 1e-13)
     lanes = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, 8)]
     alone = [ours(kernel, tolerance, [5e-4], reference) for tolerance in TOLERANCES]
-    busy = [ours(kernel, tolerance, lanes, reference) for tolerance in TOLERANCES]
+    busy = [ours(kernel, tolerance, CLEARANCES, reference) for tolerance in TOLERANCES]
     print(f"{'':22} tolerance  ms a revolution  evaluations  position  velocity   times ours")
     for row in alone + busy:
         print(line(row))
