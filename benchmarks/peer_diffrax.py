@@ -35,6 +35,9 @@ def operations() -> dict[str, Callable[..., Any]]:
         "abs": jnp.abs,
         "sqrt": jnp.sqrt,
         "floor": jnp.floor,
+        "quarter_turns": lambda n, s, c: jnp.choose(
+            jnp.mod(n, 4.0).astype(int), [s, c, -s, -c], mode="clip"
+        ),
         "select": lambda x, a, b: jnp.where(x > 0.0, a, b),
     }
 

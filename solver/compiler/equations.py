@@ -64,7 +64,7 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         for k, name in enumerate(scene.drivers):
             driven[name] = driven[name] + recorder.variable(f"wound{k}")
     modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.play)}
-    rates = {name: recorder.variable(f"impact_rate{j}") for j, name in enumerate(tree.play)}
+    rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.play)}
 
     mechanism: LagrangeMechanism | ReducedMechanism
     if lagrange:

@@ -54,7 +54,7 @@ class RosenbrockRecorder(StepRecorder):
         return parts
 
     def _start(self) -> str:
-        outputs: list[tuple[str, Expression]] = [("tried", self._tried())]
+        outputs = [("tried", self._tried()), *self._held()]
         outputs += [(f"stage{i}", self.variable(f"y{i}")) for i in range(self.states)]
         return self._function("start", [*outputs, ("stage_time", self.variable("time"))])
 

@@ -31,6 +31,8 @@ class Recorder:
         self.numbers: dict[str, float] = {}
         self.functions: dict[int, Function] = {}
         """What is known of nodes that stand for a function of one expression."""
+        self.held: dict[Expression, Expression] = {}
+        """Inverses of variables that do not change within a step, by variable; see `hold`."""
         self.kinks: dict[Expression, Expression] = {}
         """Piecewise linear functions and their arguments, in the order of recording."""
 
@@ -46,6 +48,12 @@ class Recorder:
     def variable(self, name: str) -> Expression:
         """Return the node of a quantity that changes while running: state, time, mode."""
         return self.node("variable", (), name, fixed=False)
+
+    def hold(self, name: str) -> Expression:
+        """Return a variable that keeps its value in a step; dividing by it takes one inverse."""
+        variable = self.variable(name)
+        self.held[variable] = self.apply("div", self.constant(1.0), variable)
+        return variable
 
     def lift(self, value: object) -> Expression:
         """Return a node for a float, or the expression itself."""
@@ -163,6 +171,8 @@ class Expression:
             return self
         if b.is_literal(1.0):
             return self
+        if b in self.recorder.held:
+            return self * self.recorder.held[b]
         if b.fixed and not self.fixed:
             return self * (self.recorder.constant(1.0) / b)
         return self.recorder.apply("div", self, b)

@@ -57,6 +57,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
         layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
     layout.add_block("mode", joints)
     layout.add_block("impact_rate", joints)
+    layout.add_block("inverse", joints)
     for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
         layout.add_block(name, joints)
 
@@ -130,6 +131,8 @@ class StepRecorder:
         weights = self.tableau.matrix[s - 1]
         step = self._tried() if s == 2 else v("tried")
         outputs: list[tuple[str, Expression]] = [("tried", step)] if s == 2 else []
+        if s == 2:
+            outputs += self._held()
         for i in range(self.states):
             total: Expression = self.recorder.constant(0.0)
             for j, a in enumerate(weights, start=1):
@@ -145,6 +148,10 @@ class StepRecorder:
         if s == self.tableau.stages:
             outputs.append(("arrival", moment))
         return self._function(f"stage_{s}", outputs)
+
+    def _held(self) -> list[tuple[str, Expression]]:
+        """Return what slopes need that keeps its value in a step."""
+        return [(f"inverse{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.joints)]
 
     def _slope(self, s: int, i: int) -> str:
         """Return the slot of the slope of state i at stage s: the last is where the step ends."""
