@@ -42,6 +42,7 @@ def _in_contact() -> Iterator[Case]:
         ("touching, sliding", -CLEARANCE, 0.1, 0.0),
         ("deep, at rest", -1.5 * CLEARANCE, 0.0, 0.0),
         ("deep, approaching", -1.2 * CLEARANCE, 0.0, -0.5),
+        ("deep, leaving", -1.5 * CLEARANCE, 0.0, 0.5),
     ):
         yield Case("start", f"journal {name}", journal([0.0, y], [vx, vy]), 0.05)
     scene = plain(PRESS)

@@ -30,7 +30,7 @@ class Equations:
     play: tuple[str, ...]
     accelerations: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
-    """Rates: contact loss, friction loss, then each driver's work, then each joint's impulse."""
+    """Rates: work into contacts, friction loss, each driver's work, each joint's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each joint with play."""
     channels: dict[str, Expression]

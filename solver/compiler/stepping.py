@@ -302,6 +302,8 @@ class StepRecorder:
             for s, b in enumerate(self._ledger_weights(), start=1):
                 total = total + b * v(self._ledger_at(s, i))
             added = v("tried") * total
+            if i == 0:  # what went into contacts and is not stored there is lost
+                added = added - (v("stored") - v("stored_start"))
             outputs.append((f"total{i}", v(f"total{i}") + added))
             if i < self.ledger - self.joints:
                 gross = gross + abs(added)

@@ -54,14 +54,15 @@ def energies(numbers: SimpleNamespace, motion: Motion) -> tuple[Scalar, Scalar]:
 def ledger_rates(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
     """Return the powers whose integrals make the energy ledger, W, and the contact forces, N.
 
-    ``contact``, ``friction``: power lost there; ``driver:<driver>``: power put in by each;
+    ``contact``: power that goes into contacts; ``friction``: power lost there;
+    ``driver:<driver>``: power put in by each;
     ``impulse:<joint>``: normal force, whose integral over a contact is its impulse.
     """
     rates: dict[str, Scalar] = {"contact": 0.0, "friction": 0.0}
     for name, effort in motion.driver_effort.items():
         rates[f"driver:{name}"] = effort * motion.driver_speed[name]
     for name, found in motion.contacts.items():
-        rates["contact"] = rates["contact"] + found.contact_loss
+        rates["contact"] = rates["contact"] + found.contact_power
         rates["friction"] = rates["friction"] + found.friction_loss
         rates[f"impulse:{name}"] = found.normal_force
     return rates

@@ -32,7 +32,6 @@ class Contact:
     penetration_rate: Scalar
     normal: Pair
     normal_force: Scalar
-    elastic_force: Scalar
     elastic_energy: Scalar
     friction_force: Scalar
     """F_t, on the journal along t, N."""
@@ -45,9 +44,9 @@ class Contact:
     """About the bearing's centre, N m."""
 
     @property
-    def contact_loss(self) -> Scalar:
-        """Power lost to the contact's damping, W."""
-        return (self.normal_force - self.elastic_force) * self.penetration_rate
+    def contact_power(self) -> Scalar:
+        """Power that goes into the contact, to be stored or lost, W."""
+        return self.normal_force * self.penetration_rate
 
     @property
     def friction_loss(self) -> Scalar:
@@ -110,7 +109,6 @@ def contact(
         penetration_rate,
         (nx, ny),
         normal_force,
-        elastic,
         stored,
         friction,
         slip,

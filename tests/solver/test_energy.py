@@ -81,7 +81,8 @@ def test_an_elastic_bearing_without_friction_keeps_all_energy() -> None:
     )
     ledger = found.statistics["energy"]
     assert found.statistics["onsets"] >= 5
-    assert ledger["contact_loss"] == ledger["friction_loss"] == 0.0
+    assert ledger["friction_loss"] == 0.0
+    assert abs(ledger["contact_loss"]) < 1e-7 * 0.01
     # the journal drops 1 mm: 10 mJ are exchanged at every bounce; a thousand tolerances of them
     assert abs(ledger["residual"]) < 1e-7 * 0.01
 

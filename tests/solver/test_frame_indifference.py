@@ -71,7 +71,7 @@ def scalars(motion: Motion, scene: Scene, sense: float) -> dict[str, float]:
     for name, contact in motion.contacts.items():
         found[f"{name} F_n"] = contact.normal_force
         found[f"{name} penetration"] = contact.penetration
-        found[f"{name} loss"] = contact.contact_loss + contact.friction_loss
+        found[f"{name} power"] = contact.contact_power + contact.friction_loss
     return found
 
 

@@ -135,16 +135,15 @@ def test_kinetic_energy_grows_by_the_powers_of_drivers_gravity_and_contacts(
 
 
 @given(st.one_of(anywhere, presets_near_start))
-def test_contact_losses_account_for_the_work_of_the_contact_forces(instant: Instant) -> None:
+def test_what_goes_into_contacts_is_the_work_of_their_forces(instant: Instant) -> None:
     motion = instant.reduced()
     for name, contact in motion.contacts.items():
         force = np.array(motion.joint_force[name])
         (bearing, at_bearing), (journal, at_journal) = contact_points(instant, motion, name)
         slip = velocity_of(motion, journal, at_journal) - velocity_of(motion, bearing, at_bearing)
         power = np.dot(force, slip)
-        stored = contact.elastic_force * contact.penetration_rate
-        scale = max(1.0, np.abs(force).max() * np.abs(slip).max(), abs(stored))
-        balance = power + stored + contact.contact_loss + contact.friction_loss
+        scale = max(1.0, np.abs(force).max() * np.abs(slip).max(), abs(contact.contact_power))
+        balance = power + contact.contact_power + contact.friction_loss
         assert abs(balance) <= ROUNDING * scale
         assert contact.normal_force >= 0.0
         if instant.mode[name] == 0.0:
