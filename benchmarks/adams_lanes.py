@@ -10,9 +10,10 @@ from solver.compiler.cache import load
 from solver.compiler.kernel import CompiledAddress, Kernel
 from solver.compiler.layout import LANES
 from solver.jit import LaneFunction, deferred, kernel
-from solver.lanes.bundle import Bundle, aligned_zeros
+from solver.lanes.bundle import ENERGIES, Bundle, aligned_zeros
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
+STORED = ENERGIES.index("stored")
 LANDED, MOST_TRIES, LANDED_AT_LAST = 1e-13, 12, 1e-9
 """As the driving loop of `solver.lanes`: penetrations, m, and attempts."""
 BEHIND, LATE = 1.02, 0.95
@@ -207,6 +208,9 @@ class Adams:
         if run(*self.functions, work, work.reshape(-1), self.places, joints, budget) == budget:
             raise RuntimeError("the Adams method did not reach the end")
         bundle.work[:] = work[: self.kernel.layout.size].reshape(-1)
+        for lane in range(LANES):  # what contacts store is not lost
+            stored = bundle.energy(lane)[STORED] - bundle.first_energy[STORED, lane]
+            bundle.table("total0")[0, lane] -= stored
 
 
 def adams_of(kernel: Kernel, highest: int) -> Adams:

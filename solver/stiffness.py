@@ -2,7 +2,7 @@
 
 Stiffness is measured by what it costs. Where the explicit method makes `ATTEMPTS` within the first
 `SHARE` of a period, the implicit one is tried on the same stretch, and takes over from the start if
-so much fewer attempts suffice that it is faster, though one takes three to five times as long. Both
+so much fewer attempts suffice that it is faster, though one takes four to nine times as long. Both
 count attempts of one lane, so that a job always chooses alike. A ratio of slope differences (Hairer
 and Wanner 1996, IV.2) would not do: where friction chatters, steps are short for its kinks, well
 within stability.
@@ -23,7 +23,7 @@ from solver.results import Slice
 
 EXPLICIT, IMPLICIT = "tsitouras", "rodas"
 ATTEMPTS = 1_000_000
-"""A thousand times what the press takes for a tenth of a period at the standard tolerance: about a
+"""A thousand times what the press takes for a tenth of a period at the standard tolerance: half a
 second, so that loading the implicit kernel and beginning again is soon won back."""
 SHARE = 0.1
 FEWER = 20

@@ -188,7 +188,7 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     `row` : slots from those of the first stage.
     """
     held = equations.recorder.held.values()
-    tape = Tape(layout, fixed, {node: f"inverse{j}" for j, node in enumerate(held)})
+    tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
     kept = {"slope": "k1_", "ledger": "kledger1_"}
     named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
     tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])

@@ -57,7 +57,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
         layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
     layout.add_block("mode", joints)
     layout.add_block("impact_rate", joints)
-    layout.add_block("inverse", joints)
+    layout.add_block("inverse_rate", joints)
     for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
         layout.add_block(name, joints)
 
@@ -151,7 +151,9 @@ class StepRecorder:
 
     def _held(self) -> list[tuple[str, Expression]]:
         """Return what slopes need that keeps its value in a step."""
-        return [(f"inverse{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.joints)]
+        return [
+            (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.joints)
+        ]
 
     def _slope(self, s: int, i: int) -> str:
         """Return the slot of the slope of state i at stage s: the last is where the step ends."""
