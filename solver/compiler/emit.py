@@ -27,6 +27,9 @@ RETURNING = "@njit(float64(float64[::1]), **options)"
 
 TYPES = {"W": "float64[::1]", "S": "float64[::1]", "lane": "int64", "row": "int64"}
 
+LONGEST = 3 * MOST_STATEMENTS
+"""Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
+
 Outputs = Sequence[tuple[str, Expression]]
 """Slot name and what is to be in it."""
 Known = Mapping[Expression, str]
@@ -87,10 +90,12 @@ class Tape:
         To hold all of them until the last is known would take more registers than there are.
         """
         place = {name: i for i, (name, _) in enumerate(outputs)}
+        seen = set(self._found())
         for i, (_, expression) in enumerate(outputs):
-            for node in reachable([expression], self._found()):
+            for node in reachable([expression], seen):
                 if node.operation == "variable" and place.get(str(node.data), i) < i:
                     self._evaluate(node)
+                seen.add(node)
         for name, expression in outputs:
             value = self._evaluate(expression)
             self.lines.append(f"store {self.layout[name]} {value}")
@@ -115,9 +120,8 @@ class Tape:
 
     def function(self, name: str) -> str:
         """Return the source of a function of W."""
-        if self.lines[-1].startswith("return"):
-            return self._source(name, "float64", "W", "over_lanes")
-        return self._source(name, "void", "W", "over_lanes")
+        value = "float64" if self.lines[-1].startswith("return") else "void"
+        return self._source(name, value, "W", "over_lanes")
 
     def function_of_one_lane(self, name: str) -> str:
         """Return the source of a function of W, S and a lane: S is written, from a lane of W."""
@@ -151,10 +155,7 @@ class Tape:
         return self.known.keys() | self.values.keys()
 
     def _evaluate(self, expression: Expression) -> str:
-        ordered = reachable([expression], self._found())
-        if len(ordered) > MOST_STATEMENTS:
-            raise LimitExceeded([too_many(len(ordered))])
-        for node in ordered:
+        for node in reachable([expression], self._found()):
             if node not in self.values:
                 self._state(node)
         return self._operand(expression)
@@ -180,6 +181,8 @@ class Tape:
         return self.values[node]
 
     def _define(self, node: Expression, text: str) -> None:
+        if len(self.lines) >= LONGEST:
+            raise LimitExceeded([too_many(len(self.lines))])
         self.values[node] = f"v{len(self.lines)}"
         self.lines.append(f"{self.values[node]} = {text}")
 

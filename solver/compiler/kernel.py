@@ -85,6 +85,7 @@ class Kernel:
             m.attempt,
             m.remember,
             m.take,
+            m.weigh,
             m.observe,
             m.scan,
             m.scan_some,

@@ -1,7 +1,7 @@
 """Sine, cosine, power, logarithm and exponential as straight-line arithmetic for lanes.
 
-One call into the C library costs more than these polynomials do for eight lanes together: a loop
-with a call in it is not vectorised. Each is written on abstract scalars, so that tests run it on
+One call into the C library, for one lane, costs more than these polynomials do for eight lanes
+together. Each is written on abstract scalars, so that tests run it on
 floats against the library.
 """
 

@@ -39,7 +39,8 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
 def source(layout: Layout, rows: int) -> str:
     """Return the source of scan(W), and of scan_some(W) for the lanes that accept their step.
 
-    Their value, and for each row a byte of `marked`, tell the lanes with a candidate, a bit each.
+    Their value, and for each row a byte of `marked`, tell the lanes with a candidate, a bit each;
+    a lane that does not accept its step has none, whatever its bit says.
     """
     return "\n\n".join(_scan(name, layout, rows) for name in ("scan", "scan_some"))
 
@@ -56,7 +57,6 @@ def _scan(name: str, layout: Layout, rows: int) -> str:
         accepted = recorder.variable("accept")
         value = select_positive(accepted, value, before)
         change = select_positive(accepted, change, rose)
-        found = select_positive(accepted, found, 0.0)
     blocks = {f"{block}0" for block in BLOCKS}
     tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
     tape.mark("marked0", found)

@@ -59,6 +59,8 @@ class Slot(IntEnum):
     TANGENT_GAP = 43
     STEPS = 44
     PACE_AT = 45
+    STORED = 46
+    STORED_START = 47
 
 
 COUNTS = ("STATES", "LEDGER", "JOINTS", "DRIVERS", "ROWS", "SIZE")

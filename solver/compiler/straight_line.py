@@ -18,7 +18,7 @@ something is positive::
     mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
 
 As Python's arithmetic in a loop over the lanes, which it was once, the types of a thousand scalars
-had to be inferred and the loop found to be one of vectors: it took ten times as long to compile
+had to be inferred and the loop found to be one of vectors: it took five times as long to compile
 and ran no faster.
 """
 

@@ -71,6 +71,7 @@ def attend(
         counters[Counter.LANDING, lane] = -1  # its attempts count on, or they might go in circles
         if work[slots[Slot.NEXT_STEP] * LANES + lane] < settings[Setting.SMALLEST_STEP, lane]:
             stop(lane, Status.UNDERFLOW, slots, work, counters)
+            return False
         if is_touching(lane, slots, work):
             work[slots[Slot.NEXT_STEP] * LANES + lane] *= CAUTIOUS
     if opening < LATE:
@@ -101,6 +102,7 @@ def settle(
     section_rows: np.ndarray,
     impact_rows: np.ndarray,
     growth_rows: np.ndarray,
+    weigh: LaneFunction,
     tangent_gaps: LaneFunction,
 ) -> bool:
     """Look after one lane once its step is taken; whether a buffer is nearly full."""
@@ -112,6 +114,9 @@ def settle(
     landed = counters[Counter.LANDING, lane]
     if landed >= 0:
         begin_contact(landed, now, lane, slots, work)
+        weigh(work)  # where a fixed step ends, a contact may begin deep: with energy from nowhere
+        stored = work[slots[Slot.STORED] * LANES + lane]
+        work[slots[Slot.STORED_START] * LANES + lane] = stored
         if tangents:
             tangent_gaps(work)
             latch_tangent(landed, lane, slots, work)
@@ -188,7 +193,7 @@ ROWS = float64[:, :, ::1]
 @deferred(
     int64(
         FLAG_FUNCTION,
-        *[LANE_FUNCTION] * 3,
+        *[LANE_FUNCTION] * 4,
         *[ROWS_FUNCTION] * 2,
         *[ONE_LANE_FUNCTION] * 4,
         *[LANE_FUNCTION] * 2,
@@ -206,6 +211,7 @@ def advance(
     attempt: LaneFunction,
     remember: LaneFunction,
     take: LaneFunction,
+    weigh: LaneFunction,
     observe: LaneFunction,
     scan: LaneFunction,
     scan_some: LaneFunction,
@@ -232,7 +238,7 @@ def advance(
 
     Parameters
     ----------
-    attempt, remember, take, observe, scan, scan_some
+    attempt, remember, take, weigh, observe, scan, scan_some
     states_within, gaps_within, channels_within, channels_around
         `Kernel.functions`, typed as first-class functions, so that this loop is compiled once.
     tangent_step, tangent_gaps
@@ -316,7 +322,7 @@ def advance(
             ):
                 full |= settle(
                     flag, lane, slots, work, settings, counters,
-                    section_rows, impact_rows, growth_rows, tangent_gaps,
+                    section_rows, impact_rows, growth_rows, weigh, tangent_gaps,
                 )  # fmt: skip
         still = count_active(slots, work)
         landing = still_landing(counters)

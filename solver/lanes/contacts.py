@@ -25,7 +25,7 @@ grows as a broken power of time there, and the estimate sees about a third of th
 BEHIND = 1.02
 """A step that opens a gap ends at this multiple of the time to there: open, for certain."""
 LATE = 0.95
-"""A gap that opens after this share of a step opens at its end."""
+"""A step in which a gap opens after this share of it is taken as it is."""
 LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
 
@@ -152,9 +152,9 @@ def dip(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return the share of the step after which joint j's gap is open, though closed at both ends.
+    """Return a share of the step at which joint j's gap is open, though closed at both ends.
 
-    1: it stays closed.
+    It opened an eighth of the step before at most. 1: it stays closed.
     """
     for i in range(LANES):
         spare[slots[Slot.THETA] * LANES + i] = (i + 1) / LANES
@@ -242,7 +242,8 @@ def end_behind_opening(
 
     The force of a contact has no second derivative there. Within a step its error would depend on
     where between the stages it falls, and the steps that are accepted are those whose estimate
-    happens to be too small.
+    happens to be too small. The estimate of a step with the kink inside says nothing of the steps
+    to either side: what a rejection asks for does not count.
     """
     tried = work[slots[Slot.TRIED] * LANES + lane]
     work[slots[Slot.ACCEPT] * LANES + lane] = 0.0

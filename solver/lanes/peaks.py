@@ -43,7 +43,7 @@ def refine_peaks(
     for word in range((slots[Slot.ROWS] + BYTES - 1) // BYTES):
         bits = marked[first + word] & lanes_bits
         if bits != 0:
-            for r in range(BYTES):
+            for r in range(min(BYTES, slots[Slot.ROWS] - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + lane) & np.uint64(1):
                     refine(BYTES * word + r, since, lane, slots, work, spare, table)
 

@@ -18,7 +18,8 @@ from solver.mechanics.frames import Pair
 from solver.mechanics.scalars import Scalar, select_positive, sqrt
 
 CENTRED = 1e-300
-"""Added to the eccentricity (m), so that a centred journal divides by no zero: its normal is 0."""
+"""Added to the eccentricity (m) and to its square (m^2), so that a centred journal divides by no
+zero: its normal is 0."""
 
 
 @dataclass(frozen=True)

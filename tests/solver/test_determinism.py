@@ -268,3 +268,21 @@ def test_a_lane_loaded_while_others_run_gives_the_bits_of_a_run_of_its_own(
             assert bundle.table(name, rows)[:, lane].tobytes() == alone[problem][name]
         assert bundle.table("steps")[0, lane].tobytes() == alone[problem]["steps"]
         assert bundle.counters[Counter.ONSETS, lane].tobytes() == alone[problem]["ONSETS"]
+
+
+def test_a_lane_used_before_keeps_no_marks_of_rows_that_are_not_there() -> None:
+    # 13 rows of the pendulum: the last word of marks has three bytes that no scan writes
+    scene = preset("pendulum")
+    bundle = bundle_of([LaneProblem(scene, 0.1, 1e-6, 0.1, 2, 0, 0.0)])
+    rows = bundle.kernel.rows.scanned
+    assert rows % 8
+    problem = LaneProblem(scene, 1.0, 1e-6, 1.0, 2, 0, 0.0)
+    bundle.table("marked0", -(-rows // 64)).view(np.uint8)[:] = 0xFF
+    bundle.load(0, problem)
+    alone = bundle_of([problem])
+    for each in (bundle, alone):
+        while each.advance(1000):
+            pass
+    for name in ("highest0", "lowest0", "highest_time0", "lowest_time0"):
+        found, expected = (each.table(name, rows)[:, 0] for each in (bundle, alone))
+        assert found.tobytes() == expected.tobytes(), name

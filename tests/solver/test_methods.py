@@ -103,3 +103,11 @@ def test_a_short_fixed_step_comes_to_the_first_impact_at_the_next_grid_point() -
         onsets = [impact["onset"] for found in simulation.slices() for impact in found.impacts]
         first.append(min(onsets))
     assert 0.0 <= first[0] - first[1] <= step
+
+
+def test_a_fixed_step_that_begins_contact_deep_is_told_the_energy_that_it_invents() -> None:
+    # contact begins up to 50 um v deep: 4e-6 m at the first impact, with half a millijoule
+    energy = finished(press(0.1, {"clearance": 5e-4}, method="rk4", step=5e-5)).statistics["energy"]
+    assert abs(energy["residual"]) > 1e-4
+    short = finished(press(0.1, {"clearance": 5e-4}, method="rk4", step=5e-6)).statistics["energy"]
+    assert abs(short["residual"]) < abs(energy["residual"]) / 10.0

@@ -1,12 +1,22 @@
-"""Where a cubic falls to zero: when a gap opens."""
+"""Openings of gaps: where a cubic falls to zero, and what a step sees of them."""
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numba import njit
 
-from solver.lanes.contacts import falling_root
+from solver.compiler.kernel import compile_kernel
+from solver.compiler.layout import LANES
+from solver.compiler.slots import Slot
+from solver.compiler.stepping import RELEASE
+from solver.integrators import METHODS
+from solver.lanes.bundle import aligned_zeros
+from solver.lanes.contacts import dip, falling_root
+from solver.mechanics.tree import spanning_tree
+from tests.solver.readable_mechanics import preset
 
 depths = st.floats(1e-12, 1.0)
 rates = st.floats(-10.0, 10.0)
@@ -34,3 +44,51 @@ def test_a_straight_line_is_met_at_once(start: float, speed: float) -> None:
     rate = -start * speed
     end = start + rate
     assert falling_root(start, rate, min(end, 0.0), rate) == pytest.approx(1.0 / speed, rel=1e-12)
+
+
+@njit
+def gaps_of_a_parabola(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
+    """Gaps below zero in the second half of a step, but not at its end."""
+    for i in range(LANES):
+        share = spare[i]
+        spare[LANES + i] = (share - 0.6) * (share - 0.9)
+
+
+@njit
+def no_gaps(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
+    for i in range(LANES):
+        spare[LANES + i] = 1.0
+
+
+def test_a_gap_that_opens_and_closes_inside_a_step_is_found() -> None:
+    slots = np.zeros(len(Slot), dtype=np.int64)
+    slots[Slot.THETA], slots[Slot.GAP] = 0, 1
+    work, spare = np.zeros(2 * LANES), np.zeros(2 * LANES)
+    assert dip(0, 3, slots, work, spare, gaps_of_a_parabola) == 5.0 / 8.0
+    assert dip(0, 3, slots, work, spare, no_gaps) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("start", "start_rate", "end", "end_rate", "opens"),
+    [
+        (1e-6, -1.0, 1e-6, 1.0, True),  # 1.5e-6 m open in between
+        (1e-6, -0.1, 1e-6, 0.1, False),  # closed all the time
+        (1e-6, -1.0, -1e-7, 0.1, True),  # on its way back already
+        (-1e-14, 1.0, 1e-6, 1.0, False),  # just landed
+        (1e-6, -1.0, -1e-6, -1.0, True),
+    ],
+)
+def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
+    start: float, start_rate: float, end: float, end_rate: float, opens: bool
+) -> None:
+    scene = preset("bouncing-journal")
+    kernel = compile_kernel(scene, spanning_tree(scene), "reduced", METHODS["tsitouras"])
+    work = aligned_zeros(kernel.layout.size * LANES)
+    lanes = work.reshape(-1, LANES)
+    for name, value in {
+        "active": 1.0, "tried": 1e-5, "step": 1e-5, "fastest": 1.0, "full": 1.0, "mode0": 1.0,
+        "next_due": 1.0, "pace_at": 1e9, "gap_start0": start, "gap_rate_start0": start_rate,
+        "gap0": end, "gap_rate0": end_rate,
+    }.items():  # fmt: skip
+        lanes[kernel.layout[name]] = value
+    assert kernel.module.judge(work) == (RELEASE if opens else 0.0)

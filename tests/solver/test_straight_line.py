@@ -10,10 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba import njit
 
+from solver.compiler.emit import Tape
 from solver.compiler.lane_arithmetic import OPERATIONS
 from solver.compiler.lane_functions import FOLD
-from solver.compiler.layout import LANES
-from solver.compiler.straight_line import over_lanes, over_one_lane, over_rows
+from solver.compiler.layout import LANES, Layout
+from solver.compiler.recorder import Recorder
+from solver.compiler.straight_line import over_lanes, over_one_lane, over_one_row, over_rows
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}
@@ -117,3 +119,25 @@ def test_rows_mark_the_lanes_that_are_positive(numbers: list[float]) -> None:
 
 
 ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", over_rows, 5)
+
+
+def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
+    layout, recorder = Layout(), Recorder()
+    layout.add("one", "other", "sum")
+    one, other = recorder.variable("one"), recorder.variable("other")
+    tape = Tape(layout)
+    tape.store([("one", other), ("other", one), ("sum", one + other)])
+    run = compiled("\n".join(tape.lines))
+    work = np.zeros((SLOTS, LANES))
+    work[0], work[1] = 2.0, 5.0
+    run(work.reshape(-1))
+    assert work[:3, 0].tolist() == [5.0, 2.0, 7.0]
+
+
+def test_a_tape_for_one_row_moves_its_slots() -> None:
+    run = over_one_row("v0 = load 2\nv1 = load 4+\nv2 = add v0 v1\nstore 8+ v2")
+    moved = njit(lambda work, row: run(work, row))
+    work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
+    expected = work[2] + work[7]
+    moved(work.reshape(-1), 3)
+    assert work[11].tolist() == expected.tolist()

@@ -32,7 +32,7 @@ def test_exponents_change_no_section_and_are_not_known_where_friction_jumps() ->
     # eight revolutions tell little: a regular motion (-0.09 at tighter tolerances), and an error
     # that depends on how a single step happens to pass a kink of friction
     assert -0.2 < ramp["lyapunov"] < 0.0
-    assert abs(ramp["lyapunov"]) < ramp["lyapunov_error"] < math.inf
+    assert abs(ramp["lyapunov"]) < ramp["lyapunov_error"] < 10.0
 
 
 def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
@@ -44,5 +44,5 @@ def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
     end = Computed({**job, "indicators": ["lyapunov"]}).ends[0]
     # 6.9 +- 0.1 over longer runs at tolerances down to 1e-11; over these hundred periods 5.9 to
     # 7.1 with errors of 0.45 to 0.75, at tolerances from 1e-6 to 1e-9
-    assert abs(end.indicators["lyapunov"] - 6.9) < 2.5 * end.indicators["lyapunov_error"]
-    assert end.indicators["lyapunov_error"] < 1.0
+    assert abs(end.indicators["lyapunov"] - 6.9) < 1.5
+    assert 0.2 < end.indicators["lyapunov_error"] < 1.0
