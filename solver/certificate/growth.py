@@ -77,7 +77,8 @@ class Windows:
         goal = aligning if self.bundle.attempts < aligning else self.attempts
         running = self.bundle.advance(min(budget, goal - self.bundle.attempts))
         for lane in range(LANES):
-            self.grown[lane] += self.bundle.growth(lane)[:, 1].sum()
+            for grown in self.bundle.growth(lane)[:, 1]:  # one by one: a sum depends on slices
+                self.grown[lane] += grown
         if self.bundle.attempts == aligning:
             still = self.bundle.counters[Counter.STATUS] == Status.RUNNING
             self.aligned = np.where(still, [self.times, self.logarithms], np.nan)

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from solver import simulate
 from solver.admission import Admission, admit, sample_count
 from solver.certificate.certificate import Certificate
 from solver.compiler.kernel import compile_kernel
@@ -286,3 +287,15 @@ def test_a_lane_used_before_keeps_no_marks_of_rows_that_are_not_there() -> None:
     for name in ("highest0", "lowest0", "highest_time0", "lowest_time0"):
         found, expected = (each.table(name, rows)[:, 0] for each in (bundle, alone))
         assert found.tobytes() == expected.tobytes(), name
+
+
+def test_a_certificate_does_not_depend_on_slices(monkeypatch: pytest.MonkeyPatch) -> None:
+    # over a hundred periods each window of the exponent has several rows of growth to sum
+    admission = job(duration=200.0, output_step=1.0)
+    found = []
+    for most in (20_000, 997):
+        monkeypatch.setattr(simulate, "LARGEST_BUDGET", most)
+        simulation = Simulation(admission)
+        assert len(list(simulation.slices())) > 10
+        found.append(simulation.certificate())
+    assert_same_certificate(*found)
