@@ -7,9 +7,7 @@ attention.
 
 from __future__ import annotations
 
-import math
-
-from solver.compiler.coarse_functions import coarse_exp2, coarse_log2
+from solver.compiler.coarse_functions import coarse_log2
 from solver.compiler.emit import (
     RETURNING,
     FixedNodes,
@@ -19,23 +17,14 @@ from solver.compiler.emit import (
     lane_function,
     reachable,
 )
+from solver.compiler.judging import DUE, PACE, REJECTED, contact_flags, growth
 from solver.compiler.layout import Layout
 from solver.compiler.recorder import Expression, Recorder
 from solver.integrators import Method
 from solver.mechanics.scalars import maximum, minimum, select_positive
 
-SAFETY = 0.95
-PROPORTIONAL = 0.04
-"""Weight of the previous error in the step controller (Hairer and Wanner 1996, IV.2)."""
-LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
-
-LANDED = 1e-13
-"""Largest penetration, m, at which an onset counts as located."""
-
-REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
-"""What a lane's flag is the sum of."""
 
 
 def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
@@ -130,9 +119,7 @@ class StepRecorder:
         v = self.variable
         weights = self.tableau.matrix[s - 1]
         step = self._tried() if s == 2 else v("tried")
-        outputs: list[tuple[str, Expression]] = [("tried", step)] if s == 2 else []
-        if s == 2:
-            outputs += self._held()
+        outputs = [("tried", step), *self._held()] if s == 2 else []
         for i in range(self.states):
             total: Expression = self.recorder.constant(0.0)
             for j, a in enumerate(weights, start=1):
@@ -142,8 +129,7 @@ class StepRecorder:
             coordinate = i - self.states // 2
             if coordinate >= 0 and s < self.tableau.stages:
                 outputs.append((f"k{s}_{coordinate}", moved))
-        node = self.tableau.nodes[s - 1]
-        moment = v("time") + node * step
+        moment = v("time") + self.tableau.nodes[s - 1] * step
         outputs.append(("stage_time", moment))
         if s == self.tableau.stages:
             outputs.append(("arrival", moment))
@@ -169,7 +155,7 @@ class StepRecorder:
         good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
         magnitude = 0.5 * coarse_log2(squared)
         if self.tableau.error:
-            next_step = v("tried") * self._growth(good, magnitude)
+            next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
         else:  # fixed; after an overflow there is none
             next_step = select_positive(good, v("step"), number(0.0))
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
@@ -178,7 +164,7 @@ class StepRecorder:
         onset: Expression = number(0.0)
         release: Expression = number(0.0)
         for j in range(self.joints):
-            begins, ends = self._contact_flags(j)
+            begins, ends = contact_flags(v, j, shortened=bool(self.tableau.error))
             onset, release = maximum(onset, begins), maximum(release, ends)
         flag = select_positive(v("active"), flag + onset + release, number(0.0))
         outputs = [
@@ -223,53 +209,6 @@ class StepRecorder:
         for i in range(self.states):
             overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
         return overflow
-
-    def _growth(self, good: Expression, magnitude: Expression) -> Expression:
-        """Factor from this step to the next, from log2 of this one's error and of the last."""
-        number = self.recorder.constant
-        exponent = 1.0 / self.tableau.error_order
-        smooth = exponent - 0.75 * PROPORTIONAL
-        onwards = PROPORTIONAL * self.variable("memory") - smooth * magnitude
-        again = -exponent * magnitude
-        safety = math.log2(SAFETY)
-        growth: Expression = coarse_exp2(safety + select_positive(good, onwards, again))
-        growth = select_positive(good, growth, minimum(growth, 1.0))
-        growth = select_positive(growth - LARGEST_CUT, growth, number(LARGEST_CUT))
-        limited: Expression = minimum(growth, number(LARGEST_GROWTH))
-        return limited
-
-    def _contact_flags(self, j: int) -> tuple[Expression, Expression]:
-        """Flag a gap that closed, or nearly, inside the step; and one in contact that opened.
-
-        Either may be over at the step's end, so both look at the extreme in between.
-        """
-        v, number = self.variable, self.recorder.constant
-        gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
-        start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
-        step = v("tried")
-        # the extreme of the cubic through both ends, at the zero of the linear rate
-        turn = start_rate / (start_rate - rate + 1e-300)
-        rest = 1.0 - turn
-        extreme = (
-            rest * rest * (1.0 + 2.0 * turn) * start
-            + turn * turn * (3.0 - 2.0 * turn) * gap
-            + turn * rest * step * (rest * start_rate - turn * rate)
-        )
-        near = extreme + 0.1 * abs(extreme - maximum(gap, start))
-        away = 0.1 * abs(extreme - minimum(gap, start)) - extreme
-        touches = select_positive(near, number(ONSET), number(0.0))
-        grazing = select_positive(
-            start_rate, select_positive(-rate, touches, number(0.0)), number(0.0)
-        )
-        parts = select_positive(away, number(RELEASE), number(0.0))
-        dip = select_positive(rate, select_positive(-start_rate, parts, number(0.0)), number(0.0))
-        if not self.tableau.error:  # a fixed step is not shortened: contacts change where it ends
-            grazing = dip = number(0.0)
-        onset = select_positive(gap, number(ONSET), grazing)
-        opened = select_positive(maximum(-rate, start - LANDED), number(RELEASE), number(0.0))
-        release = select_positive(gap, dip, opened)
-        closed, nothing = v(f"mode{j}"), number(0.0)
-        return select_positive(closed, nothing, onset), select_positive(closed, release, nothing)
 
     def _attempt(self) -> str:
         """Attempt a step; the largest flag of a lane."""

@@ -19,13 +19,10 @@ from solver.jit import LaneFunction, deferred, kernel
 from solver.lanes.borrowed import borrowed
 from solver.lanes.contacts import (
     CAUTIOUS,
-    LATE,
     begin_contact,
-    end_behind_opening,
     end_contact,
     is_touching,
     land,
-    note_openings,
 )
 from solver.lanes.events import (
     any_crossing,
@@ -34,6 +31,7 @@ from solver.lanes.events import (
     locate_crossing,
     record_event,
 )
+from solver.lanes.openings import LATE, end_behind_opening, note_openings
 from solver.lanes.peaks import end_peaks, refine_peaks
 from solver.lanes.periods import check_pace, plan, stop, turn_over
 from solver.lanes.rows import emit
@@ -45,7 +43,7 @@ FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))
 ROWS_FUNCTION = types.FunctionType(int64(float64[::1]))
 ONE_LANE_FUNCTION = types.FunctionType(void(float64[::1], float64[::1], int64))
 REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
-"""What a lane's flag is the sum of; see `solver.compiler.stepping`."""
+"""What a lane's flag is the sum of; see `solver.compiler.judging`."""
 
 
 @kernel()

@@ -11,7 +11,23 @@ from solver.compiler.slots import Slot
 from solver.jit import LaneFunction, kernel
 
 NO_ONSET = math.inf
-NEWTON_STEPS = 3
+NEWTON_STEPS = 2
+
+
+@kernel()
+def look_between(
+    low: float,
+    high: float,
+    lane: int,
+    slots: np.ndarray,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+) -> None:
+    """Evaluate all gaps at eight equal distances from one share of the step to another."""
+    for i in range(LANES):
+        spare[slots[Slot.THETA] * LANES + i] = low + (high - low) * (i + 1) / LANES
+    gaps_within(work, spare, lane)
 
 
 @kernel()
@@ -31,9 +47,7 @@ def first_onset(
     low, high = 0.0, 1.0
     gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
     for level in range(4):
-        for i in range(LANES):
-            spare[slots[Slot.THETA] * LANES + i] = low + (high - low) * (i + 1) / LANES
-        gaps_within(work, spare, lane)
+        look_between(low, high, lane, slots, work, spare, gaps_within)
         before_rate = work[(gap_slot + 3) * LANES + lane] if level == 0 else 1.0
         turning = -1
         for i in range(LANES):
@@ -68,28 +82,21 @@ def polish(
     gap_slot, rate_slot = slots[Slot.GAP] + 4 * j, slots[Slot.GAP] + 4 * j + 1
     tried = work[slots[Slot.TRIED] * LANES + lane]
     root = right
-    for step in range(NEWTON_STEPS):
-        for i in range(LANES):
-            spare[slots[Slot.THETA] * LANES + i] = left + (right - left) * (i + 1) / LANES
-        if step > 0:
-            spare[slots[Slot.THETA] * LANES + 0] = root
+    theta = slots[Slot.THETA] * LANES
+    look_between(left, right, lane, slots, work, spare, gaps_within)
+    for i in range(LANES):
+        if spare[gap_slot * LANES + i] > 0.0:
+            right = spare[theta + i]
+            left = right - (right - left) / LANES if i == 0 else spare[theta + i - 1]
+            gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
+            root = right - gap / (rate * tried) if rate > 0.0 else right
+            root = min(max(root, left), right)
+            break
+    for _ in range(NEWTON_STEPS):
+        spare[theta] = root
         gaps_within(work, spare, lane)
-        if step > 0:
-            gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
-            better = root - gap / (rate * tried) if rate > 0.0 else root
-            if left <= better <= right:
-                root = better
-            continue
-        for i in range(LANES):
-            if spare[gap_slot * LANES + i] > 0.0:
-                right = spare[slots[Slot.THETA] * LANES + i]
-                left = (
-                    right - (right - left) / LANES
-                    if i == 0
-                    else spare[slots[Slot.THETA] * LANES + i - 1]
-                )
-                gap, rate = spare[gap_slot * LANES + i], spare[rate_slot * LANES + i]
-                root = right - gap / (rate * tried) if rate > 0.0 else right
-                root = min(max(root, left), right)
-                break
+        gap, rate = spare[gap_slot * LANES], spare[rate_slot * LANES]
+        better = root - gap / (rate * tried) if rate > 0.0 else root
+        if left <= better <= right:
+            root = better
     return root

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
-from time import sleep as pause
 
 import numpy as np
 import pytest
@@ -16,6 +15,7 @@ import pytest
 from jointplay.command_line.application import run
 from jointplay.command_line.exits import Exit
 from storage.results import ResultReader
+from tests.waiting import until
 
 PRESS = ["run", "seven-bar-press", "--duration", "0.05", "--output-step", "1e-3"]
 
@@ -148,9 +148,8 @@ def test_ctrl_c_while_figures_are_drawn_leaves_no_process(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
     ) as process:
-        while not (tmp_path / "OUT" / "figures").exists():
-            assert process.poll() is None
-            pause(0.01)
+        until(lambda: process.poll() is not None or (tmp_path / "OUT" / "figures").exists())
+        assert process.poll() is None
         second = children(process.pid)
         process.send_signal(signal.SIGINT)
         _, told = process.communicate()

@@ -1,11 +1,9 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
-import time
-from collections.abc import Callable
-
 from solver.admission import Admission
 from solver.version import SOLVER_VERSION
 from storage.catalogue import Block, Catalogue, Job, NewJob
+from tests.waiting import until
 
 IMPATIENT = {
     "JOINTPLAY_LEASE": "3",  # six heartbeats: a machine busy with other tests may swallow some
@@ -20,13 +18,6 @@ IMPATIENT = {
 def submit(catalogue: Catalogue, admission: Admission) -> str:
     new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
     return catalogue.submit(new).job.id
-
-
-def until(condition: Callable[[], bool], patience: float = 90) -> None:
-    deadline = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
 
 
 def ended(catalogue: Catalogue, job: str) -> Job:

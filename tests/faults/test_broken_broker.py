@@ -4,7 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-from jobs import IMPATIENT, ended, in_mid_job, submit, until
+from jobs import IMPATIENT, ended, in_mid_job, submit
 from redis import Redis
 
 from jointplay.serving import running_service
@@ -12,6 +12,7 @@ from jointplay.serving.broker import answers
 from solver.admission import admit
 from storage.catalogue import Catalogue, JobState
 from storage.settings import Settings
+from tests.waiting import until
 
 LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 300.0}
 SHORT = LONG | {"duration": 1.0}

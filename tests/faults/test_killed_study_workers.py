@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from jobs import IMPATIENT, ended, pid_of, until
+from jobs import IMPATIENT, ended, pid_of
 
 from jointplay.serving import running_service
 from solver.admission import Study, admit
@@ -17,6 +17,7 @@ from solver.version import SOLVER_VERSION
 from storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
 from storage.settings import Settings
 from storage.studies import StudyReader
+from tests.waiting import until
 from worker.study_block import run_block, seal_store
 
 # two blocks of some two seconds of computing each; contacts at both joints all along
@@ -132,7 +133,7 @@ def stalled(settings: Settings, process: int) -> Iterator[None]:
         except sqlite3.OperationalError:
             os.kill(process, signal.SIGCONT)
             assert time.monotonic() < deadline
-            time.sleep(0.05)
+            time.sleep(0.05)  # for it to end its transaction
         finally:
             database.close()
     try:

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -15,6 +14,7 @@ from jointplay.command_line.drawing import draw_all
 from jointplay.local import second_drawer
 from jointplay.local.second_drawer import SecondDrawer
 from solver.admission import admit
+from tests.waiting import until
 
 CRANK = {"clearance": 1e-4, "duration": 0.05}
 ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks at /proc")
@@ -58,13 +58,6 @@ def contents(folder):
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
-def wait_until(true):
-    deadline = time.monotonic() + PATIENCE
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-
-
 def is_gone(pid):
     """No such process, or one that only waits to be forgotten."""
     try:
@@ -74,7 +67,9 @@ def is_gone(pid):
 
 
 def test_both_draw_the_same_bytes_as_one_alone(job, alone, second, tmp_path):
-    shared = Drawn(job, lambda: wait_until(lambda: len(list(tmp_path.iterdir())) >= len(alone) - 1))
+    shared = Drawn(
+        job, lambda: until(lambda: len(list(tmp_path.iterdir())) >= len(alone) - 1, PATIENCE)
+    )
     draw_all(shared, tmp_path, second)
     assert len(alone) == 7
     assert len(shared.here) == 1  # the other one drew the rest
@@ -84,7 +79,7 @@ def test_both_draw_the_same_bytes_as_one_alone(job, alone, second, tmp_path):
 def test_what_a_killed_drawer_leaves_is_drawn_here(job, alone, second, tmp_path):
     def kill():
         if len(shared.here) == 1:
-            wait_until(lambda: len(list(tmp_path.iterdir())) > 1)  # it has drawn one at least
+            until(lambda: len(list(tmp_path.iterdir())) > 1, PATIENCE)  # it has drawn one at least
             os.kill(second.pid, signal.SIGKILL)
 
     shared = Drawn(job, kill)
@@ -96,7 +91,7 @@ def test_what_a_killed_drawer_leaves_is_drawn_here(job, alone, second, tmp_path)
 @ON_LINUX
 def test_a_drawer_that_is_gone_before_leaves_all_figures_here(job, alone, second, tmp_path):
     os.kill(second.pid, signal.SIGKILL)
-    wait_until(lambda: is_gone(second.pid))
+    until(lambda: is_gone(second.pid), PATIENCE)
     draw_all(job, tmp_path, second)
     assert contents(tmp_path) == alone
 
@@ -141,7 +136,7 @@ def test_it_ends_with_the_process_that_started_it():
         pid = int(process.stdout.readline())
         assert not is_gone(pid)
         process.kill()
-    wait_until(lambda: is_gone(pid))
+    until(lambda: is_gone(pid), PATIENCE)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ def refused(reason: str, advance: Advance) -> None:
 
 def endless(advance: Advance) -> str:
     while advance(0.25):
-        time.sleep(0.01)
+        time.sleep(0.01)  # work that takes no processor from the others
     return "left"
 
 

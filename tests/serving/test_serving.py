@@ -6,9 +6,8 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -16,16 +15,11 @@ from pathlib import Path
 import pytest
 
 from jointplay.serving import StartFailed, WrongSetting, running_service, serve
+from tests.waiting import until
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+PATIENCE = 30.0  # s
 SERVE = "from pathlib import Path; from jointplay.serving import serve; {call}"
-
-
-def until(condition: Callable[[], bool], patience: float = 30) -> None:
-    deadline = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
 
 
 def descendants(pid: int) -> dict[int, str]:
@@ -93,7 +87,7 @@ def test_nothing_outlives_a_killed_supervisor(tmp_path: Path) -> None:
     with served(tmp_path / "data") as (process, _):
         started = descendants(process.pid)
         process.kill()
-        until(lambda: not any(alive(pid) for pid in started))
+        until(lambda: not any(alive(pid) for pid in started), PATIENCE)
 
 
 def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
@@ -110,8 +104,8 @@ def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
             before = find(words)
             assert before is not None
             os.kill(before, signal.SIGKILL)
-            until(partial(find_new, words, before))
-        until(lambda: healthy(url))
+            until(partial(find_new, words, before), PATIENCE)
+        until(lambda: healthy(url), PATIENCE)
         process.terminate()
         assert process.wait(30) == 0
 
@@ -141,7 +135,7 @@ def test_a_background_service_ends_with_its_parent(tmp_path: Path) -> None:
             assert len(started) >= 5
         finally:
             parent.kill()
-    until(lambda: not any(alive(pid) for pid in started))
+    until(lambda: not any(alive(pid) for pid in started), PATIENCE)
 
 
 def test_a_taken_port_is_said(tmp_path: Path) -> None:

@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numba import njit
 
+from solver.compiler.judging import RELEASE
 from solver.compiler.kernel import compile_kernel
 from solver.compiler.layout import LANES
 from solver.compiler.slots import Slot
-from solver.compiler.stepping import RELEASE
 from solver.integrators import METHODS
 from solver.lanes.bundle import aligned_zeros
-from solver.lanes.contacts import dip, falling_root
+from solver.lanes.openings import dip, falling_root
 from solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 
