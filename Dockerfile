@@ -11,20 +11,23 @@ ENV NUMBA_CPU_NAME=${PROCESSOR} \
     PYTHONUNBUFFERED=1
 
 WORKDIR /opt/jointplay
-COPY pyproject.toml README.md LICENSE ./
+COPY pyproject.toml setup.py README.md LICENSE ./
 COPY solver solver
 COPY scenes scenes
 COPY storage storage
 COPY worker worker
 COPY service service
 COPY jointplay jointplay
+COPY records records
+COPY figures figures
+COPY paper paper
 RUN pip install --no-cache-dir .
 
 RUN useradd --create-home jointplay && mkdir -p /data kernels && chown jointplay /data kernels
 USER jointplay
 WORKDIR /home/jointplay
-RUN python -m worker.warm && python -m worker.warm --check
+RUN python -m jointplay.worker.warm && python -m jointplay.worker.warm --check
 
 VOLUME /data
 EXPOSE 8000
-CMD ["python", "-m", "jointplay.serving.api", "--host", "0.0.0.0", "--port", "8000"]
+CMD ["python", "-m", "jointplay.service.processes.api", "--host", "0.0.0.0", "--port", "8000"]

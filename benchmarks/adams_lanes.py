@@ -3,19 +3,19 @@
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
+from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import ENERGIES, Bundle, aligned_zeros
 from numba import float64, int64, types, void
 
 from benchmarks.adams_step import AdamsRecorder
-from solver.compiler.cache import load
-from solver.compiler.kernel import CompiledAddress, Kernel
-from solver.compiler.layout import LANES
-from solver.jit import LaneFunction, deferred, kernel
-from solver.lanes.bundle import ENERGIES, Bundle, aligned_zeros
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 STORED = ENERGIES.index("stored")
 LANDED, MOST_TRIES, LANDED_AT_LAST = 1e-13, 12, 1e-9
-"""As the driving loop of `solver.lanes`: penetrations, m, and attempts."""
+"""As the driving loop of `solver.kernels.loop`: penetrations, m, and attempts."""
 BEHIND, LATE = 1.02, 0.95
 LONGER, NOTHING, CHANGES = 2.0, 3.0, 4.0
 """Largest multiple of a step; no share: nothing to redo; a contact begins or ends with the step."""

@@ -9,11 +9,11 @@ steps were equal. Every lane has its own step and order; what lies beyond a lane
 import math
 from itertools import pairwise
 
-from solver.compiler.emit import HEADER, lane_function
-from solver.compiler.kernel import Kernel
-from solver.compiler.lane_functions import exp2, log2
-from solver.compiler.recorder import Expression, Recorder
-from solver.mechanics.scalars import maximum, minimum, select_positive
+from jointplay.solver.kernels.emit.emit import HEADER, lane_function
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.lane_functions import exp2, log2
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 SAFETY, LARGEST_CUT = 0.85, 0.1
 SLOTS = ("order", "starting", "since", "attempts", "landing", "tries", "corrector", "judging")

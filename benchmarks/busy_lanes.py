@@ -4,11 +4,10 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
-
-from solver.compiler.kernel import Kernel
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.lanes.state import Counter, Status
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Status
 
 PRESSES = 64
 CLEARANCES = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, PRESSES)]

@@ -10,9 +10,10 @@ import statistics
 import time
 from typing import Any
 
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.runs.simulate import Simulation
+
 from benchmarks.press import CASE
-from solver.admission import Admission, admit
-from solver.simulate import Simulation
 
 PRESSES: dict[str, dict[str, float]] = {
     "as shipped": {},

@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
-
-from jointplay.serving import running_service
+from jointplay.service.processes import running_service
 
 JOB = {
     "kind": "simulate",

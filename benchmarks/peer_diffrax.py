@@ -9,12 +9,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-
-from solver.compiler.emit import reachable
-from solver.compiler.kernel import Kernel
-from solver.compiler.recorder import Expression
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
+from jointplay.solver.kernels.emit.emit import reachable
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.record.recorder import Expression
 
 LONGEST_STEP, FIRST_STEP = 1e-3, 1e-7
 """s, as other peers have."""

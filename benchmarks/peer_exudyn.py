@@ -16,10 +16,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-
-from solver.contact.lankarani_nikravesh import contact_stiffness
-from solver.mechanics.view import view
-from solver.scene.document import Scene
+from jointplay.solver.laws.contact.lankarani_nikravesh import contact_stiffness
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
 
 LONGEST_STEP, FIRST_STEP, SHORTEST_STEP = 1e-3, 1e-7, 1e-14
 """s; the first two as other peers have."""

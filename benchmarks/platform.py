@@ -21,21 +21,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jointplay.service.processes import running_service
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob
+from jointplay.storage.results import durable
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyBlock, create
+from jointplay.worker.app import RUN_BLOCK, make_app
+from jointplay.worker.block_run import BlockRun
+from jointplay.worker.study_block import layout_of
 from redis import Redis
 from sqlalchemy import Engine, event
 
 from benchmarks.sweep import RECORD, SETTLE, VALUES, document
-from jointplay.serving import running_service
-from solver.admission import Study, admit
-from solver.study.results import PointEnd, SectionRows, StudySlice
-from solver.version import SOLVER_VERSION
-from storage.catalogue import BlockState, Catalogue, JobState, NewJob
-from storage.results import durable
-from storage.settings import Settings
-from storage.studies import StudyBlock, create
-from worker.app import RUN_BLOCK, make_app
-from worker.block_run import BlockRun
-from worker.study_block import layout_of
 
 SECONDS = 3.0
 """For which each capacity is driven."""

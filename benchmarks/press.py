@@ -11,16 +11,16 @@ import time
 from dataclasses import replace
 
 import numpy as np
+from jointplay.solver.admission import admit
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.document import Scene
 
 from benchmarks.busy_lanes import CLEARANCES, busy_lanes
-from solver.admission import admit
-from solver.compiler.kernel import Kernel, compile_kernel
-from solver.integrators import METHODS
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.lanes.state import Counter
-from solver.mechanics.tree import spanning_tree
-from solver.scene.document import Scene
 
 CASE = {
     "stiffness": 5e9,

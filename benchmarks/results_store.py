@@ -14,8 +14,14 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-
-from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultReader, ResultWriter
+from jointplay.storage.results import (
+    IMPACT,
+    ArraySpec,
+    Peak,
+    ResultLayout,
+    ResultReader,
+    ResultWriter,
+)
 
 CHANNELS = 95
 REPEATS = 7

@@ -11,14 +11,14 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from solver.admission import Admission, admit
-from solver.compile_loop import ready_kernel
-from solver.lanes.account import ledger_of
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.lanes.state import Counter, Status
-from solver.scene.document import Scene
-from solver.stiffness import EXPLICIT, IMPLICIT, TIGHTER
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.failures import ledger_of
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.runs.stiff_method import EXPLICIT, IMPLICIT, TIGHTER
+from jointplay.solver.scene.document import Scene
 
 COLUMNS = ((EXPLICIT, 1.0), (IMPLICIT, 1.0), (IMPLICIT, TIGHTER))
 TOLERANCES = (1e-6, 1e-8)

@@ -22,8 +22,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import httpx
-
-from jointplay.serving import running_service
+from jointplay.service.processes import running_service
 
 SECONDS = 10.0
 CLIENTS = 32
@@ -135,7 +134,13 @@ def measure(url: str) -> None:
 def api_alone(folder: Path) -> Iterator[str]:
     """Run only the process that answers, on a free port."""
     with socket.create_server(("127.0.0.1", 0)) as listening:
-        command = [sys.executable, "-m", "jointplay.serving.api", "--fd", str(listening.fileno())]
+        command = [
+            sys.executable,
+            "-m",
+            "jointplay.service.processes.api",
+            "--fd",
+            str(listening.fileno()),
+        ]
         process = subprocess.Popen(
             command,
             env=os.environ | {"JOINTPLAY_DATA": str(folder)},

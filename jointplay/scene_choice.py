@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from jointplay.strict_json import parse
+from jointplay.records.strict_json import parse
 
 Scene = str | PathLike[str] | Mapping[str, Any]
 

@@ -4,26 +4,25 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
 
+import jointplay.service.batches.endpoints
+import jointplay.service.estimates.endpoints
+import jointplay.service.events.endpoints
+import jointplay.service.health.endpoints
+import jointplay.service.jobs.endpoints
+import jointplay.service.problems.endpoints
+import jointplay.service.results.endpoints
+import jointplay.service.results.figures
+import jointplay.service.scenes.endpoints
+import jointplay.service.studies.endpoints
+import jointplay.service.zarr.endpoints
 from fastapi import FastAPI
-
-import service.batches.endpoints
-import service.estimates.endpoints
-import service.events.endpoints
-import service.health.endpoints
-import service.jobs.endpoints
-import service.problems.endpoints
-import service.results.endpoints
-import service.results.figures
-import service.scenes.endpoints
-import service.studies.endpoints
-import service.zarr.endpoints
-from service import problems
-from service.estimates.prober import Prober
-from service.events.watcher import Watcher
-from service.idempotency import InFlight
-from service.openapi import described
-from storage.catalogue import Catalogue
-from storage.settings import Settings
+from jointplay.service import problems
+from jointplay.service.estimates.prober import Prober
+from jointplay.service.events.watcher import Watcher
+from jointplay.service.idempotency import InFlight
+from jointplay.service.openapi import described
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
 
 _DESCRIPTION = """
 Simulate planar mechanisms whose joints have play, and read the results.
@@ -32,17 +31,17 @@ All values are in SI units; the schemas give the unit of every field.  Everythin
 is an RFC 9457 problem document whose `errors` point at the fields.
 """
 _RESOURCES = (
-    service.jobs.endpoints,
-    service.events.endpoints,
-    service.estimates.endpoints,
-    service.batches.endpoints,
-    service.studies.endpoints,
-    service.results.endpoints,
-    service.results.figures,
-    service.zarr.endpoints,
-    service.scenes.endpoints,
-    service.health.endpoints,
-    service.problems.endpoints,
+    jointplay.service.jobs.endpoints,
+    jointplay.service.events.endpoints,
+    jointplay.service.estimates.endpoints,
+    jointplay.service.batches.endpoints,
+    jointplay.service.studies.endpoints,
+    jointplay.service.results.endpoints,
+    jointplay.service.results.figures,
+    jointplay.service.zarr.endpoints,
+    jointplay.service.scenes.endpoints,
+    jointplay.service.health.endpoints,
+    jointplay.service.problems.endpoints,
 )
 
 

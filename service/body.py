@@ -5,9 +5,8 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 from fastapi.concurrency import run_in_threadpool
-
-from jointplay.strict_json import parse
-from service.problems import RequestRefused, kinds
+from jointplay.records.strict_json import parse
+from jointplay.service.problems import RequestRefused, kinds
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes

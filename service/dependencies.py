@@ -5,12 +5,11 @@ from typing import Annotated
 
 from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
-
-from jointplay.job_id import is_job_id
-from service.problems import ErrorDetail, RequestRefused, kinds
-from service.problems.document import clipped
-from storage.catalogue import Catalogue, Job, JobNotFound
-from storage.settings import Settings
+from jointplay.records.job_id import is_job_id
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.problems.document import clipped
+from jointplay.storage.catalogue import Catalogue, Job, JobNotFound
+from jointplay.storage.settings import Settings
 
 # dependencies that wait for nothing are coroutines: others cost a change of thread each
 

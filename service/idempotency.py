@@ -8,9 +8,8 @@ from contextlib import contextmanager
 from typing import Annotated
 
 from fastapi import Depends, Header, Request
-
-from service.problems import ErrorDetail, RequestRefused, kinds
-from storage.catalogue import SubmissionKey
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.storage.catalogue import SubmissionKey
 
 _HEADER = "Idempotency-Key"
 

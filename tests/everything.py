@@ -13,7 +13,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from tests.wheel_layout import ROOT, lay_out
+
 LONGEST = ("faults", "solver")
 """Groups that begin first, so that none is left alone at the end: one waits, one computes."""
 _COUNTS = re.compile(r"(\d+) (passed|failed|errors?|skipped)\b")
@@ -25,6 +26,7 @@ class Step:
 
     name: str
     command: list[str]
+    folder: Path = ROOT
     counts: Counter[str] = field(default_factory=Counter)
     seconds: float = 0.0
     failed: bool = False
@@ -36,7 +38,7 @@ class Step:
         start = time.monotonic()
         done = subprocess.run(
             self.command,
-            cwd=ROOT,
+            cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -58,15 +60,17 @@ def steps() -> list[Step]:
     """Return the checks of the code, then the tests, a group for each folder of tests."""
     bin_folder = Path(sys.executable).parent
     pytest = [sys.executable, "-m", "pytest", "-m", "not long"]
-    tests = ROOT / "tests"
+    tests, tree = ROOT / "tests", lay_out()
+    configuration, cache = ROOT / "pyproject.toml", ROOT / ".mypy_cache"
+    settings = ["--config-file", str(configuration)]
     groups = [folder for folder in tests.iterdir() if any(folder.rglob("test_*.py"))]
     groups.sort(key=lambda folder: (folder.name not in LONGEST, folder.name))
     alone = [str(path) for path in sorted(tests.glob("test_*.py"))]
     return [
         Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
-        Step("types", [str(bin_folder / "mypy")]),
-        Step("imports", [str(bin_folder / "lint-imports")]),
+        Step("types", [str(bin_folder / "mypy"), *settings, f"--cache-dir={cache}"], tree),
+        Step("imports", [str(bin_folder / "lint-imports"), "--config", str(configuration)], tree),
         Step("tests", [*pytest, *alone]),
         *(Step(f"tests/{group.name}", [*pytest, str(group)]) for group in groups),
     ]

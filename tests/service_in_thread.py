@@ -12,18 +12,17 @@ import numpy as np
 import pytest
 import uvicorn
 from fastapi import FastAPI
+from jointplay.service.app import create_app
+from jointplay.service.processes.api import LONGEST_HEAD
+from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.runs.study.outputs import own_meanings
+from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
+from jointplay.storage.catalogue import BlockState, Catalogue, Claim, JobError
+from jointplay.storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyBlock, create, seal
+from jointplay.worker.study_block import layout_of
 from numpy.typing import NDArray
-
-from jointplay.serving.api import LONGEST_HEAD
-from service.app import create_app
-from solver.admission import Admission, Study, admit
-from solver.study.meanings import own_meanings
-from solver.study.results import PointEnd, SectionRows, StudySlice
-from storage.catalogue import BlockState, Catalogue, Claim, JobError
-from storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
-from storage.settings import Settings
-from storage.studies import StudyBlock, create, seal
-from worker.study_block import layout_of
 
 LEDGER = (
     "driver_work",

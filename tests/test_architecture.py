@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGES = ["solver", "storage", "worker", "service", "jointplay"]
+PACKAGES = ["records", "solver", "storage", "figures", "worker", "service", "paper", "jointplay"]
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 EVERYTHING = SOURCES + sorted((ROOT / "tests").rglob("*.py"))
 
@@ -68,10 +68,10 @@ def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
 
 
 def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
-    from service.jobs.schemas import JobResource
-    from service.results.schemas import History, Impacts, Peaks
-    from service.studies.schemas import Bifurcation, Sections, Sweep
-    from solver.jobs import KINDS
+    from jointplay.service.jobs.schemas import JobResource
+    from jointplay.service.results.schemas import History, Impacts, Peaks
+    from jointplay.service.studies.schemas import Bifurcation, Sections, Sweep
+    from jointplay.solver.jobs import KINDS
 
     for model in (
         *KINDS.values(),
@@ -135,10 +135,13 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
         ("jointplay.local.folder_results", ["numba", "celery", "httpx", "matplotlib"]),
         ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
         ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
-        ("solver.admission", ["numba", "celery", "fastapi", "zarr"]),
-        ("storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
-        ("storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
-        ("service.app", ["numba", "solver.simulate", "worker.tasks", "matplotlib"]),
+        ("jointplay.solver.admission", ["numba", "celery", "fastapi", "zarr"]),
+        ("jointplay.storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
+        ("jointplay.storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
+        (
+            "jointplay.service.app",
+            ["numba", "jointplay.solver.runs.simulate", "jointplay.worker.tasks", "matplotlib"],
+        ),
     ],
 )
 def test_importing_a_module_does_not_load(module, never):

@@ -19,8 +19,8 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=1, help="blocks computed at a time")
     arguments = parser.parse_args()
 
-    import worker.tasks  # noqa: F401 - registers the task; after the environment is set
-    from worker.app import QUEUES, app
+    import jointplay.worker.tasks  # noqa: F401 - registers the task; after the environment is set
+    from jointplay.worker.app import QUEUES, app
 
     app.worker_main(
         [

@@ -5,10 +5,8 @@ import threading
 import time
 from collections.abc import Callable
 
-from sqlalchemy.exc import SQLAlchemyError
-
-from solver.errors import InvalidInput
-from storage.catalogue import (
+from jointplay.records.failure import InvalidInput
+from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     Claim,
@@ -17,11 +15,12 @@ from storage.catalogue import (
     JobError,
     Verdict,
 )
-from storage.results import ResultsError
-from storage.settings import Settings
-from worker.execute import Answer, Outcome
-from worker.lease import Lease
-from worker.work import AnyProgress, Kept, Work, work_of
+from jointplay.storage.results import ResultsError
+from jointplay.storage.settings import Settings
+from jointplay.worker.execute import Answer, Outcome
+from jointplay.worker.lease import Lease
+from jointplay.worker.work import AnyProgress, Kept, Work, work_of
+from sqlalchemy.exc import SQLAlchemyError
 
 _log = logging.getLogger(__name__)
 _BLOCK_STATES = {

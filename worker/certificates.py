@@ -4,9 +4,8 @@ import math
 from typing import Any
 
 import numpy as np
-
-from solver.certificate.certificate import Certificate
-from storage.results import Appendix, SmallArray
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.storage.results import Appendix, SmallArray
 
 IN_ITS_UNIT = "in the unit of its channel"
 EXTREMES = ("lowest minimum", "highest minimum", "lowest maximum", "highest maximum")

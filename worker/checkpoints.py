@@ -5,7 +5,7 @@ import json
 import os
 from pathlib import Path
 
-from worker.execute import RestartPoint
+from jointplay.worker.execute import RestartPoint
 
 _MAGIC = b"jointplay restart point 1\n"
 

@@ -8,15 +8,15 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
 
-from solver.admission import Admission
-from solver.certificate.certificate import Certificate
-from solver.errors import InvalidInput, SimulationFailed
-from solver.results import Slice, Summary
-from solver.simulate import Simulation
-from solver.version import SOLVER_VERSION
-from storage.catalogue import JobError
-from storage.results import ArraySpec, Peak, ResultLayout, ResultWriter
-from worker.certificates import appendix_of
+from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.admission import Admission
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.results import Slice, Summary
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import JobError
+from jointplay.storage.results import ArraySpec, Peak, ResultLayout, ResultWriter
+from jointplay.worker.certificates import appendix_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
 JOB_FILE = "job.json"

@@ -7,10 +7,9 @@ import threading
 import time
 from typing import Self
 
+from jointplay.storage.catalogue import Catalogue, Claim, Fenced, Verdict
+from jointplay.storage.settings import Settings
 from sqlalchemy.exc import SQLAlchemyError
-
-from storage.catalogue import Catalogue, Claim, Fenced, Verdict
-from storage.settings import Settings
 
 _log = logging.getLogger(__name__)
 

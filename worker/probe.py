@@ -1,4 +1,4 @@
-"""`python -m worker.probe`: says what jobs will cost, by computing the beginning of each.
+"""`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
 
 Reads one admitted job document a line and answers each with one line of JSON; ends with its
 input, or when nobody asked for a while. A job that is over within the budget is known exactly; of
@@ -16,13 +16,13 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from solver.admission import Admission, Study, readmit
-from solver.errors import InvalidInput, SimulationFailed
-from solver.simulate import Simulation
-from solver.trade.run import TradeRun
-from storage.results.appendix import CERTIFICATE
-from worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
-from worker.study_block import computation_of
+from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.admission import Admission, Study, readmit
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.runs.work_precision.run import TradeRun
+from jointplay.storage.results.certificate_group import CERTIFICATE
+from jointplay.worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
+from jointplay.worker.study_block import computation_of
 
 BUDGET = 0.5
 """Seconds of computing spent on one estimate."""

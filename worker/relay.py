@@ -1,4 +1,4 @@
-"""Relay and reaper: `python -m worker.relay` tells workers of queued blocks and ends leases.
+"""Relay and reaper, `jointplay.worker.relay`: tells workers of queued blocks and ends leases.
 
 Several may run; a duty in the catalogue lets one at a time do the work. If two ever overlap
 nothing breaks: a wake-up too many finds nothing to claim.
@@ -11,15 +11,14 @@ import socket
 import threading
 import time
 
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
+from jointplay.worker.app import RUN_BLOCK, make_app
+from jointplay.worker.removal import remove_expired
+from jointplay.worker.wake_up import Doorman
 from kombu.exceptions import OperationalError
 from redis.exceptions import RedisError
 from sqlalchemy.exc import SQLAlchemyError
-
-from storage.catalogue import Catalogue
-from storage.settings import Settings
-from worker.app import RUN_BLOCK, make_app
-from worker.bell import Doorman
-from worker.removal import remove_expired
 
 _DUTY = "relay"
 _DUTY_SECONDS = 5.0

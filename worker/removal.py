@@ -3,8 +3,8 @@
 import logging
 import shutil
 
-from storage.catalogue import Catalogue
-from storage.settings import Settings
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
 
 _AT_ONCE = 50
 _log = logging.getLogger(__name__)

@@ -9,20 +9,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from solver.nonlinear.settling import SETTLINGS
-from solver.nonlinear.verdict import VERDICTS
-from solver.study.meanings import MEANINGS, own_meanings
-from solver.study.plan import Study
-from solver.study.results import StudySlice
-from solver.study.run import StudyRun
-from solver.trade.plan import KIND as ACCURACY_STUDY
-from solver.trade.plan import runs_in
-from solver.trade.run import TradeRun
-from solver.version import SOLVER_VERSION
-from storage.catalogue import JobError
-from storage.results import ArraySpec, ResultsError
-from storage.studies import StudyBlock, StudyLayout, create, seal
-from worker.execute import JOB_FILE, Answer, Outcome
+from jointplay.solver.nonlinear.settling import SETTLINGS
+from jointplay.solver.nonlinear.verdict import VERDICTS
+from jointplay.solver.runs.study.outputs import MEANINGS, own_meanings
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.results import StudySlice
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.runs.work_precision.plan import KIND as ACCURACY_STUDY
+from jointplay.solver.runs.work_precision.plan import runs_in
+from jointplay.solver.runs.work_precision.run import TradeRun
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import JobError
+from jointplay.storage.results import ArraySpec, ResultsError
+from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
+from jointplay.worker.execute import JOB_FILE, Answer, Outcome
 
 _log = logging.getLogger(__name__)
 

@@ -10,11 +10,12 @@ from typing import Any
 
 from billiard.process import active_children
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
-
-from storage.catalogue import Catalogue
-from storage.settings import Settings
-from worker.app import RUN_BLOCK, app
-from worker.block_run import BlockRun  # before the fork: all children share numba and the solver
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
+from jointplay.worker.app import RUN_BLOCK, app
+from jointplay.worker.block_run import (
+    BlockRun,  # before the fork: all children share numba and the solver
+)
 
 _draining = threading.Event()
 _DRAIN_SIGNAL = signal.SIGUSR2

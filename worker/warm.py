@@ -1,4 +1,4 @@
-"""`python -m worker.warm`: compile the kernels of every preset, while an image is built.
+"""`python -m jointplay.worker.warm`: compile the kernels of every preset, while an image is built.
 
 With ``--check`` nothing may be left to compile: it proves that the kernels of an image are used
 by the processor they run on.
@@ -8,15 +8,14 @@ import argparse
 import sys
 import time
 
+from jointplay.solver.admission import admit_simulate
+from jointplay.solver.jobs import SimulateJob
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 from numba.core.event import install_recorder
-
-from solver import presets
-from solver.admission import admit_simulate
-from solver.compile_loop import ready_kernel
-from solver.compiler.tangents import compile_tangents
-from solver.jobs import SimulateJob
-from solver.scene.document import Scene
-from solver.simulate import Simulation
 
 
 def warm(name: str) -> float:
@@ -35,7 +34,7 @@ def warm(name: str) -> float:
 
 def main() -> int:
     """Warm every preset and say how long each took; 3 if a check finds something compiled."""
-    parser = argparse.ArgumentParser(prog="python -m worker.warm", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m jointplay.worker.warm", description=__doc__)
     parser.add_argument("--check", action="store_true", help="fail if anything is compiled")
     arguments = parser.parse_args()
     with install_recorder("numba:compile") as compiled:

@@ -6,16 +6,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
-from solver.admission import Admission, Study, readmit
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Claim
-from storage.results.layout import MANIFEST
-from storage.settings import Settings
-from storage.studies import StudyLayout, seal
-from worker import checkpoints
-from worker.checkpoints import UnusableRestartPoint
-from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
-from worker.study_block import StudyProgress, layout_of, run_laid_out
+from jointplay.solver.admission import Admission, Study, readmit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import Claim
+from jointplay.storage.results.layout import MANIFEST
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyLayout, seal
+from jointplay.worker import checkpoints
+from jointplay.worker.checkpoints import UnusableRestartPoint
+from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from jointplay.worker.study_block import StudyProgress, layout_of, run_laid_out
 
 _log = logging.getLogger(__name__)
 

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-
-from solver.admission import Admission, admit
-from solver.errors import InvalidInput, SimulationFailed
-from solver.simulate import Simulation
+from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.runs.simulate import Simulation
 
 JOURNAL, CRANK, PRESS = "bouncing-journal", "slider-crank", "seven-bar-press"
 THROWN = {"velocity_x": 0.1, "spin": 30.0}

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from jointplay.solver.scene import presets
+
 from benchmarks.extreme_cases.case import CRANK, JOURNAL, PRESS, THROWN, Case
-from solver import presets
 
 
 def cases() -> Iterator[Case]:

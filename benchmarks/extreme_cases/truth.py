@@ -6,14 +6,13 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from jointplay.records.certificate import converged
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.worker.certificates import appendix_of
 from numpy.typing import NDArray
-
-from jointplay.certificate import converged
-from solver.admission import Admission, admit
-from solver.certificate.certificate import Certificate
-from solver.errors import SimulationFailed
-from solver.simulate import Simulation
-from worker.certificates import appendix_of
 
 Floats = NDArray[np.float64]
 

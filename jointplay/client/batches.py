@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
+from jointplay.client.backend import ServiceKeeper
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import FieldProblem, TimedOut
 from jointplay.client.html import html_table
 from jointplay.client.job import Job
-from jointplay.client.keeper import ServiceKeeper
 
 _INDEX = re.compile(r"^/jobs/(\d+)")
 _SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...

@@ -11,12 +11,12 @@ from typing import Any, Concatenate, ParamSpec, Self
 import httpx
 
 from jointplay import jobs as documents
+from jointplay.client.backend import ServiceKeeper
 from jointplay.client.batches import Batch, batch_of, counted_from, jobs_of
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError, Refused
 from jointplay.client.estimates import Estimate
 from jointplay.client.job import Job
-from jointplay.client.keeper import ServiceKeeper
 
 MOST_JOBS = 10_000
 """Jobs that the service takes in one batch."""

@@ -11,8 +11,8 @@ from jointplay.client.job_record import JobRecord
 from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
 from jointplay.client.window import Window, floats
 from jointplay.client.windows import pieces
-from jointplay.dataset import Channel, Dataset
-from jointplay.study_dataset import StudyDataset
+from jointplay.records.run_in_memory import Channel, Dataset
+from jointplay.records.study_in_memory import StudyDataset
 
 
 class HttpResults:

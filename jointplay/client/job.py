@@ -13,7 +13,7 @@ from jointplay.client.waiting import shown
 if TYPE_CHECKING:
     import xarray as xr
 
-    from jointplay.client.keeper import Keeper
+    from jointplay.client.backend import Keeper
 
 
 class Job(ReadableJob):

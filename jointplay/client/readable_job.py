@@ -10,7 +10,7 @@ from jointplay.client.picture import Picture
 from jointplay.client.results import Form, Results
 from jointplay.client.stored import open_group
 from jointplay.client.window import Window
-from jointplay.study_source import StudySource
+from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.client.window import Window
-from jointplay.source import Source
-from jointplay.study_source import StudySource
+from jointplay.records.run import Source
+from jointplay.records.study import StudySource
 
 Form = Literal["png", "svg"]
 IMPACT_UNITS: Final = {

@@ -8,10 +8,10 @@ import numpy as np
 
 from jointplay.client.errors import Refused
 from jointplay.client.job_record import JobRecord
-from jointplay.dataset import Channel
-from jointplay.source import Floats
-from jointplay.study_dataset import Extremes, Failure, StudyDataset
-from jointplay.study_source import STATUS
+from jointplay.records.run import Floats
+from jointplay.records.run_in_memory import Channel
+from jointplay.records.study import STATUS
+from jointplay.records.study_in_memory import Extremes, Failure, StudyDataset
 
 _TOO_LARGE = "response-too-large"
 Document = dict[str, Any]

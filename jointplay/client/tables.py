@@ -8,7 +8,7 @@ import numpy as np
 from jointplay.client.errors import NotFound
 from jointplay.client.results import IMPACT_UNITS
 from jointplay.client.stored import missing_extra
-from jointplay.study_source import STATUS, StudySource
+from jointplay.records.study import STATUS, StudySource
 
 if TYPE_CHECKING:
     import pandas as pd

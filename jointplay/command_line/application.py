@@ -105,8 +105,8 @@ def _classified(error: Exception) -> tuple[Exit, str] | None:
 
 
 def _bad_document(error: Exception) -> tuple[Exit, str] | None:
-    from jointplay.strict_json import MalformedJson
-    from solver.errors import InvalidInput
+    from jointplay.records.failure import InvalidInput
+    from jointplay.records.strict_json import MalformedJson
 
     if isinstance(error, InvalidInput):
         return Exit.BAD_INPUT, _listed(error.problems)
@@ -117,7 +117,7 @@ def _bad_document(error: Exception) -> tuple[Exit, str] | None:
 
 def _service_failure(error: Exception) -> tuple[Exit, str] | None:
     from jointplay.client import ClientError, JobCancelled, JobFailed, ServiceFailure, Unreachable
-    from jointplay.serving import StartFailed, WrongSetting
+    from jointplay.service.processes import StartFailed, WrongSetting
 
     if isinstance(error, Unreachable):
         return Exit.UNREACHABLE, str(error)
@@ -133,7 +133,7 @@ def _service_failure(error: Exception) -> tuple[Exit, str] | None:
 
 def _bad_results(error: Exception) -> tuple[Exit, str] | None:
     from jointplay.figures import FigureError
-    from storage.results import ResultsError
+    from jointplay.storage.results import ResultsError
 
     known = isinstance(error, FigureError | ResultsError)
     return (Exit.BAD_INPUT, str(error)) if known else None

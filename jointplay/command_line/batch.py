@@ -35,7 +35,7 @@ def batch(
 
     Example: `jointplay batch jobs.json --label "friction" --wait`
     """
-    from jointplay.job_id import is_job_id
+    from jointplay.records.job_id import is_job_id
 
     with connection.connect(url) as client:
         known = is_job_id(source) and not Path(source).exists()
@@ -62,7 +62,7 @@ def batch(
 
 def _jobs_in(path: Path) -> tuple[list[Any], str]:
     """Return the jobs of a file, and the label that it gives them; the service checks both."""
-    from jointplay.strict_json import parse
+    from jointplay.records.strict_json import parse
 
     document = parse(path.read_bytes())
     if isinstance(document, dict) and isinstance(document.get("jobs"), list):

@@ -12,8 +12,8 @@ from jointplay.command_line.compact_json import compact_json
 from jointplay.command_line.exits import Exit, Stopped
 
 if TYPE_CHECKING:
-    from solver.calibration.outcome import Outcome
-    from solver.calibration.problem import Calibration
+    from jointplay.solver.calibration.outcome import Outcome
+    from jointplay.solver.calibration.problem import Calibration
 
 
 def calibrate(
@@ -70,7 +70,7 @@ def calibrate(
     `jointplay calibrate seven-bar-press --fit stiffness=1e8:1e11:log --set clearance=5e-4
     --target A.normal_force@0:0.012=1020`
     """
-    from solver.calibration.problem import admit_calibration
+    from jointplay.solver.calibration.problem import admit_calibration
 
     calibration = admit_calibration(
         calibration_document(
@@ -102,8 +102,8 @@ def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
 
     with progress("calibrate") as report:
         report(0.0, "preparing the kernels")
-        from solver.calibration import calibrate as search
-        from solver.calibration.processes import cores, measures
+        from jointplay.solver.calibration import calibrate as search
+        from jointplay.solver.calibration.processes import cores, measures
 
         try:
             with measures(calibration, processes or cores()) as (fitted, every):
@@ -121,7 +121,7 @@ def _write(outcome: "Outcome", output: Path | None, preset_out: Path | None) -> 
     if output is not None:
         output.write_text(compact_json(outcome.document()) + "\n")
     if preset_out is not None:
-        from solver.calibration.fitted_scene import fitted_scene
+        from jointplay.solver.calibration.fitted_scene import fitted_scene
 
         name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
         preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")

@@ -83,8 +83,8 @@ def _whole(source: str) -> bool:
 def _cases(
     scene: dict[str, Any], targets: Sequence[str], duration: float | None
 ) -> list[dict[str, Any]]:
-    from solver import presets
-    from solver.calibration.reported import reported_cases
+    from jointplay.solver.calibration.reported import reported_cases
+    from jointplay.solver.scene import presets
 
     if targets:
         return [{"targets": [_target(text, duration) for text in targets]}]

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from solver.calibration.outcome import Outcome
+    from jointplay.solver.calibration.outcome import Outcome
 
 ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a fit
 TOGETHER = 0.8  # correlation from which parameters are said to make up for one another

@@ -36,7 +36,7 @@ def cite(
 
 def _facts(results: str, url: str) -> dict[str, Any]:
     """Return what tells a result from every other one, and where its scene is from."""
-    from solver import presets
+    from jointplay.solver.scene import presets
 
     with connection.job_of(results, url) as job:
         name = job.job["scene"].get("preset")

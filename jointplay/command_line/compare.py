@@ -120,7 +120,7 @@ def _short(value: object) -> str:
 
 
 def _chosen(runs: list[_Run], wanted: list[str] | None) -> list[str]:
-    from jointplay.channel_choice import NoSuchChannel, choose
+    from jointplay.records.channel_choice import NoSuchChannel, choose
 
     common = [name for name in runs[0].peaks if all(name in run.peaks for run in runs)]
     if not common:

@@ -32,8 +32,8 @@ def demo(
     """
     from jointplay.client import Client
     from jointplay.command_line.comparison import cases_of, document, table
-    from jointplay.serving import running_service
-    from solver import presets
+    from jointplay.service.processes import running_service
+    from jointplay.solver.scene import presets
 
     scene = _published(presets.document(preset, pointer="PRESET"))
     cases = cases_of(scene)

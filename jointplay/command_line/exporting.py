@@ -9,8 +9,8 @@ from jointplay.command_line.study_options import listed
 
 if TYPE_CHECKING:
     from jointplay.client import Job, Window
-    from jointplay.source import Source
-    from jointplay.study_source import StudySource
+    from jointplay.records.run import Source
+    from jointplay.records.study import StudySource
 
 Form = Literal["csv", "json"]
 Table = Literal["history", "poincare", "peaks", "impacts", "points"]
@@ -85,7 +85,7 @@ def point_range(points: int, start: float | None, stop: float | None) -> range:
 
 
 def _as_source(window: "Window") -> "Source":
-    from jointplay.dataset import Channel, Dataset
+    from jointplay.records.run_in_memory import Channel, Dataset
 
     return Dataset(
         attributes={"exact": window.exact},
@@ -97,7 +97,7 @@ def _as_source(window: "Window") -> "Source":
 
 
 def _channels(source: "Source", asked: Asked) -> Text:
-    from jointplay import export as formats
+    from jointplay.exports import run as formats
 
     names = _chosen(asked.channels, [channel.name for channel in source.channels])
     window = asked.start, asked.stop
@@ -131,8 +131,8 @@ def _rows(job: "Job", asked: Asked) -> Text:
 
 
 def _study(job: "Job", asked: Asked) -> Text:
-    from jointplay import study_export as formats
     from jointplay.command_line.study_summary import units
+    from jointplay.exports import study as formats
 
     wanted = listed(asked.channels)
     source = job.study(wanted, wanted)
@@ -161,7 +161,7 @@ def _comments(source: "Source | StudySource") -> list[str]:
 
 
 def _chosen(channels: str | None, names: list[str]) -> list[str]:
-    from jointplay.channel_choice import NoSuchChannel, choose
+    from jointplay.records.channel_choice import NoSuchChannel, choose
 
     try:
         return choose(channels, names)

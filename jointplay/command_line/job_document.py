@@ -95,7 +95,7 @@ def options(*, channels: str | None, **fields: Any) -> dict[str, Any]:
 
 def read_document(path: Path) -> dict[str, Any]:
     """Read a JSON object from a file, strictly."""
-    from jointplay.strict_json import parse
+    from jointplay.records.strict_json import parse
 
     document = parse(path.read_bytes())
     if not isinstance(document, dict):
@@ -127,7 +127,7 @@ def _job_of(source: str) -> tuple[dict[str, Any], bool]:
 
 
 def _setting(text: str) -> tuple[str, object]:
-    from jointplay.strict_json import MalformedJson, parse
+    from jointplay.records.strict_json import MalformedJson, parse
 
     name, equals, value = text.partition("=")
     if not (name and equals and value):

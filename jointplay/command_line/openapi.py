@@ -17,7 +17,7 @@ def openapi(
     """
     import json
 
-    from service.app import create_app
+    from jointplay.service.app import create_app
 
     text = json.dumps(create_app().openapi(), indent=2, sort_keys=True)
     if output is None:

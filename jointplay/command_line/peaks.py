@@ -7,7 +7,7 @@ import typer
 
 if TYPE_CHECKING:
     from jointplay.client import Peak
-    from jointplay.source import Source
+    from jointplay.records.run import Source
 
 
 class Row(NamedTuple):

@@ -58,10 +58,10 @@ def run(
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
     from jointplay.local import load
-    from jointplay.local.computing import compute
     from jointplay.local.second_drawer import second_drawer
     from jointplay.progress import progress
-    from solver.admission import Study, admit
+    from jointplay.solver.admission import Study, admit
+    from jointplay.worker.local.computing import compute
 
     document = job_document.job_document(
         source,

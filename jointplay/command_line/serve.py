@@ -31,6 +31,6 @@ def serve(
 
     Example: `jointplay serve --port 8000 --data results --workers 4`
     """
-    from jointplay.serving import serve as keep_serving
+    from jointplay.service.processes import serve as keep_serving
 
     keep_serving(host, port, data, workers, as_json=as_json)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 if TYPE_CHECKING:
-    from jointplay.study_source import StudySource
+    from jointplay.records.study import StudySource
 
 _MOST_FAILURES = 5
 
 
 def write_points(source: "StudySource", table: Path) -> None:
     """Write what has one value a point as comma-separated values."""
-    from jointplay import study_export
+    from jointplay.exports import study as study_export
 
     channels = [channel.name for channel in source.channels]
     everything = range(source.points)
@@ -23,7 +23,7 @@ def write_points(source: "StudySource", table: Path) -> None:
 
 def summary_of(source: "StudySource") -> dict[str, Any]:
     """Return how many points ended in which way, the verdicts, and all failures."""
-    from jointplay.study_source import STATUS
+    from jointplay.records.study import STATUS
 
     counts = Counter(STATUS[code] for code in source.status)
     verdicts: Counter[str] | None = None
@@ -42,7 +42,7 @@ def summary_of(source: "StudySource") -> dict[str, Any]:
 
 def units(source: "StudySource") -> dict[str, str]:
     """Return the units of the statistics and indicators of points, by name."""
-    from solver.study.meanings import MEANINGS
+    from jointplay.solver.runs.study.outputs import MEANINGS
 
     own = source.attributes.get("meanings", {})
     return {name: unit for name, (unit, _) in {**MEANINGS, **own}.items()}
@@ -52,7 +52,7 @@ def print_points(source: "StudySource") -> None:
     """Print how many points ended in which way, the verdicts, the extremes, the first failures."""
     import numpy as np
 
-    from jointplay.study_source import DONE
+    from jointplay.records.study import DONE
 
     summary = summary_of(source)
     for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):

@@ -1,4 +1,4 @@
-"""The folder of a run, and the results in it."""
+"""Reads the folder of a local run: its results, and the job's record."""
 
 import json
 from datetime import UTC, datetime
@@ -6,15 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import NotFound
+from jointplay.worker.local.folder import OUTCOME_FILE, STORE
 
 if TYPE_CHECKING:
-    from storage.results import ResultReader
-    from storage.studies import StudyReader
-    from worker.execute import Outcome
-
-JOB_FILE = "job.json"
-STORE = "results.zarr"
-OUTCOME_FILE = "outcome.json"
+    from jointplay.storage.results import ResultReader
+    from jointplay.storage.studies import StudyReader
 
 
 def store_in(folder: Path) -> Path:
@@ -40,27 +36,14 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
     NotFound
         There are none.
     """
-    from storage.results import NotAStore, ResultReader
-    from storage.studies import StudyReader
+    from jointplay.storage.results import NotAStore, ResultReader
+    from jointplay.storage.studies import StudyReader
 
     store = store_in(folder)
     try:
         return StudyReader(store)
     except NotAStore:
         return ResultReader(store)
-
-
-def write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
-    """Write beside the results how the run ended."""
-    error = outcome.error
-    document = {
-        "state": outcome.state,
-        "error": None if error is None else {"class": error.error_class, "detail": error.detail},
-        "started": begun.isoformat(),
-        "finished": datetime.now(UTC).isoformat(),
-        "progress": {"time": outcome.time, "fraction": outcome.fraction},
-    }
-    (folder / OUTCOME_FILE).write_text(json.dumps(document, indent=2) + "\n")
 
 
 def job_document(folder: Path) -> dict[str, Any]:

@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 
 from jointplay import figures
-from jointplay.certificate import certificate_document
-from jointplay.channel_choice import NoSuchChannel, choose
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
 from jointplay.client.window import ChannelSeries, Floats, Window
 from jointplay.local.folder import results_in, store_in
-from solver.trade.plan import KIND
-from solver.trade.trade import Trade
-from storage.results import ResultReader
-from storage.studies import StudyReader
+from jointplay.records.certificate import certificate_document
+from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.solver.runs.work_precision.plan import KIND
+from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.storage.results import ResultReader
+from jointplay.storage.studies import StudyReader
 
 
 class FolderResults:

@@ -16,7 +16,7 @@ from jointplay.progress import progress as shown
 from jointplay.scene_choice import Scene
 
 if TYPE_CHECKING:
-    from solver.admission import Admission, Study
+    from jointplay.solver.admission import Admission, Study
 
 
 def run(
@@ -59,7 +59,7 @@ def run(
     folder = _made(output)
     title = folder.name if output is not None else "run"
     with shown(title) if progress else nullcontext(lambda fraction, note: None) as report:
-        from jointplay.local.computing import compute
+        from jointplay.worker.local.computing import compute
 
         compute(admission, folder, processes, report)
     found = load(folder)
@@ -78,8 +78,8 @@ def _document(job: Scene, given: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
-    from solver.admission import admit
-    from solver.errors import InvalidInput, LimitExceeded
+    from jointplay.records.failure import InvalidInput, LimitExceeded
+    from jointplay.solver.admission import admit
 
     try:
         return admit(dict(document))

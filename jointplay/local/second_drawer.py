@@ -15,10 +15,10 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
-from jointplay.local.cores import cores
+from jointplay.worker.local.cores import cores
 
 if TYPE_CHECKING:
-    from solver.admission import Admission, Study
+    from jointplay.solver.admission import Admission, Study
 
 PROGRAM = "jointplay.local.drawing_process"
 _FEW = 3
@@ -116,8 +116,8 @@ def _figures(admission: "Admission | Study") -> int:
     import numpy as np
 
     from jointplay import figures
-    from jointplay.dataset import Channel, Dataset
-    from solver.admission import Admission
+    from jointplay.records.run_in_memory import Channel, Dataset
+    from jointplay.solver.admission import Admission
 
     if not isinstance(admission, Admission):
         return 0

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
-from jointplay.strict_json import escaped
-from service.batches.schemas import LONGEST_LABEL, MOST_JOBS
-from service.jobs.submission import checked
-from solver.errors import InvalidInput, LimitExceeded, Problem
-from storage.catalogue import NewJob
-from storage.settings import Settings
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.records.strict_json import escaped
+from jointplay.service.batches.schemas import LONGEST_LABEL, MOST_JOBS
+from jointplay.service.jobs.submission import checked
+from jointplay.storage.catalogue import NewJob
+from jointplay.storage.settings import Settings
 
 _FIELDS = ("jobs", "label")
 _MOST_PROBLEMS = 100  # that are looked for: one problem document carries so many

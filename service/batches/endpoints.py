@@ -3,19 +3,18 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Path, Query, Response
-
-from jointplay.job_id import is_job_id
-from service.batches.admission import admit_batch
-from service.batches.schemas import AcceptedBatch, BatchResource, address
-from service.body import JsonBatch
-from service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
-from service.idempotency import RepeatableRequest
-from service.jobs.paging import PageQuery
-from service.jobs.schemas import JobPage, JobResource
-from service.problems import ErrorDetail, RequestRefused, header, kinds, problems
-from service.problems.document import clipped
-from storage.catalogue import Batch, BatchNotFound
-from worker.bell import wake_relay
+from jointplay.records.job_id import is_job_id
+from jointplay.service.batches.admission import admit_batch
+from jointplay.service.batches.schemas import AcceptedBatch, BatchResource, address
+from jointplay.service.body import JsonBatch
+from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
+from jointplay.service.idempotency import RepeatableRequest
+from jointplay.service.jobs.paging import PageQuery
+from jointplay.service.jobs.schemas import JobPage, JobResource
+from jointplay.service.problems import ErrorDetail, RequestRefused, header, kinds, problems
+from jointplay.service.problems.document import clipped
+from jointplay.storage.catalogue import Batch, BatchNotFound
+from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
 

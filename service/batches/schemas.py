@@ -3,9 +3,8 @@
 from datetime import UTC, datetime
 from typing import Any, Self
 
+from jointplay.storage.catalogue import Batch, JobState
 from pydantic import BaseModel, ConfigDict, Field
-
-from storage.catalogue import Batch, JobState
 
 MOST_JOBS = 10_000
 LONGEST_LABEL = 200

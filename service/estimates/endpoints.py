@@ -3,13 +3,12 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request
-
-from service.body import JsonDocument
-from service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
-from service.estimates.prober import Prober
-from service.estimates.schemas import Estimate
-from service.jobs.submission import REQUEST_BODY, checked
-from service.problems import kinds, problems
+from jointplay.service.body import JsonDocument
+from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
+from jointplay.service.estimates.prober import Prober
+from jointplay.service.estimates.schemas import Estimate
+from jointplay.service.jobs.submission import REQUEST_BODY, checked
+from jointplay.service.problems import kinds, problems
 
 router = APIRouter(prefix="/v1/estimates", tags=["jobs"])
 

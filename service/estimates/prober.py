@@ -1,4 +1,4 @@
-"""The process that computes the beginning of jobs: `python -m worker.probe`, kept warm."""
+"""The process that computes the beginning of jobs, kept warm: `jointplay.worker.probe`."""
 
 import json
 import select
@@ -8,8 +8,8 @@ import threading
 import time
 from typing import Any
 
-from service.problems import RequestRefused, kinds
-from solver.errors import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.service.problems import RequestRefused, kinds
 
 _PATIENCE = 90.0  # s; compiling the kernel of a new mechanism takes some 20 of them
 _MOST_WAITING = 8
@@ -74,7 +74,7 @@ class Prober:
             return self._process
         self.close()
         return subprocess.Popen(
-            [sys.executable, "-m", "worker.probe"],
+            [sys.executable, "-m", "jointplay.worker.probe"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             bufsize=0,

@@ -6,13 +6,12 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import StreamingResponse
-
-from service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
-from service.events.schemas import JobEvent, JobProgress
-from service.events.waiting import WatcherDependency
-from service.events.watcher import Watcher
-from service.problems import kinds, problems
-from storage.catalogue import Catalogue, Event, Job
+from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
+from jointplay.service.events.schemas import JobEvent, JobProgress
+from jointplay.service.events.waiting import WatcherDependency
+from jointplay.service.events.watcher import Watcher
+from jointplay.service.problems import kinds, problems
+from jointplay.storage.catalogue import Catalogue, Event, Job
 
 MEDIA_TYPE = "text/event-stream"
 _PAGE = 1000

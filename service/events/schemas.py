@@ -2,10 +2,9 @@
 
 from typing import Any, Self
 
+from jointplay.service.jobs.schemas import Progress, moment
+from jointplay.storage.catalogue import Event, Glance, JobState
 from pydantic import BaseModel, Field
-
-from service.jobs.schemas import Progress, moment
-from storage.catalogue import Event, Glance, JobState
 
 
 class JobEvent(BaseModel):

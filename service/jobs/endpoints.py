@@ -4,17 +4,16 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Response
 from fastapi.concurrency import run_in_threadpool
-
-from service.body import JsonDocument
-from service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
-from service.events.waiting import PatienceDependency, WaitQuery
-from service.idempotency import Repeatable, RepeatableRequest
-from service.jobs.listing import JobQuery
-from service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
-from service.jobs.submission import REQUEST_BODY, submit
-from service.problems import header, kinds, problems
-from storage.catalogue import Catalogue, Submitted
-from storage.settings import Settings
+from jointplay.service.body import JsonDocument
+from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from jointplay.service.events.waiting import PatienceDependency, WaitQuery
+from jointplay.service.idempotency import Repeatable, RepeatableRequest
+from jointplay.service.jobs.listing import JobQuery
+from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
+from jointplay.service.jobs.submission import REQUEST_BODY, submit
+from jointplay.service.problems import header, kinds, problems
+from jointplay.storage.catalogue import Catalogue, Submitted
+from jointplay.storage.settings import Settings
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 _LOCATION = {"headers": {"Location": header("Path of the job.")}}

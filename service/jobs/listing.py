@@ -4,12 +4,11 @@ import re
 from datetime import UTC, datetime
 from typing import Annotated, Any
 
+from jointplay.service.jobs.paging import PageQuery
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.solver.jobs import KINDS
+from jointplay.storage.catalogue import JobState
 from pydantic import AwareDatetime, BeforeValidator, Field
-
-from service.jobs.paging import PageQuery
-from service.problems import ErrorDetail, RequestRefused, kinds
-from solver.jobs import KINDS
-from storage.catalogue import JobState
 
 
 def _written(moment: object) -> object:

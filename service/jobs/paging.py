@@ -1,9 +1,8 @@
 """Which page of a list of jobs."""
 
+from jointplay.records.job_id import is_job_id
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from pydantic import BaseModel, ConfigDict, Field
-
-from jointplay.job_id import is_job_id
-from service.problems import ErrorDetail, RequestRefused, kinds
 
 
 class PageQuery(BaseModel):

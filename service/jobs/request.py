@@ -3,7 +3,7 @@
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
-from solver.errors import Problem
+from jointplay.records.failure import Problem
 
 FIELDS: dict[str, dict[str, Any]] = {
     "cache": {

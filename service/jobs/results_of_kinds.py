@@ -1,7 +1,7 @@
 """Which results a job of each kind has, as parts of its address."""
 
-from service.problems import RequestRefused, kinds
-from storage.catalogue import Job
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.storage.catalogue import Job
 
 RESULTS = {
     "simulate": (

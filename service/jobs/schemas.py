@@ -3,10 +3,9 @@
 from datetime import UTC, datetime
 from typing import Any, Literal, Self
 
+from jointplay.service.jobs.results_of_kinds import RESULTS
+from jointplay.storage.catalogue import Job, JobState
 from pydantic import BaseModel, ConfigDict, Field
-
-from service.jobs.results_of_kinds import RESULTS
-from storage.catalogue import Job, JobState
 
 SECONDS: dict[str, Any] = {"unit": "s"}
 

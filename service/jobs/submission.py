@@ -4,13 +4,13 @@ import time
 from dataclasses import replace
 from typing import Any
 
-from service.jobs import request
-from solver.admission import Study, admit
-from solver.errors import InvalidInput
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
-from storage.settings import Settings
-from worker.bell import wake_relay
+from jointplay.records.failure import InvalidInput
+from jointplay.service.jobs import request
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
+from jointplay.storage.settings import Settings
+from jointplay.worker.wake_up import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
     "required": True,

@@ -4,13 +4,13 @@
 every layer into them, `endpoints` serves the page that each problem's ``type`` points to.
 """
 
-from service.problems.document import (
+from jointplay.service.problems.document import (
     ErrorDetail,
     ProblemDocument,
     RequestRefused,
     header,
     problems,
 )
-from service.problems.handlers import install
+from jointplay.service.problems.handlers import install
 
 __all__ = ["ErrorDetail", "ProblemDocument", "RequestRefused", "header", "install", "problems"]

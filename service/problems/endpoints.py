@@ -1,10 +1,9 @@
 """``GET /problems/{name}``: what the ``type`` of a problem document points to."""
 
 from fastapi import APIRouter
+from jointplay.service.problems import kinds
+from jointplay.service.problems.document import RequestRefused, problems
 from pydantic import BaseModel, Field
-
-from service.problems import kinds
-from service.problems.document import RequestRefused, problems
 
 router = APIRouter(prefix="/problems", tags=["problems"])
 

@@ -6,21 +6,20 @@ from functools import singledispatch
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
-from sqlalchemy.exc import OperationalError
-from starlette.exceptions import HTTPException
-from starlette.routing import compile_path
-
-from jointplay.strict_json import MalformedJson
-from service.problems import kinds
-from service.problems.document import (
+from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.records.strict_json import MalformedJson
+from jointplay.service.problems import kinds
+from jointplay.service.problems.document import (
     MEDIA_TYPE,
     ErrorDetail,
     ProblemDocument,
     RequestRefused,
     clipped,
 )
-from solver.errors import InvalidInput, LimitExceeded
-from storage.catalogue import JobNotFinished, KeyReused
+from jointplay.storage.catalogue import JobNotFinished, KeyReused
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+from starlette.routing import compile_path
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail

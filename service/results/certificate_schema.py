@@ -2,9 +2,8 @@
 
 from typing import Any
 
+from jointplay.service.results.schemas import Series, Values
 from pydantic import BaseModel, Field
-
-from service.results.schemas import Series, Values
 
 Span = tuple[float, float]
 

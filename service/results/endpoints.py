@@ -5,22 +5,20 @@ from typing import Annotated, Any
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
-from numpy.typing import NDArray
-
-from jointplay.certificate import certificate_document
-from service.dependencies import (
+from jointplay.records.certificate import certificate_document
+from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
     JobOfThePath,
     SettingsDependency,
 )
-from service.jobs.results_of_kinds import insist, is_study
-from service.problems import RequestRefused, kinds, problems
-from service.results import schemas
-from service.results.as_json import as_json
-from service.results.certificate_schema import Certificate
-from service.results.negotiation import JSON, Form
-from service.results.queries import (
+from jointplay.service.jobs.results_of_kinds import insist, is_study
+from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.service.results import schemas
+from jointplay.service.results.as_json import as_json
+from jointplay.service.results.certificate_schema import Certificate
+from jointplay.service.results.negotiation import JSON, Form
+from jointplay.service.results.queries import (
     ChannelsQuery,
     HistoryQuery,
     Selection,
@@ -29,13 +27,14 @@ from service.results.queries import (
     check_size,
     chosen_channels,
 )
-from service.results.stores import StoreOfThePath, not_ready, open_store, open_study
-from service.results.tables import AS_FILES, Column, as_file
-from service.studies.answers import sections
-from service.studies.queries import PoincareQuery
-from service.studies.schemas import Sections
-from storage.catalogue import Job
-from storage.results import ResultReader
+from jointplay.service.results.stores import StoreOfThePath, not_ready, open_store, open_study
+from jointplay.service.results.tables import AS_FILES, Column, as_file
+from jointplay.service.studies.answers import sections
+from jointplay.service.studies.queries import PoincareQuery
+from jointplay.service.studies.schemas import Sections
+from jointplay.storage.catalogue import Job
+from jointplay.storage.results import ResultReader
+from numpy.typing import NDArray
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",

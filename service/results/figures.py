@@ -3,27 +3,27 @@
 from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Path, Query, Response
-from pydantic import Field
-
-from jointplay import figures
-from service.dependencies import (
+from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
     JobOfThePath,
     SettingsDependency,
 )
-from service.jobs.results_of_kinds import insist, is_study
-from service.jobs.schemas import address
-from service.problems import ErrorDetail, RequestRefused, kinds, problems
-from service.problems.document import clipped
-from service.results.queries import Selection, chosen_channels
-from service.results.schemas import FigureLink, Figures
-from service.results.stores import open_store, open_study
-from service.studies.queries import whole_point
-from storage.catalogue import Catalogue, Job
-from storage.results import ResultReader
-from storage.settings import Settings
-from storage.studies import StudyReader
+from jointplay.service.jobs.results_of_kinds import insist, is_study
+from jointplay.service.jobs.schemas import address
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
+from jointplay.service.problems.document import clipped
+from jointplay.service.results.queries import Selection, chosen_channels
+from jointplay.service.results.schemas import FigureLink, Figures
+from jointplay.service.results.stores import open_store, open_study
+from jointplay.service.studies.queries import whole_point
+from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.results import ResultReader
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyReader
+from pydantic import Field
+
+from jointplay import figures
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}/figures",

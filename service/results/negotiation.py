@@ -5,9 +5,8 @@ from importlib.util import find_spec
 from typing import Annotated
 
 from fastapi import Depends, Request
-
-from service.problems import RequestRefused, kinds
-from service.problems.document import clipped
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems.document import clipped
 
 
 def preferred(accept: str | None, offered: Sequence[str]) -> str | None:

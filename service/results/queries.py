@@ -1,9 +1,8 @@
 """What a client can ask of results: channels and a window of time, within bounds."""
 
+from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from pydantic import BaseModel, ConfigDict, Field
-
-from jointplay.channel_choice import NoSuchChannel, choose
-from service.problems import ErrorDetail, RequestRefused, kinds
 
 MOST_POINTS = 100_000  # of an overview: more than any screen is wide
 MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Annotated
 
 from fastapi import Depends, Request
-
-from service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
-from service.jobs.results_of_kinds import insist
-from service.problems import RequestRefused, kinds
-from storage.catalogue import Catalogue, Job
-from storage.results import NotAStore, ResultReader
-from storage.settings import Settings
-from storage.studies import StudyReader
+from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from jointplay.service.jobs.results_of_kinds import insist
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.results import NotAStore, ResultReader
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyReader
 
 _OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
 _OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study

@@ -3,13 +3,12 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path
+from jointplay.records.failure import InvalidInput
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
+from jointplay.service.problems.document import clipped
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Parameter, Scene
 from pydantic import BaseModel, Field
-
-from service.problems import ErrorDetail, RequestRefused, kinds, problems
-from service.problems.document import clipped
-from solver import presets
-from solver.errors import InvalidInput
-from solver.scene.document import Parameter, Scene
 
 router = APIRouter(prefix="/v1/scenes", tags=["scenes"])
 

@@ -5,11 +5,9 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-
-from service.results.schemas import Series
-from service.studies import schemas
-from service.studies.queries import (
+from jointplay.service.results.schemas import Series
+from jointplay.service.studies import schemas
+from jointplay.service.studies.queries import (
     BifurcationQuery,
     SectionRange,
     SweepQuery,
@@ -19,8 +17,9 @@ from service.studies.queries import (
     points_of,
     sections_of,
 )
-from solver.study.meanings import MEANINGS
-from storage.studies import StudyReader
+from jointplay.solver.runs.study.outputs import MEANINGS
+from jointplay.storage.studies import StudyReader
+from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")

@@ -3,15 +3,14 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
-
-from service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
-from service.jobs.results_of_kinds import insist
-from service.problems import kinds, problems
-from service.results.as_json import as_json
-from service.results.stores import open_study
-from service.studies import answers, schemas
-from service.studies.queries import BifurcationQuery, SweepQuery
-from solver.trade.trade import Trade
+from jointplay.service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
+from jointplay.service.jobs.results_of_kinds import insist
+from jointplay.service.problems import kinds, problems
+from jointplay.service.results.as_json import as_json
+from jointplay.service.results.stores import open_study
+from jointplay.service.studies import answers, schemas
+from jointplay.service.studies.queries import BifurcationQuery, SweepQuery
+from jointplay.solver.runs.work_precision.work_precision import Trade
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",

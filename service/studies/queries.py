@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 
+from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.results.queries import MOST_VALUES, Selection, chosen_channels
+from jointplay.storage.studies import StudyReader
 from pydantic import BaseModel, ConfigDict, Field
-
-from service.problems import ErrorDetail, RequestRefused, kinds
-from service.results.queries import MOST_VALUES, Selection, chosen_channels
-from storage.studies import StudyReader
 
 
 class PointRange(BaseModel):

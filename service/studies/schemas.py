@@ -2,9 +2,8 @@
 
 from typing import Any, Literal
 
+from jointplay.service.results.schemas import Series, Values
 from pydantic import BaseModel, Field
-
-from service.results.schemas import Series, Values
 
 Status = Literal["waiting", "running", "done", "failed"]
 SECONDS: dict[str, Any] = {"unit": "s"}

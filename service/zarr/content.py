@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Self
 
-from service.zarr.files import open_below, read
+from jointplay.service.zarr.files import open_below, read
 
 
 @dataclass

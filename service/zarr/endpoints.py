@@ -5,20 +5,19 @@ import json
 from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
-
-from service.dependencies import (
+from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
     JobOfThePath,
     SettingsDependency,
 )
-from service.problems import ErrorDetail, RequestRefused, header, kinds, problems
-from service.problems.document import clipped
-from service.zarr import ranges
-from service.zarr.content import Content
-from service.zarr.keys import is_key
-from service.zarr.views import content_of, former_content
-from storage.catalogue import Job
+from jointplay.service.problems import ErrorDetail, RequestRefused, header, kinds, problems
+from jointplay.service.problems.document import clipped
+from jointplay.service.zarr import ranges
+from jointplay.service.zarr.content import Content
+from jointplay.service.zarr.keys import is_key
+from jointplay.service.zarr.views import content_of, former_content
+from jointplay.storage.catalogue import Job
 
 router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
 

@@ -6,17 +6,17 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Final
 
-from service.jobs.results_of_kinds import is_study
-from service.results.stores import committed_so_far
-from service.zarr.content import Content
-from solver.study.meanings import MEANINGS
-from storage.catalogue import Catalogue, Job
-from storage.results import ArraySpec, NotAStore
-from storage.results.layout import MANIFEST
-from storage.results.live import LiveStore, loosened
-from storage.results.metadata import FILE
-from storage.settings import Settings
-from storage.studies.live import LiveStudy
+from jointplay.service.jobs.results_of_kinds import is_study
+from jointplay.service.results.stores import committed_so_far
+from jointplay.service.zarr.content import Content
+from jointplay.solver.runs.study.outputs import MEANINGS
+from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.results import ArraySpec, NotAStore
+from jointplay.storage.results.layout import MANIFEST
+from jointplay.storage.results.live import LiveStore, loosened
+from jointplay.storage.results.metadata import FILE
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies.live import LiveStudy
 
 _FRESH: Final = 0.5
 """Seconds for which the parts of a running study are not read again."""

@@ -7,18 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from solver.admission.accuracy_study import admit_accuracy_study
-from solver.admission.bifurcation import admit_bifurcation
-from solver.admission.documents import parse
-from solver.admission.ensemble import admit_ensemble
-from solver.admission.limits import LONGEST_RUN, MOST_BYTES, MOST_SAMPLES
-from solver.admission.mechanism import check, resolve
-from solver.admission.poincare import admit_poincare
-from solver.admission.simulate import Admission, admit_simulate, sample_count
-from solver.admission.sweep import admit_sweep
-from solver.drive import section_offset
-from solver.jobs import SimulateJob
-from solver.study.plan import Study
+from jointplay.solver.admission.accuracy_study import admit_accuracy_study
+from jointplay.solver.admission.bifurcation import admit_bifurcation
+from jointplay.solver.admission.documents import parse
+from jointplay.solver.admission.ensemble import admit_ensemble
+from jointplay.solver.admission.limits import LONGEST_RUN, MOST_BYTES, MOST_SAMPLES
+from jointplay.solver.admission.mechanism import check, resolve
+from jointplay.solver.admission.poincare import admit_poincare
+from jointplay.solver.admission.simulate import Admission, admit_simulate, sample_count
+from jointplay.solver.admission.sweep import admit_sweep
+from jointplay.solver.jobs import SimulateJob
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.periods import section_offset
 
 __all__ = [
     "LONGEST_RUN",

@@ -5,17 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-
-from solver.admission import documents
-from solver.admission.limits import BYTES_PER_POINT, LONGEST_ACCURACY_STUDY
-from solver.admission.points import one_point
-from solver.admission.spans import periods
-from solver.admission.studies import make_study
-from solver.admission.varied import check_points
-from solver.errors import LimitExceeded, Problem
-from solver.jobs.accuracy_study import METHOD_NAMES, AccuracyStudyJob
-from solver.study.plan import Study
-from solver.trade.plan import WITHOUT_PERIOD, runs_of
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.admission import documents
+from jointplay.solver.admission.limits import BYTES_PER_POINT, LONGEST_ACCURACY_STUDY
+from jointplay.solver.admission.points import one_point
+from jointplay.solver.admission.spans import periods
+from jointplay.solver.admission.studies import make_study
+from jointplay.solver.admission.varied import check_points
+from jointplay.solver.jobs.accuracy_study import METHOD_NAMES, AccuracyStudyJob
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, runs_of
 
 
 def admit_accuracy_study(job: AccuracyStudyJob, *, thorough: bool = True) -> Study:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from solver.admission.points import one_axis
-from solver.admission.studies import check_count, section_study
-from solver.admission.written import axis
-from solver.jobs.bifurcation import BifurcationJob
-from solver.jobs.values import count
-from solver.study.plan import Study
+from jointplay.solver.admission.points import one_axis
+from jointplay.solver.admission.studies import check_count, section_study
+from jointplay.solver.admission.written import axis
+from jointplay.solver.jobs.bifurcation import BifurcationJob
+from jointplay.solver.jobs.values import count
+from jointplay.solver.runs.study.plan import Study
 
 
 def admit_bifurcation(job: BifurcationJob, *, thorough: bool = True) -> Study:

@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-
-from solver.admission.points import Points
-from solver.admission.varied import CheckedPoints
-from solver.channels import Channel
-from solver.errors import Problem
-from solver.ideal.reach import motion_reach
-from solver.jobs import ChannelSection
+from jointplay.records.failure import Problem
+from jointplay.solver.admission.points import Points
+from jointplay.solver.admission.varied import CheckedPoints
+from jointplay.solver.jobs import ChannelSection
+from jointplay.solver.runs.ideal.reach import motion_reach
+from jointplay.solver.scene.channels import Channel
 
 FARTHEST = 2.0
 """Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""

@@ -7,15 +7,14 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import did_you_mean
+from jointplay.solver.admission.mechanism import Echo
+from jointplay.solver.admission.methods import chosen
+from jointplay.solver.jobs import KINDS, Job, MechanismJob, PresetScene
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.sentences import schema_problems
 from pydantic import ValidationError
-
-from solver import presets
-from solver.admission.mechanism import Echo
-from solver.admission.methods import chosen
-from solver.errors import InvalidInput, Problem
-from solver.jobs import KINDS, Job, MechanismJob, PresetScene
-from solver.scene.near import did_you_mean
-from solver.scene.sentences import schema_problems
 
 
 def parse(document: object) -> MechanismJob:

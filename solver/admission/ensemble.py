@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from solver.admission.points import one_point
-from solver.admission.studies import check_count, section_study
-from solver.errors import InvalidInput, Problem
-from solver.jobs.ensemble import EnsembleJob
-from solver.study.plan import Study
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.admission.points import one_point
+from jointplay.solver.admission.studies import check_count, section_study
+from jointplay.solver.jobs.ensemble import EnsembleJob
+from jointplay.solver.runs.study.plan import Study
 
 
 def admit_ensemble(job: EnsembleJob, *, thorough: bool = True) -> Study:

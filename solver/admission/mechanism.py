@@ -6,18 +6,17 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.jobs import MechanismJob, PresetScene
+from jointplay.solver.mechanics.assembly import ASSEMBLED, Assembly, assemble, shortest_link
+from jointplay.solver.mechanics.tree import Tree, spanning_tree
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.channels import Channel, channels
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import parameter_of, set_parameters
+from jointplay.solver.scene.references import part_problems, reference_problems
+from jointplay.solver.scene.sentences import schema_problems
 from pydantic import ValidationError
-
-from solver import presets
-from solver.assembly import ASSEMBLED, Assembly, assemble, shortest_link
-from solver.channels import Channel, channels
-from solver.errors import InvalidInput, Problem
-from solver.jobs import MechanismJob, PresetScene
-from solver.mechanics.tree import Tree, spanning_tree
-from solver.scene.document import Scene
-from solver.scene.parameters import parameter_of, set_parameters
-from solver.scene.references import part_problems, reference_problems
-from solver.scene.sentences import schema_problems
 
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""

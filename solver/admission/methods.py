@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from solver.errors import InvalidInput, Problem
-from solver.integrators import METHODS, method_for
-from solver.jobs.job import ACCURACIES, Job, Method
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.integrators import METHODS, method_for
+from jointplay.solver.jobs.job import ACCURACIES, Job, Method
 
 
 def chosen(job: Job) -> tuple[Method, float | None]:

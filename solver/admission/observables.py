@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from solver.admission.varied import CheckedPoints, Mechanism
-from solver.channels import Channel, select
-from solver.errors import InvalidInput, Problem
-from solver.mechanics.tree import Branch
-from solver.scene.document import Prismatic
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.admission.varied import CheckedPoints, Mechanism
+from jointplay.solver.mechanics.tree import Branch
+from jointplay.solver.scene.channels import Channel, select
+from jointplay.solver.scene.document import Prismatic
 
 RATES = {"x": "vx", "y": "vy", "theta": "omega"}
 ECCENTRICITY = (

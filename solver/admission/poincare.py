@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from solver.admission.points import one_point
-from solver.admission.studies import section_study
-from solver.jobs.poincare import PoincareJob
-from solver.study.plan import Study
+from jointplay.solver.admission.points import one_point
+from jointplay.solver.admission.studies import section_study
+from jointplay.solver.jobs.poincare import PoincareJob
+from jointplay.solver.runs.study.plan import Study
 
 
 def admit_poincare(job: PoincareJob, *, thorough: bool = True) -> Study:

@@ -6,12 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.document import Parameter, Scene
+from jointplay.solver.scene.parameters import allowed_range
 from numpy.typing import NDArray
-
-from solver.errors import InvalidInput, Problem
-from solver.scene.document import Parameter, Scene
-from solver.scene.near import unknown
-from solver.scene.parameters import allowed_range
 
 Floats = NDArray[np.float64]
 

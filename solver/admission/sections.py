@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from solver.admission.crossings import crossing_problems
-from solver.admission.observables import shared_channels
-from solver.admission.points import Points
-from solver.admission.spans import Periods
-from solver.admission.varied import CheckedPoints
-from solver.errors import InvalidInput, Problem
-from solver.jobs import ChannelSection, OnsetSection, SectionStudyJob
-from solver.scene.near import unknown
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.admission.crossings import crossing_problems
+from jointplay.solver.admission.observables import shared_channels
+from jointplay.solver.admission.points import Points
+from jointplay.solver.admission.spans import Periods
+from jointplay.solver.admission.varied import CheckedPoints
+from jointplay.solver.jobs import ChannelSection, OnsetSection, SectionStudyJob
 
 
 def check_section(

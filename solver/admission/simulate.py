@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from solver.admission import documents
-from solver.admission.limits import (
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.admission import documents
+from jointplay.solver.admission.limits import (
     BYTES_PER_VALUE,
     DEFAULT_SAMPLES,
     LONGEST_IDEAL_RUN,
@@ -15,16 +16,20 @@ from solver.admission.limits import (
     MOST_BYTES,
     MOST_SAMPLES,
 )
-from solver.admission.mechanism import check, offered, resolve
-from solver.admission.methods import chosen
-from solver.assembly import shortest_link
-from solver.channels import Channel, select
-from solver.compiler.length import check_length
-from solver.drive import Period, characteristic_time, common_period, section_offset
-from solver.errors import LimitExceeded, Problem
-from solver.integrators import method_for
-from solver.jobs import ACCURACIES, SimulateJob
-from solver.scene.document import Scene
+from jointplay.solver.admission.mechanism import check, offered, resolve
+from jointplay.solver.admission.methods import chosen
+from jointplay.solver.integrators import method_for
+from jointplay.solver.jobs import ACCURACIES, SimulateJob
+from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.scene.channels import Channel, select
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import (
+    Period,
+    characteristic_time,
+    common_period,
+    section_offset,
+)
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,12 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.solver.admission.varied import CheckedPoints
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.runs.study.fields import distinct, geometry_columns
+from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.periods import characteristic_time, common_period
 from numpy.typing import NDArray
-
-from solver.admission.varied import CheckedPoints
-from solver.assembly import shortest_link
-from solver.drive import characteristic_time, common_period
-from solver.scene.document import Revolute, Scene
-from solver.study.fields import distinct, geometry_columns
 
 Floats = NDArray[np.float64]
 _SPEED = re.compile(r"/drivers/[^/]+/speed")

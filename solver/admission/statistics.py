@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.solver.admission.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
+from jointplay.solver.admission.varied import CheckedPoints
+from jointplay.solver.jobs.sweep import SweepJob
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.statistics import OF_CONTACTS
 from numpy.typing import NDArray
-
-from solver.admission.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
-from solver.admission.varied import CheckedPoints
-from solver.channels import Channel
-from solver.errors import InvalidInput, LimitExceeded, Problem
-from solver.jobs.sweep import SweepJob
-from solver.statistics import OF_CONTACTS
 
 Floats = NDArray[np.float64]
 

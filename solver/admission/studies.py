@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-
-from solver.admission import documents
-from solver.admission.limits import (
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.admission import documents
+from jointplay.solver.admission.limits import (
     BYTES_PER_POINT,
     BYTES_PER_VALUE,
     EVENT_PATIENCE,
@@ -18,17 +17,17 @@ from solver.admission.limits import (
     MOST_PERIODS,
     MOST_POINTS,
 )
-from solver.admission.methods import check_study
-from solver.admission.observables import chosen, coordinate_channels
-from solver.admission.points import Points
-from solver.admission.sections import check_section
-from solver.admission.spans import crank_offsets, periods
-from solver.admission.varied import CheckedPoints, check_points
-from solver.channels import Channel
-from solver.errors import LimitExceeded, Problem
-from solver.jobs import INDICATORS, CrankSection, MechanismJob, SectionStudyJob
-from solver.study.blocks import chained_blocks, chains_of, independent_blocks
-from solver.study.plan import Study
+from jointplay.solver.admission.methods import check_study
+from jointplay.solver.admission.observables import chosen, coordinate_channels
+from jointplay.solver.admission.points import Points
+from jointplay.solver.admission.sections import check_section
+from jointplay.solver.admission.spans import crank_offsets, periods
+from jointplay.solver.admission.varied import CheckedPoints, check_points
+from jointplay.solver.jobs import INDICATORS, CrankSection, MechanismJob, SectionStudyJob
+from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.channels import Channel
+from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

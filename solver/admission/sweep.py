@@ -5,20 +5,19 @@ from __future__ import annotations
 import math
 
 import numpy as np
-
-from solver.admission import documents
-from solver.admission.methods import check_study
-from solver.admission.observables import chosen, coordinate_channels, peak_channels
-from solver.admission.points import Axis, Points, product
-from solver.admission.spans import periods
-from solver.admission.statistics import check_samples, check_statistics
-from solver.admission.studies import check_count, check_limits, make_study
-from solver.admission.varied import check_points
-from solver.admission.written import axis
-from solver.errors import InvalidInput, Problem
-from solver.jobs.sweep import SweepJob
-from solver.jobs.values import count
-from solver.study.plan import Study
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.admission import documents
+from jointplay.solver.admission.methods import check_study
+from jointplay.solver.admission.observables import chosen, coordinate_channels, peak_channels
+from jointplay.solver.admission.points import Axis, Points, product
+from jointplay.solver.admission.spans import periods
+from jointplay.solver.admission.statistics import check_samples, check_statistics
+from jointplay.solver.admission.studies import check_count, check_limits, make_study
+from jointplay.solver.admission.varied import check_points
+from jointplay.solver.admission.written import axis
+from jointplay.solver.jobs.sweep import SweepJob
+from jointplay.solver.jobs.values import count
+from jointplay.solver.runs.study.plan import Study
 
 
 def admit_sweep(job: SweepJob, *, thorough: bool = True) -> Study:

@@ -12,22 +12,26 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.solver.admission.limits import MOST_GEOMETRIES
+from jointplay.solver.admission.mechanism import Echo, check, declared, offered, with_parameters
+from jointplay.solver.admission.points import MOST_NAMED, Points, check_parameters, with_rest
+from jointplay.solver.jobs import MechanismJob
+from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.mechanics.assembly import Assembly
+from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.runs.study.fields import (
+    distinct,
+    geometry_columns,
+    inadmissible,
+    structure_columns,
+)
+from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import PLACE, set_parameters
+from jointplay.solver.scene.sizes import ill_sized
 from numpy.typing import NDArray
-
-from solver.admission.limits import MOST_GEOMETRIES
-from solver.admission.mechanism import Echo, check, declared, offered, with_parameters
-from solver.admission.points import MOST_NAMED, Points, check_parameters, with_rest
-from solver.assembly import Assembly
-from solver.channels import Channel
-from solver.compiler.length import check_length
-from solver.errors import InvalidInput, LimitExceeded, Problem
-from solver.jobs import MechanismJob
-from solver.mechanics.tree import Tree
-from solver.scene.document import Scene
-from solver.scene.parameters import PLACE, set_parameters
-from solver.scene.sizes import ill_sized
-from solver.study.fields import distinct, geometry_columns, inadmissible, structure_columns
-from solver.study.scenes import PointScenes, leaves_of
 
 
 @dataclass(frozen=True)

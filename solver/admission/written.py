@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from solver.admission.points import Axis
-from solver.errors import InvalidInput, Problem
-from solver.jobs.values import Range, numbers
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.admission.points import Axis
+from jointplay.solver.jobs.values import Range, numbers
 
 
 def axis(parameter: str, values: Range | list[float], name_place: str, place: str) -> Axis:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from jointplay.solver.calibration.measure import Measure
+from jointplay.solver.calibration.outcome import Outcome
+from jointplay.solver.calibration.problem import Calibration
+from jointplay.solver.calibration.search import Found, Report, search
+from jointplay.solver.calibration.spread import CHAINS, EquallyGood, spread
 from numpy.typing import NDArray
-
-from solver.calibration.measure import Measure
-from solver.calibration.outcome import Outcome
-from solver.calibration.problem import Calibration
-from solver.calibration.search import Found, Report, search
-from solver.calibration.spread import CHAINS, EquallyGood, spread
 
 Floats = NDArray[np.float64]
 

@@ -10,24 +10,23 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
+from jointplay.records.failure import Problem
+from jointplay.solver.calibration.problem import Calibration, CheckedCase
+from jointplay.solver.calibration.windows import Windows
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.failures import peaks_of
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.start import start_state
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.results import Peak
+from jointplay.solver.runs.study.fields import geometry_columns, structure_columns
+from jointplay.solver.runs.study.scenes import PointScenes
+from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
-
-from solver.assembly import assemble
-from solver.calibration.problem import Calibration, CheckedCase
-from solver.calibration.windows import Windows
-from solver.compile_loop import ready_kernel
-from solver.compiler.kernel import Kernel
-from solver.compiler.layout import LANES
-from solver.errors import Problem
-from solver.lanes.account import peaks_of
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem, LaneStart
-from solver.lanes.start import start_state
-from solver.lanes.state import Counter, Status
-from solver.results import Peak
-from solver.scene.document import Scene
-from solver.study.fields import geometry_columns, structure_columns
-from solver.study.scenes import PointScenes
 
 Floats = NDArray[np.float64]
 

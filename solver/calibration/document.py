@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
+from jointplay.solver.jobs.job import Job
+from jointplay.solver.jobs.values import UNIT
+from jointplay.solver.quantities.units import Name, Strict
 from pydantic import Field
-
-from solver.jobs.job import Job
-from solver.jobs.values import UNIT
-from solver.scene.quantities import Name, Strict
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
 SECONDS = {"unit": "s"}

@@ -5,13 +5,12 @@ from __future__ import annotations
 import copy
 from typing import Any
 
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.calibration.outcome import Outcome
+from jointplay.solver.jobs import PresetScene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.sentences import schema_problems
 from pydantic import ValidationError
-
-from solver.calibration.outcome import Outcome
-from solver.errors import InvalidInput
-from solver.jobs import PresetScene
-from solver.scene.document import Scene
-from solver.scene.sentences import schema_problems
 
 LONGEST_HELP = 300
 LONGEST_DESCRIPTION = 2000

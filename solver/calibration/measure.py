@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.calibration.case_measure import CaseMeasure
+from jointplay.solver.calibration.problem import Calibration
 from numpy.typing import NDArray
-
-from solver.calibration.case_measure import CaseMeasure
-from solver.calibration.problem import Calibration
-from solver.errors import InvalidInput, Problem
 
 Floats = NDArray[np.float64]
 Measure = Callable[[Floats], Floats]

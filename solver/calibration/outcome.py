@@ -6,12 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from jointplay.solver.calibration.problem import Calibration
+from jointplay.solver.calibration.search import Found
+from jointplay.solver.calibration.spread import EquallyGood
+from jointplay.solver.version import SOLVER_VERSION
 from numpy.typing import NDArray
-
-from solver.calibration.problem import Calibration
-from solver.calibration.search import Found
-from solver.calibration.spread import EquallyGood
-from solver.version import SOLVER_VERSION
 
 Floats = NDArray[np.float64]
 

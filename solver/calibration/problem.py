@@ -6,22 +6,21 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.admission.documents import digest, filled
+from jointplay.solver.admission.limits import MOST_PERIODS
+from jointplay.solver.admission.mechanism import declared, resolve
+from jointplay.solver.admission.methods import check_study, chosen
+from jointplay.solver.calibration.document import CalibrationJob, CalibrationTarget
+from jointplay.solver.calibration.space import Space, space_of, space_problems
+from jointplay.solver.calibration.targets import Goals, goals_of, target_problems
+from jointplay.solver.jobs import PresetScene
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.sentences import schema_problems
 from pydantic import ValidationError
-
-from solver.admission import Study, admit
-from solver.admission.documents import digest, filled
-from solver.admission.limits import MOST_PERIODS
-from solver.admission.mechanism import declared, resolve
-from solver.admission.methods import check_study, chosen
-from solver.calibration.document import CalibrationJob, CalibrationTarget
-from solver.calibration.space import Space, space_of, space_problems
-from solver.calibration.targets import Goals, goals_of, target_problems
-from solver.channels import Channel
-from solver.errors import InvalidInput, LimitExceeded, Problem
-from solver.jobs import PresetScene
-from solver.scene.document import Scene
-from solver.scene.near import unknown
-from solver.scene.sentences import schema_problems
 
 MOST_RUNS = 10_000_000
 """Of a calibration: some hours."""

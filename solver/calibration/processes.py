@@ -11,11 +11,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+from jointplay.solver.calibration.measure import Measure, Measurement
+from jointplay.solver.calibration.problem import Calibration, admit_calibration
+from jointplay.solver.kernels.layout import LANES
 from numpy.typing import NDArray
-
-from solver.calibration.measure import Measure, Measurement
-from solver.calibration.problem import Calibration, admit_calibration
-from solver.compiler.layout import LANES
 
 Floats = NDArray[np.float64]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from solver.admission.mechanism import with_parameters
-from solver.assembly import assemble
-from solver.scene.document import Scene
+from jointplay.solver.admission.mechanism import with_parameters
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.scene.document import Scene
 
 
 def reported_cases(document: dict[str, Any]) -> list[dict[str, Any]]:

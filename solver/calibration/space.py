@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from jointplay.records.failure import Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.calibration.document import FreeParameter
+from jointplay.solver.scene.document import Parameter, Scene
+from jointplay.solver.scene.parameters import allowed_range
 from numpy.typing import NDArray
-
-from solver.calibration.document import FreeParameter
-from solver.errors import Problem
-from solver.scene.document import Parameter, Scene
-from solver.scene.near import unknown
-from solver.scene.parameters import allowed_range
 
 Floats = NDArray[np.float64]
 

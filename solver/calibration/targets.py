@@ -6,10 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.records.failure import Problem
+from jointplay.solver.calibration.document import CalibrationTarget
 from numpy.typing import NDArray
-
-from solver.calibration.document import CalibrationTarget
-from solver.errors import Problem
 
 Floats = NDArray[np.float64]
 

@@ -10,11 +10,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from jointplay.solver.calibration.document import CalibrationTarget, Statistic
+from jointplay.solver.calibration.targets import grid_indices
+from jointplay.solver.runs.results import Peak
 from numpy.typing import NDArray
-
-from solver.calibration.document import CalibrationTarget, Statistic
-from solver.calibration.targets import grid_indices
-from solver.results import Peak
 
 Floats = NDArray[np.float64]
 

@@ -1,12 +1,12 @@
 """Integration methods: one file each, as data; this roster names them as jobs do."""
 
-from solver.integrators.bogacki_shampine3 import BOGACKI_SHAMPINE3
-from solver.integrators.dormand_prince853 import DORMAND_PRINCE853
-from solver.integrators.rodas4 import RODAS4
-from solver.integrators.rosenbrock import Rosenbrock
-from solver.integrators.runge_kutta4 import RUNGE_KUTTA4
-from solver.integrators.tableau import Tableau
-from solver.integrators.tsitouras5 import TSITOURAS5
+from jointplay.solver.integrators.bogacki_shampine3 import BOGACKI_SHAMPINE3
+from jointplay.solver.integrators.dormand_prince853 import DORMAND_PRINCE853
+from jointplay.solver.integrators.rodas4 import RODAS4
+from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.integrators.runge_kutta4 import RUNGE_KUTTA4
+from jointplay.solver.integrators.tableau import Tableau
+from jointplay.solver.integrators.tsitouras5 import TSITOURAS5
 
 Method = Tableau | Rosenbrock
 EVERY: tuple[Method, ...] = (

@@ -3,7 +3,7 @@
 Source: Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
 """
 
-from solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.tableau import Tableau, cubic_dense
 
 _WEIGHTS = (2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0)
 

@@ -13,7 +13,7 @@ Source of the coefficients but for `_INSIDE`: DOP853, Hairer, Norsett and Wanner
 Ordinary Differential Equations I.
 """
 
-from solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.tableau import Tableau, cubic_dense
 
 _WEIGHTS = (
     0.054293734116568765,

@@ -3,7 +3,7 @@
 Source: Hairer and Wanner 1996, Solving Ordinary Differential Equations II, IV.7 and IV.10.
 """
 
-from solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.integrators.rosenbrock import Rosenbrock
 
 _LAST = (1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950)
 _WEIGHTS = (*_LAST, 1.0, 1.0)

@@ -5,7 +5,7 @@ Its fifth stage is the slope where the step ends, for the dense output of order 
 Source: Kutta 1901, Zeitschrift für Mathematik und Physik 46:435.
 """
 
-from solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.tableau import Tableau, cubic_dense
 
 _WEIGHTS = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
 

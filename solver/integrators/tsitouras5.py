@@ -3,7 +3,7 @@
 Source: Tsitouras 2011, Computers and Mathematics with Applications 62:770.
 """
 
-from solver.integrators.tableau import Tableau
+from jointplay.solver.integrators.tableau import Tableau
 
 TSITOURAS5 = Tableau(
     name="tsitouras",

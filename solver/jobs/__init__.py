@@ -5,17 +5,16 @@ A member is a pydantic model; `solver.admission` has a module of the same name t
 
 from typing import Annotated
 
+from jointplay.solver.jobs.accuracy_study import AccuracyStudyJob
+from jointplay.solver.jobs.bifurcation import BifurcationJob
+from jointplay.solver.jobs.ensemble import EnsembleJob
+from jointplay.solver.jobs.job import ACCURACIES, Job, MechanismJob, PresetScene
+from jointplay.solver.jobs.poincare import PoincareJob
+from jointplay.solver.jobs.section import ChannelSection, CrankSection, OnsetSection, Section
+from jointplay.solver.jobs.simulate import SimulateJob
+from jointplay.solver.jobs.study import INDICATORS, SectionStudyJob
+from jointplay.solver.jobs.sweep import SweepJob
 from pydantic import Field
-
-from solver.jobs.accuracy_study import AccuracyStudyJob
-from solver.jobs.bifurcation import BifurcationJob
-from solver.jobs.ensemble import EnsembleJob
-from solver.jobs.job import ACCURACIES, Job, MechanismJob, PresetScene
-from solver.jobs.poincare import PoincareJob
-from solver.jobs.section import ChannelSection, CrankSection, OnsetSection, Section
-from solver.jobs.simulate import SimulateJob
-from solver.jobs.study import INDICATORS, SectionStudyJob
-from solver.jobs.sweep import SweepJob
 
 KINDS: dict[str, type[MechanismJob]] = {
     "simulate": SimulateJob,

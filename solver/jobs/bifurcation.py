@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
+from jointplay.solver.jobs.study import SectionStudyJob
+from jointplay.solver.jobs.values import Values
+from jointplay.solver.quantities.units import Name
 from pydantic import Field
-
-from solver.jobs.study import SectionStudyJob
-from solver.jobs.values import Values
-from solver.scene.quantities import Name
 
 
 class BifurcationJob(SectionStudyJob):

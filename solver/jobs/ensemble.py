@@ -2,9 +2,8 @@
 
 from typing import Annotated, Literal
 
+from jointplay.solver.jobs.study import SectionStudyJob
 from pydantic import Field
-
-from solver.jobs.study import SectionStudyJob
 
 
 class EnsembleJob(SectionStudyJob):

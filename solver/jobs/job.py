@@ -2,11 +2,10 @@
 
 from typing import Annotated, Any, Literal
 
+from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.unions import form, has, told_by
 from pydantic import Field
-
-from solver.scene.document import Scene
-from solver.scene.forms import form, has, told_by
-from solver.scene.quantities import Name, Strict
 
 Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
 Accuracy = Literal["draft", "standard", "fine", "reference"]

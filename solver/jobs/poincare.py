@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from solver.jobs.study import SectionStudyJob
+from jointplay.solver.jobs.study import SectionStudyJob
 
 
 class PoincareJob(SectionStudyJob):

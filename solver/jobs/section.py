@@ -2,10 +2,9 @@
 
 from typing import Annotated, Any, Literal
 
+from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.scene.unions import form, has, told_by
 from pydantic import Field
-
-from solver.scene.forms import form, has, told_by
-from solver.scene.quantities import Name, Strict
 
 
 class CrankSection(Strict):

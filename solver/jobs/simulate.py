@@ -2,10 +2,9 @@
 
 from typing import Annotated, Literal
 
+from jointplay.solver.jobs.job import ChannelChoice, Job
+from jointplay.solver.jobs.section import CrankSection
 from pydantic import Field
-
-from solver.jobs.job import ChannelChoice, Job
-from solver.jobs.section import CrankSection
 
 
 class SimulateJob(Job):

@@ -2,11 +2,10 @@
 
 from typing import Annotated, Any, Literal, get_args
 
+from jointplay.solver.jobs.job import ChannelChoice, Job
+from jointplay.solver.jobs.section import CrankSection, Section
+from jointplay.solver.scene.unions import form, told_by
 from pydantic import Field
-
-from solver.jobs.job import ChannelChoice, Job
-from solver.jobs.section import CrankSection, Section
-from solver.scene.forms import form, told_by
 
 Indicator = Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum"]
 INDICATORS: tuple[Indicator, ...] = get_args(Indicator)

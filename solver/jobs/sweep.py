@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
+from jointplay.solver.jobs.job import ChannelChoice, Job
+from jointplay.solver.jobs.values import UNIT, Values
+from jointplay.solver.quantities.units import Name
 from pydantic import Field
-
-from solver.jobs.job import ChannelChoice, Job
-from solver.jobs.values import UNIT, Values
-from solver.scene.quantities import Name
 
 StatisticName = Literal[
     "mean",

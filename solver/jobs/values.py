@@ -3,11 +3,10 @@
 from typing import Annotated, Any, Literal
 
 import numpy as np
+from jointplay.solver.quantities.units import Strict
+from jointplay.solver.scene.unions import form, told_by
 from numpy.typing import NDArray
 from pydantic import Field
-
-from solver.scene.forms import form, told_by
-from solver.scene.quantities import Strict
 
 UNIT = {"unit": "the parameter's unit"}
 

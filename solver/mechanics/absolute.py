@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import NamedTuple
 
-from solver.mechanics.frames import Pair
-from solver.mechanics.scalars import Scalar, Scalars, sine_cosine, sqrt
-from solver.scene.document import JournalStart, Scene
-from solver.scene.references import has_play
+from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
+from jointplay.solver.scene.document import JournalStart, Scene
+from jointplay.solver.scene.references import has_play
 
 CONCENTRIC = JournalStart()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from solver.mechanics.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar
 
 Matrix = Mapping[tuple[int, int], Scalar]
 """Non-zero entries (i, j) of a symmetric matrix; either triangle may be given."""

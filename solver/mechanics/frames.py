@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from solver.mechanics.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar
 
 WORLD = "ground"
 """Name of the frame that never turns."""

@@ -11,10 +11,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from solver.mechanics.absolute import unit
-from solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair
-from solver.mechanics.scalars import Scalar, sine_cosine
-from solver.mechanics.tree import Branch, Tree
+from jointplay.solver.mechanics.absolute import unit
+from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair
+from jointplay.solver.mechanics.tree import Branch, Tree
+from jointplay.solver.quantities.scalars import Scalar, sine_cosine
 
 
 @dataclass

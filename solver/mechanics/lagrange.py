@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 
-from solver.mechanics.absolute import AbsoluteMechanism, Row
-from solver.mechanics.elimination import solve_symmetric
-from solver.mechanics.motion import BodyMotion, Motion
-from solver.mechanics.play import Contact, contact
-from solver.mechanics.reactions import joint_reactions
-from solver.mechanics.scalars import Scalar
-from solver.scene.document import Scene
-from solver.scene.references import has_play
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.elimination import solve_symmetric
+from jointplay.solver.mechanics.motion import BodyMotion, Motion
+from jointplay.solver.mechanics.play import Contact, contact
+from jointplay.solver.mechanics.reactions import joint_reactions
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import has_play
 
 BAUMGARTE_ALPHA = 50.0
 BAUMGARTE_BETA = 50.0

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from solver.mechanics.frames import Pair
-from solver.mechanics.play import Contact
-from solver.mechanics.scalars import Scalar
+from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.mechanics.play import Contact
+from jointplay.solver.quantities.scalars import Scalar
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from solver.mechanics.motion import Motion
-from solver.mechanics.scalars import Scalar
+from jointplay.solver.mechanics.motion import Motion
+from jointplay.solver.quantities.scalars import Scalar
 
 
 def channel_values(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
-    """Return the value of every channel by name; see `solver.channels` for units and meaning."""
+    """Return the value of every channel by name; see `scene.channels` for units and meaning."""
     values: dict[str, Scalar] = {}
     for name, body in motion.bodies.items():
         values[f"{name}.x"], values[f"{name}.y"] = body.position

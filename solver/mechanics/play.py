@@ -12,10 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from solver.contact import LAWS as CONTACT_LAWS
-from solver.friction import LAWS as FRICTION_LAWS
-from solver.mechanics.frames import Pair
-from solver.mechanics.scalars import Scalar, select_positive, sqrt
+from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
+from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
+from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
 
 CENTRED = 1e-300
 """Added to the eccentricity (m) and to its square (m^2), so that a centred journal divides by no

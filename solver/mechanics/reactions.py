@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from solver.mechanics.absolute import AbsoluteMechanism, Row
-from solver.mechanics.frames import Pair
-from solver.mechanics.scalars import Scalar
-from solver.scene.document import Scene
-from solver.scene.references import ends
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import ends
 
 
 def joint_reactions(

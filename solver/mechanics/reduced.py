@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import SimpleNamespace
 
-from solver.mechanics.elimination import solve_symmetric
-from solver.mechanics.frames import WORLD, FrameVector, Pair, cross
-from solver.mechanics.kinematics import Kinematics
-from solver.mechanics.motion import BodyMotion, Motion
-from solver.mechanics.play import Contact, contact
-from solver.mechanics.scalars import Scalar
-from solver.mechanics.tree import Tree
+from jointplay.solver.mechanics.elimination import solve_symmetric
+from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
+from jointplay.solver.mechanics.kinematics import Kinematics
+from jointplay.solver.mechanics.motion import BodyMotion, Motion
+from jointplay.solver.mechanics.play import Contact, contact
+from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.quantities.scalars import Scalar
 
 
 class ReducedMechanism:

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from solver.scene.document import Fixed, Prismatic, Revolute, Scene
-from solver.scene.references import ends, has_play
-from solver.scene.structure import per_structure
+from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.structure import per_structure
 
 Kind = Literal["revolute", "prismatic", "fixed", "free"]
 

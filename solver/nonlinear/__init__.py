@@ -19,10 +19,10 @@ Numbers with errors are `estimate.Estimate`; what an error means is said there a
 correlated numbers, in `batch_means`. The logistic map at r = 3.9, from the start:
 
 >>> import numpy as np
->>> from solver.nonlinear.lyapunov import map_exponent
->>> from solver.nonlinear.recurrence import recurrence_period
->>> from solver.nonlinear.verdict import decide
->>> from solver.nonlinear.zero_one import zero_one_test
+>>> from jointplay.solver.nonlinear.lyapunov import map_exponent
+>>> from jointplay.solver.nonlinear.recurrence import recurrence_period
+>>> from jointplay.solver.nonlinear.verdict import decide
+>>> from jointplay.solver.nonlinear.zero_one import zero_one_test
 >>> orbit = np.empty((1000, 1))
 >>> orbit[0] = 0.3
 >>> for i in range(999):

@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
-
-from solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
 
 Floats = NDArray[np.float64]
 

@@ -16,13 +16,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jointplay.solver.nonlinear.batch_means import mean_estimate
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from numpy.typing import NDArray
 
-from solver.nonlinear.batch_means import mean_estimate
-from solver.nonlinear.estimate import UNKNOWN, Estimate
-
 if TYPE_CHECKING:
-    from solver.nonlinear.flow import Flow  # and with it scipy.optimize: not for growth alone
+    from jointplay.solver.nonlinear.flow import (
+        Flow,  # and with it scipy.optimize: not for growth alone
+    )
 
 Floats = NDArray[np.float64]
 

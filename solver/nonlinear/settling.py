@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
+from jointplay.solver.nonlinear.steadiness import change_between
 from numpy.typing import NDArray
-
-from solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
-from solver.nonlinear.steadiness import change_between
 
 Floats = NDArray[np.float64]
 

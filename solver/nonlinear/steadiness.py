@@ -7,10 +7,9 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from jointplay.solver.nonlinear.batch_means import standard_error
+from jointplay.solver.nonlinear.estimate import SIGNIFICANT
 from numpy.typing import NDArray
-
-from solver.nonlinear.batch_means import standard_error
-from solver.nonlinear.estimate import SIGNIFICANT
 
 Floats = NDArray[np.float64]
 

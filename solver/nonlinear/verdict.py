@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from solver.nonlinear.estimate import Estimate
+from jointplay.solver.nonlinear.estimate import Estimate
 
 UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC = range(4)
 VERDICTS = {

@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from numpy.typing import NDArray
 from scipy import fft
-
-from solver.nonlinear.estimate import UNKNOWN, Estimate
 
 Floats = NDArray[np.float64]
 

@@ -6,11 +6,9 @@ points together; a reference ``body.point`` names one, ``ground.point`` a point 
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
-from solver.contact import ContactLaw
-from solver.friction import FrictionLaw
-from solver.scene.quantities import (
+from jointplay.solver.laws.contact import ContactLaw
+from jointplay.solver.laws.friction import FrictionLaw
+from jointplay.solver.quantities.units import (
     Acceleration,
     Angle,
     AngularVelocity,
@@ -26,6 +24,7 @@ from solver.scene.quantities import (
     Strict,
     Velocity,
 )
+from pydantic import Field
 
 
 class Body(Strict):

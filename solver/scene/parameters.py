@@ -5,9 +5,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from solver.errors import InvalidInput, Problem
-from solver.scene.document import Parameter, Scene
-from solver.scene.near import unknown
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.document import Parameter, Scene
 
 PLACE = "/scene/parameters"
 """Where a job gives values, and where a scene document declares parameters."""

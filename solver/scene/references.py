@@ -3,11 +3,11 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from solver.errors import Problem
-from solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
-from solver.scene.near import unknown
-from solver.scene.parameters import has_place
-from solver.scene.sizes import size_problems
+from jointplay.records.failure import Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.parameters import has_place
+from jointplay.solver.scene.sizes import size_problems
 
 RESERVED = frozenset({"ground", "energy", "time", "poincare", "peaks", "impacts"})
 RESERVED_OUTPUTS = RESERVED | {"c"}

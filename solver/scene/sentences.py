@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
+from jointplay.records.failure import Problem
+from jointplay.records.suggestions import did_you_mean
+from jointplay.solver.scene.unions import is_form
 from pydantic import BaseModel, ValidationError
-
-from solver.errors import Problem
-from solver.scene.forms import is_form
-from solver.scene.near import did_you_mean
 
 JOINTS = frozenset({"revolute", "prismatic", "fixed"})
 TYPES = frozenset({"float", "str", "none"})

@@ -13,11 +13,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+from jointplay.records.failure import Problem
+from jointplay.solver.scene.document import Joint, Prismatic, Revolute, Scene
 from numpy.typing import NDArray
 from pydantic import BaseModel
-
-from solver.errors import Problem
-from solver.scene.document import Joint, Prismatic, Revolute, Scene
 
 
 @dataclass(frozen=True)

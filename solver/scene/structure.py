@@ -6,8 +6,8 @@ from collections.abc import Callable, Hashable
 from functools import wraps
 from typing import TypeVar
 
-from solver.scene.document import Scene
-from solver.scene.references import ends, has_play
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import ends, has_play
 
 MOST_KEPT = 256
 """Structures of which something is kept."""

@@ -7,9 +7,9 @@ its result has the same bits however the rows were cut.
 
 from __future__ import annotations
 
-from solver.channels import Channel
-from solver.statistics.of_channels import OF_CHANNELS
-from solver.statistics.of_contacts import OF_CONTACTS
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.statistics.of_channels import OF_CHANNELS
+from jointplay.solver.statistics.of_contacts import OF_CONTACTS
 
 __all__ = ["OF_CHANNELS", "OF_CONTACTS", "Meaning", "meanings"]
 

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from storage.catalogue.errors import (
+from jointplay.storage.catalogue.errors import (
     BatchNotFound,
     CatalogueError,
     Fenced,
@@ -10,7 +10,7 @@ from storage.catalogue.errors import (
     JobNotFound,
     KeyReused,
 )
-from storage.catalogue.records import (
+from jointplay.storage.catalogue.records import (
     Attempt,
     Batch,
     Block,
@@ -34,7 +34,7 @@ from storage.catalogue.records import (
 )
 
 if TYPE_CHECKING:
-    from storage.catalogue.catalogue import Catalogue
+    from jointplay.storage.catalogue.catalogue import Catalogue
 
 __all__ = [
     "Attempt",
@@ -71,6 +71,6 @@ def __getattr__(name: str) -> Any:
     """Import the catalogue itself on first use: a local run needs its records, not its database."""
     if name != "Catalogue":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from storage.catalogue.catalogue import Catalogue
+    from jointplay.storage.catalogue.catalogue import Catalogue
 
     return Catalogue

@@ -3,24 +3,23 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sqlalchemy import Connection, and_, func, insert, select, update
-
-from storage.catalogue import tables
-from storage.catalogue.errors import BatchNotFound
-from storage.catalogue.records import (
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.errors import BatchNotFound
+from jointplay.storage.catalogue.records import (
     Batch,
     JobState,
     NewJob,
     SubmissionKey,
     SubmittedBatch,
 )
-from storage.catalogue.submission import (
+from jointplay.storage.catalogue.submission import (
     drop_blocks,
     earlier_answer,
     insert_jobs,
     remember_key,
     request_cancel,
 )
+from sqlalchemy import Connection, and_, func, insert, select, update
 
 LARGEST_BATCH = 10_000
 _job = tables.job

@@ -7,14 +7,20 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from sqlalchemy import text
-from sqlalchemy.exc import OperationalError
-
-from storage.catalogue import batches, holding, listing, removal, schema, submission, upkeep
-from storage.catalogue.connections import Connections
-from storage.catalogue.errors import KeyReused
-from storage.catalogue.identifiers import Identifiers
-from storage.catalogue.records import (
+from jointplay.storage.catalogue import (
+    batches,
+    holding,
+    listing,
+    removal,
+    schema,
+    submission,
+    upkeep,
+)
+from jointplay.storage.catalogue.connections import Connections
+from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.group_commit import Together
+from jointplay.storage.catalogue.identifiers import Identifiers
+from jointplay.storage.catalogue.records import (
     Attempt,
     Batch,
     Block,
@@ -35,8 +41,9 @@ from storage.catalogue.records import (
     Verdict,
     WakeUp,
 )
-from storage.catalogue.rows import find_job
-from storage.catalogue.together import Together
+from jointplay.storage.catalogue.rows import find_job
+from sqlalchemy import text
+from sqlalchemy.exc import OperationalError
 
 
 class Catalogue:

@@ -2,11 +2,9 @@
 
 from collections.abc import Sequence
 
-from sqlalchemy import Connection, and_, func, not_, select
-
-from storage.catalogue import tables
-from storage.catalogue.identifiers import earliest
-from storage.catalogue.records import (
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.identifiers import earliest
+from jointplay.storage.catalogue.records import (
     Attempt,
     Block,
     Event,
@@ -15,7 +13,8 @@ from storage.catalogue.records import (
     JobPage,
     JobState,
 )
-from storage.catalogue.rows import attempt_record, block_record, event_record, job_record
+from jointplay.storage.catalogue.rows import attempt_record, block_record, event_record, job_record
+from sqlalchemy import Connection, and_, func, not_, select
 
 LARGEST_PAGE = 1000
 _TERMINAL = [state.value for state in JobState if state.terminal]

@@ -4,11 +4,9 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from sqlalchemy import Connection, Row, func, insert, select, update
-
-from storage.catalogue import tables
-from storage.catalogue.errors import JobNotFound
-from storage.catalogue.records import (
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.errors import JobNotFound
+from jointplay.storage.catalogue.records import (
     LEGAL_STEPS,
     Attempt,
     Block,
@@ -18,6 +16,7 @@ from storage.catalogue.records import (
     JobError,
     JobState,
 )
+from sqlalchemy import Connection, Row, func, insert, select, update
 
 job_table, block_table = tables.job, tables.block
 

@@ -19,6 +19,6 @@ def upgrade(connection: Connection) -> None:
     from alembic.config import Config
 
     configuration = Config()
-    configuration.set_main_option("script_location", "storage:migrations")
+    configuration.set_main_option("script_location", "jointplay.storage:migrations")
     configuration.attributes["connection"] = connection
     command.upgrade(configuration, "head")

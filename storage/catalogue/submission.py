@@ -4,6 +4,17 @@ from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.records import (
+    BlockState,
+    Job,
+    JobState,
+    NewJob,
+    SubmissionKey,
+    Submitted,
+)
+from jointplay.storage.catalogue.rows import find_job, job_record, lock_job, step_job
 from sqlalchemy import (
     ColumnElement,
     Connection,
@@ -17,18 +28,6 @@ from sqlalchemy import (
     select,
     update,
 )
-
-from storage.catalogue import tables
-from storage.catalogue.errors import KeyReused
-from storage.catalogue.records import (
-    BlockState,
-    Job,
-    JobState,
-    NewJob,
-    SubmissionKey,
-    Submitted,
-)
-from storage.catalogue.rows import find_job, job_record, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
 _LONGEST_NAME = 200  # of a scene, as it is looked for

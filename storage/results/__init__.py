@@ -4,8 +4,8 @@
 what it holds. The package stores named columns over time and knows nothing of their meaning.
 """
 
-from storage.results.appendix import Appendix, SmallArray
-from storage.results.errors import (
+from jointplay.storage.results.certificate_group import Appendix, SmallArray
+from jointplay.storage.results.errors import (
     CheckpointMismatch,
     CorruptStore,
     InvalidAppend,
@@ -16,10 +16,10 @@ from storage.results.errors import (
     StoreSealed,
     UnknownChannel,
 )
-from storage.results.layout import IMPACT, ArraySpec, Peak, ResultLayout
-from storage.results.partition import Partition
-from storage.results.reader import ResultReader
-from storage.results.writer import ResultWriter
+from jointplay.storage.results.layout import IMPACT, ArraySpec, Peak, ResultLayout
+from jointplay.storage.results.partition import Partition
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 __all__ = [
     "IMPACT",

@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from jointplay.storage.results import shards
+from jointplay.storage.results.metadata import FILE
+from jointplay.storage.results.pyramid import FOLDER
 from numpy.typing import NDArray
-
-from storage.results import shards
-from storage.results.metadata import FILE
-from storage.results.pyramid import FOLDER
 
 Floats = NDArray[np.float64]
 Column = Callable[[int, int], Floats]

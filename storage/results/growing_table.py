@@ -5,12 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jointplay.storage.results import shards
+from jointplay.storage.results.durable import DurableFolder
+from jointplay.storage.results.errors import CheckpointMismatch, InvalidAppend
+from jointplay.storage.results.tables import Table
 from numpy.typing import NDArray
-
-from storage.results import shards
-from storage.results.durable import DurableFolder
-from storage.results.errors import CheckpointMismatch, InvalidAppend
-from storage.results.tables import Table
 
 Columns = Sequence[NDArray[Any]]
 

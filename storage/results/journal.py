@@ -19,10 +19,9 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-
-from storage.results.durable import sync
-from storage.results.errors import CheckpointMismatch, CorruptStore
-from storage.results.growing_table import GrowingTable
+from jointplay.storage.results.durable import sync
+from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.results.growing_table import GrowingTable
 
 FOLDER: Final = ".journal"
 _KEPT_GENERATIONS: Final = 3

@@ -7,9 +7,8 @@ from hashlib import sha256
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-
-from storage.results.errors import InvalidLayout
-from storage.results.partition import Partition
+from jointplay.storage.results.errors import InvalidLayout
+from jointplay.storage.results.partition import Partition
 
 TIME: Final = "time"
 GROUPS: Final = ("poincare", "peaks", "impacts", "pyramid", "certificate")

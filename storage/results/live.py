@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-
-from storage.results import shards
-from storage.results.errors import NotAStore
-from storage.results.layout import IMPACT, TIME
-from storage.results.metadata import FILE, Document, serialise
-from storage.results.waiting import Waiting, waiting_rows
+from jointplay.storage.results import shards
+from jointplay.storage.results.errors import NotAStore
+from jointplay.storage.results.layout import IMPACT, TIME
+from jointplay.storage.results.metadata import FILE, Document, serialise
+from jointplay.storage.results.waiting import Waiting, waiting_rows
 
 _DOUBLE: Final = np.dtype("<f8")
 

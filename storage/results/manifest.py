@@ -5,9 +5,9 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from storage.results.durable import PARTIAL, DurableFolder, Record, measure
-from storage.results.errors import CorruptStore, NotAStore
-from storage.results.layout import MANIFEST, SCHEMA_VERSION
+from jointplay.storage.results.durable import PARTIAL, DurableFolder, Record, measure
+from jointplay.storage.results.errors import CorruptStore, NotAStore
+from jointplay.storage.results.layout import MANIFEST, SCHEMA_VERSION
 
 _MOST_NAMED = 5
 

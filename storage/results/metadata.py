@@ -12,10 +12,9 @@ from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
-
-from storage.results.layout import ResultLayout
-from storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR, fill
-from storage.results.tables import Column, Table, tables
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR, fill
+from jointplay.storage.results.tables import Column, Table, tables
 
 Document = dict[str, Any]
 

@@ -11,13 +11,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 import numpy as np
+from jointplay.storage.results import metadata, shards
+from jointplay.storage.results.durable import DurableFolder
+from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.layout import TIME, ResultLayout
+from jointplay.storage.results.tables import Column, Table
 from numpy.typing import NDArray
-
-from storage.results import metadata, shards
-from storage.results.durable import DurableFolder
-from storage.results.growing_table import GrowingTable
-from storage.results.layout import TIME, ResultLayout
-from storage.results.tables import Column, Table
 
 FOLDER: Final = "pyramid"
 FACTOR: Final = 16

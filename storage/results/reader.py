@@ -8,23 +8,15 @@ from typing import Any, Literal
 
 import numpy as np
 import zarr
+from jointplay.storage.results import manifest
+from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
+from jointplay.storage.results.envelope import Envelope
+from jointplay.storage.results.errors import NotAStore, UnknownChannel
+from jointplay.storage.results.layout import IMPACT, MANIFEST, SCHEMA_VERSION, TIME, ArraySpec, Peak
+from jointplay.storage.results.live import columns_of, committed, rows_in_shards, shape_of
+from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.results.waiting import Waiting
 from numpy.typing import NDArray
-
-from storage.results import manifest
-from storage.results.appendix import CERTIFICATE, Appendix, read_appendix
-from storage.results.envelope import Envelope
-from storage.results.errors import NotAStore, UnknownChannel
-from storage.results.layout import (
-    IMPACT,
-    MANIFEST,
-    SCHEMA_VERSION,
-    TIME,
-    ArraySpec,
-    Peak,
-)
-from storage.results.live import columns_of, committed, rows_in_shards, shape_of
-from storage.results.metadata import FILE, Document
-from storage.results.waiting import Waiting
 
 Floats = NDArray[np.float64]
 

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-
-from storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
-from storage.results.shards import fill
+from jointplay.storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
+from jointplay.storage.results.shards import fill
 
 _DOUBLE: Final = np.dtype("<f8")
 _IMPACT_MEANING: Final = {

@@ -5,17 +5,16 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 import numpy as np
+from jointplay.storage.results import manifest, metadata
+from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix
+from jointplay.storage.results.durable import PARTIAL, DurableFolder
+from jointplay.storage.results.errors import InvalidAppend, StoreExists, StoreSealed
+from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.journal import Checkpoint, Journal
+from jointplay.storage.results.layout import IMPACT, Peak, ResultLayout
+from jointplay.storage.results.pyramid import Pyramid
+from jointplay.storage.results.tables import tables
 from numpy.typing import NDArray
-
-from storage.results import manifest, metadata
-from storage.results.appendix import CERTIFICATE, Appendix
-from storage.results.durable import PARTIAL, DurableFolder
-from storage.results.errors import InvalidAppend, StoreExists, StoreSealed
-from storage.results.growing_table import GrowingTable
-from storage.results.journal import Checkpoint, Journal
-from storage.results.layout import IMPACT, Peak, ResultLayout
-from storage.results.pyramid import Pyramid
-from storage.results.tables import tables
 
 _NO_PEAK: Final = Peak(*[float("nan")] * 4)
 

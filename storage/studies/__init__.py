@@ -4,11 +4,11 @@
 `StudyReader` reads everything, also while it grows. The package knows nothing of mechanisms.
 """
 
-from storage.studies.block import StudyBlock
-from storage.studies.layout import StudyLayout
-from storage.studies.part import Failure, PointStatus
-from storage.studies.reader import Extremes, StudyReader
-from storage.studies.store import create, seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.part import Failure, PointStatus
+from jointplay.storage.studies.reader import Extremes, StudyReader
+from jointplay.storage.studies.store import create, seal
 
 __all__ = [
     "Extremes",

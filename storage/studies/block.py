@@ -10,15 +10,14 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
-
-from storage.results import shards
-from storage.results.durable import PARTIAL, DurableFolder
-from storage.results.errors import CorruptStore, InvalidAppend, ResultsError
-from storage.results.layout import TIME
-from storage.studies import part
-from storage.studies.layout import StudyLayout
-from storage.studies.part import Failure, Floats, Part, PointStatus
-from storage.studies.pieces import End, Piece, Rows
+from jointplay.storage.results import shards
+from jointplay.storage.results.durable import PARTIAL, DurableFolder
+from jointplay.storage.results.errors import CorruptStore, InvalidAppend, ResultsError
+from jointplay.storage.results.layout import TIME
+from jointplay.storage.studies import part
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus
+from jointplay.storage.studies.pieces import End, Piece, Rows
 
 _ENDED = (PointStatus.done, PointStatus.failed)
 

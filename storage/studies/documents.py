@@ -8,12 +8,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-
-from storage.results import metadata
-from storage.results.layout import TIME, ArraySpec
-from storage.results.metadata import FILE, Document
-from storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
-from storage.studies.part import PointStatus
+from jointplay.storage.results import metadata
+from jointplay.storage.results.layout import TIME, ArraySpec
+from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
+from jointplay.storage.studies.part import PointStatus
 
 DOUBLE: Final = np.dtype("<f8")
 PEAKS: Final = {

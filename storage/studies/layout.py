@@ -8,10 +8,9 @@ from hashlib import sha256
 from typing import Any, Final
 
 import numpy as np
+from jointplay.storage.results.errors import InvalidLayout
+from jointplay.storage.results.layout import TIME, ArraySpec, check_name
 from numpy.typing import NDArray
-
-from storage.results.errors import InvalidLayout
-from storage.results.layout import TIME, ArraySpec, check_name
 
 STUDY_SCHEMA: Final = 1
 CHUNK_VALUES: Final = 16_384

@@ -14,10 +14,9 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple, Self
 
 import numpy as np
+from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.studies.layout import StudyLayout
 from numpy.typing import NDArray
-
-from storage.results.errors import CheckpointMismatch, CorruptStore
-from storage.studies.layout import StudyLayout
 
 FOLDER: Final = ".parts"
 _MAGIC: Final = b"jointplay part of a study 1\n"

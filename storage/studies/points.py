@@ -5,9 +5,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jointplay.storage.studies.part import Failure, Floats, Part
 from numpy.typing import NDArray
-
-from storage.studies.part import Failure, Floats, Part
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,16 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 import zarr
+from jointplay.storage.results import manifest
+from jointplay.storage.results.errors import NotAStore, UnknownChannel
+from jointplay.storage.results.layout import MANIFEST, TIME, ArraySpec
+from jointplay.storage.results.metadata import FILE
+from jointplay.storage.studies import part
+from jointplay.storage.studies.layout import STUDY_SCHEMA
+from jointplay.storage.studies.part import Failure, Floats, Part
+from jointplay.storage.studies.points import Points, together
+from jointplay.storage.studies.store import FAILURES
 from numpy.typing import NDArray
-
-from storage.results import manifest
-from storage.results.errors import NotAStore, UnknownChannel
-from storage.results.layout import MANIFEST, TIME, ArraySpec
-from storage.results.metadata import FILE
-from storage.studies import part
-from storage.studies.layout import STUDY_SCHEMA
-from storage.studies.part import Failure, Floats, Part
-from storage.studies.points import Points, together
-from storage.studies.store import FAILURES
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 

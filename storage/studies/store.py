@@ -9,17 +9,16 @@ from shutil import rmtree
 from typing import Any, Final
 
 import numpy as np
+from jointplay.storage.results import manifest, metadata, shards
+from jointplay.storage.results.durable import PARTIAL, DurableFolder
+from jointplay.storage.results.errors import IncompleteStudy, StoreExists
+from jointplay.storage.results.layout import MANIFEST
+from jointplay.storage.studies import documents, part
+from jointplay.storage.studies.block import chunk_files, require_chunks
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus
+from jointplay.storage.studies.points import Points, together
 from numpy.typing import NDArray
-
-from storage.results import manifest, metadata, shards
-from storage.results.durable import PARTIAL, DurableFolder
-from storage.results.errors import IncompleteStudy, StoreExists
-from storage.results.layout import MANIFEST
-from storage.studies import documents, part
-from storage.studies.block import chunk_files, require_chunks
-from storage.studies.layout import StudyLayout
-from storage.studies.part import Failure, Floats, Part, PointStatus
-from storage.studies.points import Points, together
 
 FAILURES: Final = "failures.json"
 """Failed points with code, sentence and time reached: what no array can hold."""

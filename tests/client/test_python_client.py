@@ -5,6 +5,7 @@ import socket
 
 import numpy as np
 import pytest
+from jointplay.storage.catalogue import BlockState, JobError
 
 from jointplay.client import (
     Client,
@@ -18,7 +19,6 @@ from jointplay.client import (
     TimedOut,
     Unreachable,
 )
-from storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
+from jointplay.storage.catalogue import BlockState
 
 from jointplay import figures
 from jointplay.client import Client, NotFound, Refused, ResultsNotReady
-from jointplay.study_source import DONE, FAILED, RUNNING, WAITING
-from storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
@@ -66,7 +66,7 @@ def test_pages_of_points_and_windows_of_sections_are_put_together(
 ):
     """150 values are some points of all sections; 30 are not even one point's."""
     whole = client.job(finished_study).study(["A.*", "B.*"])
-    monkeypatch.setattr("service.studies.queries.MOST_VALUES", most)
+    monkeypatch.setattr("jointplay.service.studies.queries.MOST_VALUES", most)
     pieces = client.job(finished_study).study(["A.*", "B.*"])
     np.testing.assert_array_equal(pieces.times, whole.times)
     for one in whole.observables:

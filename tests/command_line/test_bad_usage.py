@@ -3,9 +3,8 @@
 import json
 
 import pytest
-
-from jointplay.serving.folder_lock import FolderLock
-from solver import presets
+from jointplay.service.processes.folder_lock import FolderLock
+from jointplay.solver.scene import presets
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
 TIMED = [*PRESS, "--duration", "2"]

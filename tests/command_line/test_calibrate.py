@@ -4,8 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-
-from solver.admission import admit
+from jointplay.solver.admission import admit
 
 FORCE = "bearing.normal_force@0:0.018"
 BOUNCE = ["bouncing-journal", "--set", "friction=0", "--set", "restitution=1"]

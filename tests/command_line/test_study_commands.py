@@ -5,8 +5,7 @@ import io
 import json
 
 import pytest
-
-from storage.catalogue import BlockState, JobError
+from jointplay.storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}

@@ -12,8 +12,7 @@ from typing import Any
 
 import pytest
 import yaml
-
-from storage.settings import Settings
+from jointplay.storage.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[2]
 COMPOSE: dict[str, Any] = yaml.safe_load((ROOT / "docker-compose.yml").read_text())
@@ -81,7 +80,7 @@ def test_the_image_holds_every_package() -> None:
 
 
 def test_what_was_compiled_is_used() -> None:
-    warm = [sys.executable, "-m", "worker.warm"]
+    warm = [sys.executable, "-m", "jointplay.worker.warm"]
     subprocess.run(warm, check=True, capture_output=True, cwd=ROOT)
     checked = subprocess.run([*warm, "--check"], capture_output=True, text=True, cwd=ROOT)
     assert checked.returncode == 0, checked.stdout

@@ -4,8 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from storage.settings import Settings
+from jointplay.storage.settings import Settings
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "operating.md").read_text()
 ROWS = dict(re.findall(r"^\| `(JOINTPLAY_\w+)` \| ([^|]+) \|", PAGE, re.MULTILINE))

@@ -2,9 +2,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from storage.catalogue import Catalogue
-from storage.settings import Settings
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
 
 
 @pytest.fixture

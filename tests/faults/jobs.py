@@ -1,8 +1,9 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
-from solver.admission import Admission
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Block, Catalogue, Job, NewJob
+from jointplay.solver.admission import Admission
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import Block, Catalogue, Job, NewJob
+
 from tests.waiting import until
 
 IMPATIENT = {

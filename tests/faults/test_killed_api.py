@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import httpx
-
-from storage.catalogue import Catalogue
-from storage.settings import Settings
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
 
 CLIENTS = 8
 ENOUGH = 200  # jobs answered before the kill
@@ -21,7 +20,13 @@ ENOUGH = 200  # jobs answered before the kill
 def api(settings: Settings) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
     with socket.create_server(("127.0.0.1", 0)) as listening:
         url = f"http://127.0.0.1:{listening.getsockname()[1]}"
-        command = [sys.executable, "-m", "jointplay.serving.api", "--fd", str(listening.fileno())]
+        command = [
+            sys.executable,
+            "-m",
+            "jointplay.service.processes.api",
+            "--fd",
+            str(listening.fileno()),
+        ]
         process = subprocess.Popen(
             command,
             env=os.environ | {"JOINTPLAY_DATA": str(settings.data)},

@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pytest
 from jobs import IMPATIENT, ended, pid_of
+from jointplay.service.processes import running_service
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyReader
+from jointplay.worker.study_block import run_block, seal_store
 
-from jointplay.serving import running_service
-from solver.admission import Study, admit
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
-from storage.settings import Settings
-from storage.studies import StudyReader
 from tests.waiting import until
-from worker.study_block import run_block, seal_store
 
 # two blocks of some two seconds of computing each; contacts at both joints all along
 JOB = {

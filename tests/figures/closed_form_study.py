@@ -1,10 +1,9 @@
 """Studies that are known in closed form, to draw: the logistic map as a machine's sections."""
 
 import numpy as np
-
-from jointplay.dataset import Channel
-from jointplay.study_dataset import Extremes, Failure, StudyDataset
-from jointplay.study_source import DONE, FAILED, RUNNING, WAITING
+from jointplay.records.run_in_memory import Channel
+from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
+from jointplay.records.study_in_memory import Extremes, Failure, StudyDataset
 
 VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
 SCENE = {"name": "logistic", "bodies": {}, "joints": {"left": {"clearance": {}}}}

@@ -11,14 +11,14 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from closed_form_motion import CLEARANCES, POSE, SCENE, closed_form_motion
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+from jointplay.figures.mechanism_marks import EDGE, TINTS
+from jointplay.records.run_in_memory import Peak
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 from PIL import Image
 
 from jointplay import figures
-from jointplay.dataset import Peak
-from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
-from jointplay.figures.mechanism_marks import EDGE, TINTS
 
 CHOICES = {"time-history": Selection(channels=("block.x", "left.normal_force"))}
 NAMES = [kind.name for kind in figures.ROSTER]
@@ -184,7 +184,7 @@ def test_the_settings_of_the_caller_stay_as_they_were(motion, name):
 
 def test_importing_the_family_loads_neither_matplotlib_nor_the_solver():
     code = (
-        "import sys, jointplay.figures, jointplay.export;"
+        "import sys, jointplay.figures, jointplay.exports.run;"
         "print(*{name.partition('.')[0] for name in sys.modules})"
     )
     found = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)

@@ -7,9 +7,8 @@ from typing import Any
 
 import httpx
 import pytest
-
-from service.body import LARGEST_BODY
-from solver import presets
+from jointplay.service.body import LARGEST_BODY
+from jointplay.solver.scene import presets
 
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}
 

@@ -5,13 +5,13 @@ from typing import Any
 
 import httpx
 import pytest
+from jointplay.solver.admission import Admission, admit
+from jointplay.storage.catalogue import BlockState
+from jointplay.storage.settings import Settings
+from jointplay.worker.execute import execute
 
 from jointplay.local.folder_results import FolderResults
-from solver.admission import Admission, admit
-from storage.catalogue import BlockState
-from storage.settings import Settings
 from tests.service_in_thread import Worker
-from worker.execute import execute
 
 JOB: dict[str, Any] = {
     "scene": {"preset": "pendulum"},

@@ -1,13 +1,12 @@
 """What a job will cost, against what it costs."""
 
 import pytest
-
-from service.estimates.prober import Prober
-from solver import presets
-from solver.admission import Admission, Study, admit
-from solver.simulate import Simulation
-from solver.study.run import StudyRun
-from solver.trade.run import TradeRun
+from jointplay.service.estimates.prober import Prober
+from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.runs.work_precision.run import TradeRun
+from jointplay.solver.scene import presets
 
 LONG = {"bouncing-journal": 2000.0, "pendulum": 2000.0, "seven-bar-press": 400.0}
 """Seconds that take longer than an estimate, as 30 s of the others do."""

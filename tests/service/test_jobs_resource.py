@@ -2,8 +2,7 @@
 
 import httpx
 import pytest
-
-from solver.version import SOLVER_VERSION
+from jointplay.solver.version import SOLVER_VERSION
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 

@@ -6,8 +6,7 @@ import random
 from typing import Any
 
 import pytest
-
-from solver import presets
+from jointplay.solver.scene import presets
 
 EXTREMES: list[Any] = [
     None,

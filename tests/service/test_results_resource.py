@@ -4,9 +4,8 @@ from typing import Any
 
 import httpx
 import pytest
-
-from service.results import schemas
-from storage.catalogue import BlockState, JobError
+from jointplay.service.results import schemas
+from jointplay.storage.catalogue import BlockState, JobError
 
 RESULTS = ["history", "peaks", "poincare", "impacts", "statistics", "figures", "figures/orbit.png"]
 

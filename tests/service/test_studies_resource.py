@@ -6,9 +6,9 @@ import httpx
 import numpy as np
 import pytest
 import zarr
+from jointplay.service.studies import schemas
+from jointplay.storage.catalogue import BlockState, JobError
 
-from service.studies import schemas
-from storage.catalogue import BlockState, JobError
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
 
 OBSERVED = "A.eccentricity_x"
@@ -155,7 +155,7 @@ def test_statistics_of_a_running_sweep_are_arrays_with_units(http, service_url, 
 
 
 def test_many_points_come_in_pages(http, worker, monkeypatch):
-    monkeypatch.setattr("service.studies.queries.MOST_VALUES", 100)
+    monkeypatch.setattr("jointplay.service.studies.queries.MOST_VALUES", 100)
     job = worker.finished_study(**BIFURCATION)
     start, status, rows = 0, [], []
     while start is not None:
@@ -166,7 +166,7 @@ def test_many_points_come_in_pages(http, worker, monkeypatch):
         start = page["next_start"]
     assert (len(status), len(rows)) == (20, 20)
     assert rows[19] == known_section(19, 0, np.arange(6)).tolist()
-    monkeypatch.setattr("service.studies.queries.MOST_VALUES", 10)
+    monkeypatch.setattr("jointplay.service.studies.queries.MOST_VALUES", 10)
     problem = get(http, f"/v1/jobs/{job}/bifurcation", 422)
     assert problem["type"] == "/problems/response-too-large"
     assert "section_stop" in problem["detail"]

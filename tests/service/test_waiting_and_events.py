@@ -6,8 +6,7 @@ import time
 
 import httpx
 import pytest
-
-from storage.catalogue import BlockState, JobError
+from jointplay.storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 SOON = 1.0  # s in which an answer comes on a busy machine that looks every 25 to 100 ms

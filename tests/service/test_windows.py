@@ -6,10 +6,9 @@ import httpx
 import numpy as np
 import pyarrow.ipc
 import pytest
+from jointplay.service.results import schemas
+from jointplay.storage.results import ResultReader
 from scipy.io import loadmat
-
-from service.results import schemas
-from storage.results import ResultReader
 
 
 @pytest.fixture(scope="module")

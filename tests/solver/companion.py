@@ -8,11 +8,10 @@ that end on its onsets.
 from __future__ import annotations
 
 import numpy as np
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
+from jointplay.solver.kernels.loop.state import Counter, Status
 from numpy.typing import NDArray
-
-from solver.compiler.layout import LANES
-from solver.lanes.bundle import Bundle, aligned_zeros
-from solver.lanes.state import Counter, Status
 
 Floats = NDArray[np.float64]
 

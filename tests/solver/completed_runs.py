@@ -8,11 +8,10 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.runs.results import IMPACT, Peak, Slice
+from jointplay.solver.runs.simulate import Simulation
 from numpy.typing import NDArray
-
-from solver.admission import Admission, admit
-from solver.results import IMPACT, Peak, Slice
-from solver.simulate import Simulation
 
 Floats = NDArray[np.float64]
 

@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from solver.scene.document import Scene
-from solver.scene.references import ends
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import ends
+
 from tests.solver.readable_mechanics import Instant
 
 Vector = Sequence[float]

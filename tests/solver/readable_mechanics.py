@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from solver import presets
-from solver.admission import admit
-from solver.assembly import assemble
-from solver.lanes.start import start_state
-from solver.mechanics.lagrange import LagrangeMechanism
-from solver.mechanics.motion import Motion
-from solver.mechanics.reduced import ReducedMechanism
-from solver.mechanics.tree import spanning_tree
-from solver.mechanics.view import view
-from solver.scene.document import Scene
+from jointplay.solver.admission import admit
+from jointplay.solver.kernels.loop.start import start_state
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.lagrange import LagrangeMechanism
+from jointplay.solver.mechanics.motion import Motion
+from jointplay.solver.mechanics.reduced import ReducedMechanism
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 
 
 def preset(name: str, **parameters: float | str) -> Scene:

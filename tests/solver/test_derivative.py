@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from jointplay.solver.kernels.emit import lane_functions
+from jointplay.solver.kernels.emit.emit import reachable
+from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
+from jointplay.solver.kernels.record.derivative import RULES, Derivative
+from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.quantities import scalars
 
-from solver.compiler import lane_functions
-from solver.compiler.derivative import RULES, Derivative
-from solver.compiler.emit import reachable
-from solver.compiler.equations import record
-from solver.compiler.lane_arithmetic import OPERATIONS
-from solver.compiler.recorder import Expression, Recorder
-from solver.mechanics import scalars
-from solver.mechanics.tree import spanning_tree
 from tests.solver.random_mechanisms import instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 from tests.solver.test_recorder import evaluate, variables

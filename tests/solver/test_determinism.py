@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from jointplay.solver.admission import Admission, admit, sample_count
+from jointplay.solver.integrators import TSITOURAS5
+from jointplay.solver.kernels.emit.kernel import compile_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.runs import simulate
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.simulate import Simulation
 
-from solver import simulate
-from solver.admission import Admission, admit, sample_count
-from solver.certificate.certificate import Certificate
-from solver.compiler.kernel import compile_kernel
-from solver.integrators import TSITOURAS5
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.lanes.state import Counter, Status
-from solver.mechanics.tree import spanning_tree
-from solver.simulate import Simulation
 from tests.solver.completed_runs import CASE_3, Run, collect
 from tests.solver.readable_mechanics import preset
 

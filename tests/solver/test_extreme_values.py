@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jointplay.solver.kernels.loop import extreme as nine
+from jointplay.solver.kernels.loop.extreme import POINTS
 from numpy.typing import NDArray
-
-from solver.lanes import extreme as nine
-from solver.lanes.extreme import POINTS
 
 
 def extreme(

@@ -5,13 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from solver import presets
-from solver.admission import admit
-from solver.assembly import assemble
-from solver.errors import InvalidInput, SimulationFailed
-from solver.scene.document import Scene
-from solver.simulate import Simulation
+from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.admission import admit
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 
 
 def slider_crank(crank: float, rod: float, speed: float = 2.0 * math.pi) -> dict[str, Any]:

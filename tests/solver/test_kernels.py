@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from jointplay.solver.integrators import TSITOURAS5
+from jointplay.solver.kernels.emit.kernel import LOSSES, Kernel, compile_kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.mechanics.observe import channel_values, ledger_rates
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
 
-from solver.compile_loop import ready_kernel
-from solver.compiler.kernel import LOSSES, Kernel, compile_kernel
-from solver.compiler.layout import LANES
-from solver.integrators import TSITOURAS5
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.mechanics.observe import channel_values, ledger_rates
-from solver.mechanics.tree import spanning_tree
-from solver.mechanics.view import view
-from solver.scene.document import Scene
 from tests.solver.completed_runs import CASE_3
 from tests.solver.readable_mechanics import Instant, at_start, preset
 
@@ -179,10 +179,10 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
 
 CACHE_STATISTICS = """
 import json
-from solver.admission import admit
-from solver.lanes.advance import advance
-from solver.lanes.observation import observe_rows
-from solver.simulate import Simulation
+from jointplay.solver.admission import admit
+from jointplay.solver.kernels.loop.advance import advance
+from jointplay.solver.kernels.loop.observation import observe_rows
+from jointplay.solver.runs.simulate import Simulation
 
 simulation = Simulation(admit({"kind": "simulate", "scene": {"preset": "bouncing-journal"},
                                "duration": 0.1}))

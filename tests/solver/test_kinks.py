@@ -6,14 +6,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
-from solver.compiler import kinks
-from solver.compiler.cache import load
-from solver.compiler.derivative import Derivative
-from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.layout import LANES, Layout
-from solver.compiler.recorder import Recorder
-from solver.friction.modified_coulomb import friction_force
+from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
+from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.record import kinks
+from jointplay.solver.kernels.record.derivative import Derivative
+from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.laws.friction.modified_coulomb import friction_force
 
 
 def slopes_over_steps(

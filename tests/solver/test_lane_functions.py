@@ -7,9 +7,8 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from solver.compiler import coarse_functions as coarse
-from solver.compiler import lane_functions as lane
+from jointplay.solver.kernels.emit import lane_functions as lane
+from jointplay.solver.kernels.record import coarse_functions as coarse
 
 ULP_OF_ONE = 2.0**-52
 

@@ -6,20 +6,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.admission import admit_simulate
+from jointplay.solver.admission.documents import parse
+from jointplay.solver.admission.simulate import Admission
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.jobs import SimulateJob
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.runs.results import Summary
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
-
-from solver.admission import admit_simulate
-from solver.admission.documents import parse
-from solver.admission.simulate import Admission
-from solver.compile_loop import ready_kernel
-from solver.errors import SimulationFailed
-from solver.integrators import METHODS
-from solver.jobs import SimulateJob
-from solver.lanes.bundle import Bundle
-from solver.lanes.problem import LaneProblem
-from solver.results import Summary
-from solver.scene.document import Scene
-from solver.simulate import Simulation
 
 FLIGHT = 0.014
 """Seconds in which the press at 50 rad/s with room for 5 cm touches nothing: 0.7 rad."""

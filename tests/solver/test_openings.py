@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.kernels.emit.judging import RELEASE
+from jointplay.solver.kernels.emit.kernel import compile_kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import aligned_zeros
+from jointplay.solver.kernels.loop.openings import dip, falling_root
+from jointplay.solver.kernels.slots import Slot
+from jointplay.solver.mechanics.tree import spanning_tree
 from numba import njit
 
-from solver.compiler.judging import RELEASE
-from solver.compiler.kernel import compile_kernel
-from solver.compiler.layout import LANES
-from solver.compiler.slots import Slot
-from solver.integrators import METHODS
-from solver.lanes.bundle import aligned_zeros
-from solver.lanes.openings import dip, falling_root
-from solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 
 depths = st.floats(1e-12, 1.0)

@@ -7,20 +7,20 @@ import re
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from jointplay.records.failure import LimitExceeded
+from jointplay.solver.integrators import TSITOURAS5
+from jointplay.solver.kernels.emit.kernel import compile_kernel
+from jointplay.solver.kernels.emit.lane_functions import FOLD
+from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Expression, Recorder
+from jointplay.solver.mechanics.observe import channel_values, ledger_rates
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.quantities import scalars
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import RESERVED
 
-from solver import presets
-from solver.compiler.equations import record
-from solver.compiler.kernel import compile_kernel
-from solver.compiler.lane_functions import FOLD
-from solver.compiler.recorder import MOST_STATEMENTS, Expression, Recorder
-from solver.errors import LimitExceeded
-from solver.integrators import TSITOURAS5
-from solver.mechanics import scalars
-from solver.mechanics.observe import channel_values, ledger_rates
-from solver.mechanics.tree import spanning_tree
-from solver.mechanics.view import view
-from solver.scene.document import Scene
-from solver.scene.references import RESERVED
 from tests.solver.random_mechanisms import chain, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 
@@ -101,7 +101,7 @@ scenes_near_start = st.one_of(
 
 
 def variables(instant: Instant, formulation: str) -> dict[str, float]:
-    """Return the values of the variables that `solver.compiler.equations` names."""
+    """Return the values of the variables that `solver.kernels.record.equations` names."""
     if formulation == "lagrange":
         q, v = instant.absolute_state()
     else:

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from jointplay.solver.admission import admit
+from jointplay.solver.admission.simulate import Admission
+from jointplay.solver.runs.results import Summary
+from jointplay.solver.runs.simulate import Simulation
 from numpy.typing import NDArray
-
-from solver.admission import admit
-from solver.admission.simulate import Admission
-from solver.results import Summary
-from solver.simulate import Simulation
 
 CHATTER = {"friction": 0.3, "static_velocity": 1e-7, "dynamic_velocity": 1e-6}
 

@@ -8,14 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jointplay.solver.kernels.emit.emit import Tape
+from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
+from jointplay.solver.kernels.emit.lane_functions import FOLD
+from jointplay.solver.kernels.emit.straight_line import (
+    over_lanes,
+    over_one_lane,
+    over_one_row,
+    over_rows,
+)
+from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.record.recorder import Recorder
 from numba import njit
-
-from solver.compiler.emit import Tape
-from solver.compiler.lane_arithmetic import OPERATIONS
-from solver.compiler.lane_functions import FOLD
-from solver.compiler.layout import LANES, Layout
-from solver.compiler.recorder import Recorder
-from solver.compiler.straight_line import over_lanes, over_one_lane, over_one_row, over_rows
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}

@@ -8,11 +8,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.integrators.dormand_prince853 import DORMAND_PRINCE853
+from jointplay.solver.integrators.tableau import Tableau
 from numpy.typing import NDArray
-
-from solver.integrators import METHODS
-from solver.integrators.dormand_prince853 import DORMAND_PRINCE853
-from solver.integrators.tableau import Tableau
 
 Floats = NDArray[np.float64]
 

@@ -7,17 +7,17 @@ from itertools import cycle
 
 import numpy as np
 import pytest
+from jointplay.solver.integrators import TSITOURAS5
+from jointplay.solver.kernels.emit.kernel import compile_kernel
+from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle, LaneProblem
+from jointplay.solver.kernels.loop.state import Counter
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
 
-from solver import presets
-from solver.compiler.kernel import compile_kernel
-from solver.compiler.layout import LANES
-from solver.compiler.tangents import Tangents, compile_tangents
-from solver.integrators import TSITOURAS5
-from solver.lanes.bundle import Bundle, LaneProblem
-from solver.lanes.state import Counter
-from solver.mechanics.tree import spanning_tree
-from solver.scene.document import Scene
 from tests.solver.companion import companion_growth
 from tests.solver.completed_runs import CASE_3
 from tests.solver.readable_mechanics import preset, scene_of

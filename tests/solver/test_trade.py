@@ -6,19 +6,18 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+import jointplay.solver.runs.work_precision.run
+import jointplay.solver.runs.work_precision.timed_run
 import numpy as np
 import pytest
-
-import solver.trade.passage
-import solver.trade.run
-from solver.admission import Study, admit
-from solver.integrators import METHODS
-from solver.study.results import PointEnd
-from solver.trade.advice import advice, cheapest
-from solver.trade.plan import runs_in
-from solver.trade.point import Point
-from solver.trade.run import KNOWN, TradeRun
-from solver.trade.trade import Trade
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.runs.study.results import PointEnd
+from jointplay.solver.runs.work_precision.advice import advice, cheapest
+from jointplay.solver.runs.work_precision.plan import runs_in
+from jointplay.solver.runs.work_precision.point import Point
+from jointplay.solver.runs.work_precision.run import KNOWN, TradeRun
+from jointplay.solver.runs.work_precision.work_precision import Trade
 
 PRESS = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}}
 FEW = PRESS | {"duration": 0.003, "methods": ["tsitouras", "rk4"], "tolerances": [1e-4, 1e-8]}
@@ -163,9 +162,9 @@ def test_a_method_that_takes_too_many_evaluations_is_given_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The grid's own evaluations double; they are looked at every ten steps here."""
-    monkeypatch.setattr(solver.trade.passage, "BUDGET", 10)
-    monkeypatch.setattr(solver.trade.run, "MOST_REFERENCES", 0.0)
-    monkeypatch.setattr(solver.trade.run, "FEWEST", 150.0)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.timed_run, "BUDGET", 10)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "MOST_REFERENCES", 0.0)
+    monkeypatch.setattr(jointplay.solver.runs.work_precision.run, "FEWEST", 150.0)
     found = measured(FEW | {"methods": ["rk4"]})
     # 0.003 s in steps of 0.2 ms, 0.1 ms, 50 us: 60, 120, 240 evaluations
     codes = {point: one.code for point, one in found.failures.items()}

@@ -2,11 +2,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from jointplay.service.processes.broker import Broker
+from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.settings import Settings
 from redis import Redis
-
-from jointplay.serving.broker import Broker
-from storage.catalogue import Catalogue
-from storage.settings import Settings
 
 
 @pytest.fixture

@@ -6,12 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 import zarr
-
-from solver.admission import Study, admit
-from solver.trade.trade import Trade
-from storage.studies import StudyReader
-from worker.execute import Answer
-from worker.study_block import StudyProgress, run_block, seal_store
+from jointplay.solver.admission import Study, admit
+from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.storage.studies import StudyReader
+from jointplay.worker.execute import Answer
+from jointplay.worker.study_block import StudyProgress, run_block, seal_store
 
 JOB = {
     "kind": "accuracy-study",

@@ -5,15 +5,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from solver.admission import Admission, Study, admit
-from solver.version import SOLVER_VERSION
-from storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
-from storage.results import ResultReader
-from storage.settings import Settings
-from storage.studies import StudyReader
-from worker import block_run, work
-from worker.block_run import BlockRun
+from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
+from jointplay.storage.results import ResultReader
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies import StudyReader
+from jointplay.worker import block_run, work
+from jointplay.worker.block_run import BlockRun
 
 JOB = {
     "kind": "simulate",

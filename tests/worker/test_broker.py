@@ -3,10 +3,9 @@ import stat
 from pathlib import Path
 
 import pytest
+from jointplay.service.processes import StartFailed
+from jointplay.service.processes.broker import Broker, answers, server_binary, socket_path
 from redis import Redis
-
-from jointplay.serving import StartFailed
-from jointplay.serving.broker import Broker, answers, server_binary, socket_path
 
 
 def test_it_keeps_its_queue_on_disk_and_refuses_to_drop_any(broker: Broker) -> None:

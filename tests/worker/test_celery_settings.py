@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-from worker.app import app, broker_url
+from jointplay.worker.app import app, broker_url
 
 
 def test_messages_are_acknowledged_early_and_never_prefetched() -> None:
@@ -31,6 +31,7 @@ def test_a_socket_url_is_put_in_celerys_words() -> None:
 
 
 def test_the_app_loads_no_task_code() -> None:
-    script = "import sys, worker.app; print('numba' in sys.modules, 'worker.tasks' in sys.modules)"
+    loaded = "print(*(m in sys.modules for m in ('numba', 'jointplay.worker.tasks')))"
+    script = f"import sys, jointplay.worker.app; {loaded}"
     ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert ran.stdout.split() == ["False", "False"]

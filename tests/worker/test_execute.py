@@ -3,10 +3,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
-from solver.admission import Admission, admit
-from storage.results import ResultReader, StoreExists
-from worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from jointplay.solver.admission import Admission, admit
+from jointplay.storage.results import ResultReader, StoreExists
+from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
 
 JOB = {
     "kind": "simulate",

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from storage.catalogue import Catalogue, Fenced, NewJob, Verdict
-from storage.settings import Settings
-from worker.lease import Lease
+from jointplay.storage.catalogue import Catalogue, Fenced, NewJob, Verdict
+from jointplay.storage.settings import Settings
+from jointplay.worker.lease import Lease
 
 PATIENCE = 30.0
 

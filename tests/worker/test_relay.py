@@ -5,13 +5,12 @@ import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from jointplay.service.processes.broker import Broker
+from jointplay.storage.catalogue import Catalogue, NewJob
+from jointplay.storage.settings import Settings
+from jointplay.worker.relay import Relay
+from jointplay.worker.wake_up import Bell, Doorman
 from redis import Redis
-
-from jointplay.serving.broker import Broker
-from storage.catalogue import Catalogue, NewJob
-from storage.settings import Settings
-from worker.bell import Bell, Doorman
-from worker.relay import Relay
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"

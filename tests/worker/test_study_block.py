@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from solver.admission import Study, admit
-from storage.results import StoreExists
-from storage.results.errors import IncompleteStudy
-from storage.studies import StudyReader
-from worker.execute import Answer, Outcome
-from worker.study_block import (
+from jointplay.solver.admission import Study, admit
+from jointplay.storage.results import StoreExists
+from jointplay.storage.results.errors import IncompleteStudy
+from jointplay.storage.studies import StudyReader
+from jointplay.worker.execute import Answer, Outcome
+from jointplay.worker.study_block import (
     StudyProgress,
     create_store,
     layout_of,

@@ -9,9 +9,9 @@ import typer
 from jointplay.command_line import job_document
 
 if TYPE_CHECKING:
-    from solver.admission import Admission
-    from solver.assembly import Assembly
-    from solver.errors import InvalidInput
+    from jointplay.records.failure import InvalidInput
+    from jointplay.solver.admission import Admission
+    from jointplay.solver.mechanics.assembly import Assembly
 
 SCENE: Any = typer.Argument(
     metavar="SCENE.json|PRESET", help="A scene document, or the name of a preset."
@@ -48,10 +48,10 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
         With everything that keeps the scene from being read. Pointers lead into the document
         that was given: into the scene's own if ``source`` is the file of a scene.
     """
-    from solver.admission import admit
-    from solver.assembly import assemble
-    from solver.errors import InvalidInput
-    from solver.scene.document import Scene
+    from jointplay.records.failure import InvalidInput
+    from jointplay.solver.admission import admit
+    from jointplay.solver.mechanics.assembly import assemble
+    from jointplay.solver.scene.document import Scene
 
     given = job_document.job_document(source, settings=settings, options={})
     job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
@@ -68,11 +68,11 @@ def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) ->
     """Put together what can be; raise the refusal if the document cannot even be read."""
     from pydantic import ValidationError
 
-    from solver.admission import resolve
-    from solver.assembly import assemble
-    from solver.errors import InvalidInput, Problem
-    from solver.jobs import SimulateJob
-    from solver.scene.document import Scene
+    from jointplay.records.failure import InvalidInput, Problem
+    from jointplay.solver.admission import resolve
+    from jointplay.solver.jobs import SimulateJob
+    from jointplay.solver.mechanics.assembly import assemble
+    from jointplay.solver.scene.document import Scene
 
     if is_scene:
         refusal = InvalidInput(

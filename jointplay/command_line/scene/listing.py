@@ -12,7 +12,7 @@ def list_scenes(as_json: AS_JSON = False) -> None:
 
     Example: `jointplay scene list`
     """
-    from solver import presets
+    from jointplay.solver.scene import presets
 
     if as_json:
         documents = (presets.document(name) for name in presets.names())

@@ -17,7 +17,7 @@ def show(
 
     Example: `jointplay scene show slider-crank --json > mine.json`
     """
-    from solver import presets
+    from jointplay.solver.scene import presets
 
     scene = presets.document(name, pointer="PRESET")
     if document:

@@ -1,11 +1,11 @@
 """Statistics of channels on a uniform grid of time; one file a member, this roster names them."""
 
-from solver.statistics.of_channels.mean import Mean
-from solver.statistics.of_channels.mean_absolute import MeanAbsolute
-from solver.statistics.of_channels.quantile import Quantile
-from solver.statistics.of_channels.root_mean_square import RootMeanSquare
-from solver.statistics.of_channels.standard_deviation import StandardDeviation
-from solver.statistics.of_channels.statistic import ChannelStatistic, Grid
+from jointplay.solver.statistics.of_channels.mean import Mean
+from jointplay.solver.statistics.of_channels.mean_absolute import MeanAbsolute
+from jointplay.solver.statistics.of_channels.quantile import Quantile
+from jointplay.solver.statistics.of_channels.root_mean_square import RootMeanSquare
+from jointplay.solver.statistics.of_channels.standard_deviation import StandardDeviation
+from jointplay.solver.statistics.of_channels.statistic import ChannelStatistic, Grid
 
 OF_CHANNELS: dict[str, ChannelStatistic] = {
     "mean": Mean(),

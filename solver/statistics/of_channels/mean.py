@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-
-from solver.statistics.of_channels.statistic import Floats, Grid
-from solver.statistics.running import add_in_order
+from jointplay.solver.statistics.of_channels.statistic import Floats, Grid
+from jointplay.solver.statistics.running import add_in_order
 
 
 class Mean:

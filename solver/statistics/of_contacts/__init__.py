@@ -1,9 +1,9 @@
 """Statistics of the contacts of joints with clearance; one file a member, named by this roster."""
 
-from solver.statistics.of_contacts.impact_count import ImpactCount
-from solver.statistics.of_contacts.impact_force import LargestImpactForce
-from solver.statistics.of_contacts.share import ContactShare
-from solver.statistics.of_contacts.statistic import ContactStatistic
+from jointplay.solver.statistics.of_contacts.impact_count import ImpactCount
+from jointplay.solver.statistics.of_contacts.impact_force import LargestImpactForce
+from jointplay.solver.statistics.of_contacts.share import ContactShare
+from jointplay.solver.statistics.of_contacts.statistic import ContactStatistic
 
 OF_CONTACTS: dict[str, ContactStatistic] = {
     "impacts": ImpactCount(),

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-
-from solver.statistics.of_contacts.statistic import Contacts, Floats
+from jointplay.solver.statistics.of_contacts.statistic import Contacts, Floats
 
 
 class ImpactCount:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Contacts = NDArray[np.void]
-"""Contacts that ended, of dtype `solver.results.IMPACT`."""
+"""Contacts that ended, of dtype `solver.runs.results.IMPACT`."""
 
 
 class ContactStatistic(Protocol):

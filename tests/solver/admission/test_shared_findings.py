@@ -2,12 +2,12 @@
 
 import copy
 
-from solver import presets
-from solver.admission import admit
-from solver.channels import channels
-from solver.mechanics.tree import spanning_tree
-from solver.scene.document import Scene
-from solver.scene.parameters import set_parameters
+from jointplay.solver.admission import admit
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.channels import channels
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import set_parameters
 
 PRESS = presets.document("seven-bar-press")
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import copy
 from typing import Any
 
-from solver.calibration.calibrate import calibrate
-from solver.calibration.outcome import Outcome
-from solver.calibration.problem import Calibration, admit_calibration
-from solver.calibration.processes import measures
+from jointplay.solver.calibration.calibrate import calibrate
+from jointplay.solver.calibration.outcome import Outcome
+from jointplay.solver.calibration.problem import Calibration, admit_calibration
+from jointplay.solver.calibration.processes import measures
 
 BOUNCE: dict[str, Any] = {
     "kind": "calibration",

@@ -6,15 +6,15 @@ import json
 
 import numpy as np
 import pytest
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.admission import admit
+from jointplay.solver.calibration.calibrate import NothingFits, calibrate
+from jointplay.solver.calibration.fitted_scene import fitted_scene
+from jointplay.solver.calibration.outcome import Outcome
+from jointplay.solver.calibration.problem import admit_calibration
+from jointplay.solver.calibration.reported import reported_cases
+from jointplay.solver.scene import presets
 
-from solver import presets
-from solver.admission import admit
-from solver.calibration.calibrate import NothingFits, calibrate
-from solver.calibration.fitted_scene import fitted_scene
-from solver.calibration.outcome import Outcome
-from solver.calibration.problem import admit_calibration
-from solver.calibration.reported import reported_cases
-from solver.errors import InvalidInput
 from tests.solver.calibration.calibrations import bounce, computed
 from tests.solver.completed_runs import run
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-from solver.calibration.document import Search
-from solver.calibration.search import search
-from solver.calibration.spread import spread
+from jointplay.solver.calibration.document import Search
+from jointplay.solver.calibration.search import search
+from jointplay.solver.calibration.spread import spread
 
 CENTRE = np.array([0.4, 0.6])
 TURN = np.array([[np.cos(0.7), np.sin(0.7)], [-np.sin(0.7), np.cos(0.7)]])

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from solver.calibration.document import CalibrationTarget, FreeParameter
-from solver.calibration.space import space_of
-from solver.calibration.targets import goals_of, grid_indices
+from jointplay.solver.calibration.document import CalibrationTarget, FreeParameter
+from jointplay.solver.calibration.space import space_of
+from jointplay.solver.calibration.targets import goals_of, grid_indices
 
 SPACE = space_of(
     {

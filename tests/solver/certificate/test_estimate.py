@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-
-from solver.certificate.companions import LADDER
-from solver.certificate.estimate import (
+from jointplay.solver.runs.certificate.companions import LADDER
+from jointplay.solver.runs.certificate.estimate import (
     CONVERGED,
     LASTING,
     REACH,
@@ -14,7 +13,7 @@ from solver.certificate.estimate import (
     until,
     within,
 )
-from solver.certificate.spread import BINS, histogram
+from jointplay.solver.runs.certificate.spread import BINS, histogram
 
 TIME = np.linspace(0.0, 1.0, 101)
 

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from jointplay.solver.jobs import KINDS, AnyJob
+from jointplay.solver.scene.document import Scene
 from pydantic import TypeAdapter
-
-from solver.jobs import KINDS, AnyJob
-from solver.scene.document import Scene
 
 UNIT_ELSEWHERE = {
     "Target.factor": "its parameter's unit over the field's",

@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 import pytest
-
-from solver.nonlinear.batch_means import mean_estimate, standard_error
-from solver.nonlinear.estimate import Estimate
+from jointplay.solver.nonlinear.batch_means import mean_estimate, standard_error
+from jointplay.solver.nonlinear.estimate import Estimate
 
 RECORDS = 300
 

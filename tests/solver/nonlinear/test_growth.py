@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 import pytest
-
-from solver.nonlinear.lyapunov import exponent_from_growth
+from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 
 
 @pytest.mark.parametrize("blocks", [20, 50, 200, 1000, 5000])

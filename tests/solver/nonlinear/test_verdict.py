@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from solver.nonlinear.estimate import UNKNOWN, Estimate
-from solver.nonlinear.lyapunov import map_exponent, tangent_exponent
-from solver.nonlinear.recurrence import recurrence_period
-from solver.nonlinear.rotation import rotation_number
-from solver.nonlinear.verdict import (
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.lyapunov import map_exponent, tangent_exponent
+from jointplay.solver.nonlinear.recurrence import recurrence_period
+from jointplay.solver.nonlinear.rotation import rotation_number
+from jointplay.solver.nonlinear.verdict import (
     CHAOTIC,
     PERIODIC,
     QUASI_PERIODIC,
@@ -22,7 +21,8 @@ from solver.nonlinear.verdict import (
     Verdict,
     decide,
 )
-from solver.nonlinear.zero_one import zero_one_test
+from jointplay.solver.nonlinear.zero_one import zero_one_test
+
 from tests.solver.nonlinear.textbook import (
     HENON,
     UEDA,

@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 import pytest
-
-from solver.results import IMPACT
-from solver.statistics import OF_CONTACTS
+from jointplay.solver.runs.results import IMPACT
+from jointplay.solver.statistics import OF_CONTACTS
 
 START, END = 10.0, 20.0
 # two joints between 10 and 20 s: one contact reaches in, one lasts beyond, one fills the half

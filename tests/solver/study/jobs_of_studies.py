@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from solver.admission import admit
-from solver.study.plan import Study
+from jointplay.solver.admission import admit
+from jointplay.solver.runs.study.plan import Study
 
 PRESS: dict[str, Any] = {"preset": "seven-bar-press", "parameters": {"stiffness": 5e9}}
 BIFURCATION: dict[str, Any] = {

@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.solver.admission import admit, readmit
+from jointplay.solver.admission.limits import MOST_GEOMETRIES
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Parameter, Scene
+from jointplay.solver.scene.parameters import set_parameters
 
-from solver import presets
-from solver.admission import admit, readmit
-from solver.admission.limits import MOST_GEOMETRIES
-from solver.errors import InvalidInput, LimitExceeded
-from solver.scene.document import Parameter, Scene
-from solver.scene.parameters import set_parameters
-from solver.study.plan import Study
 from tests.solver.study.jobs_of_studies import BIFURCATION, PRESS, STUDIES, study
 
 SCENES = {name: Scene.model_validate(presets.document(name)) for name in presets.names()}

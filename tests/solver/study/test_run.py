@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.runs import simulate
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.runs.study.results import PointEnd
+from jointplay.solver.runs.study.run import StudyRun
 
-from solver import simulate
-from solver.admission import Admission, Study, admit
-from solver.simulate import Simulation
-from solver.study.results import PointEnd
-from solver.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
 
 PERIOD = 2.0
@@ -103,7 +103,7 @@ def test_interrupted_anywhere_and_resumed_it_gives_the_same_bits(
 ) -> None:
     monkeypatch.setattr(simulate, "FIRST_BUDGET", 300)
     for name, value in (("FIRST_BUDGET", 311), ("LARGEST_BUDGET", 977)):
-        monkeypatch.setattr(f"solver.study.run.{name}", value)
+        monkeypatch.setattr(f"jointplay.solver.runs.study.run.{name}", value)
     disturbed = Computed.__new__(Computed)
     disturbed.study = diagram.study
     disturbed.ends, disturbed.rows, disturbed.times = {}, defaultdict(list), defaultdict(list)

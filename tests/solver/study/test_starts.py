@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 import pytest
-
-from solver import presets
-from solver.scene.document import Scene
-from solver.study.starts import perturbed_start, start_scales
+from jointplay.solver.runs.study.starts import perturbed_start, start_scales
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
 
 POSITION, SPEED = np.array([1.0, -2.0]), np.array([0.5, 0.0])
 SCALES = np.array([1e-3, 2e-3]), np.array([3e-3, 4e-3])

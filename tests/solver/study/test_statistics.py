@@ -7,14 +7,14 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.jobs.sweep import StatisticName
+from jointplay.solver.runs import simulate
+from jointplay.solver.runs.simulate import Simulation
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
 from scipy.optimize import brentq
 
-from solver import simulate
-from solver.admission import Admission, admit
-from solver.jobs.sweep import StatisticName
-from solver.simulate import Simulation
-from solver.statistics import OF_CHANNELS, OF_CONTACTS
-from solver.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
 from tests.solver.study.test_run import Computed
 
@@ -167,7 +167,7 @@ def test_interrupted_anywhere_and_resumed_they_have_the_same_bits(
 ) -> None:
     monkeypatch.setattr(simulate, "FIRST_BUDGET", 300)
     for name, value in (("FIRST_BUDGET", 311), ("LARGEST_BUDGET", 977)):
-        monkeypatch.setattr(f"solver.study.run.{name}", value)
+        monkeypatch.setattr(f"jointplay.solver.runs.study.run.{name}", value)
     ends: dict[int, str] = {}
     checkpoint: bytes | None = None
     for most in (1, 3, 7, 10**9):

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from itertools import product
 
-from solver.compiler.emit import HEADER, FixedNodes, lane_function
-from solver.compiler.equations import record, slopes
-from solver.compiler.layout import Layout
-from solver.mechanics.tree import spanning_tree
-from solver.scene.document import Scene
+from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import record, slopes
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.document import Scene
+
 from tests.solver.study.jobs_of_studies import PRESS, SWEEP, study
 
 

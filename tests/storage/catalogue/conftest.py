@@ -3,9 +3,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from jointplay.storage.catalogue import Catalogue
 from stepped_clock import Clock
-
-from storage.catalogue import Catalogue
 
 
 @pytest.fixture

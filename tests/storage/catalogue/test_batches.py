@@ -2,10 +2,7 @@ import sqlite3
 from dataclasses import replace
 
 import pytest
-from sqlalchemy.exc import IntegrityError
-from stepped_clock import Clock
-
-from storage.catalogue import (
+from jointplay.storage.catalogue import (
     BatchNotFound,
     BlockState,
     Catalogue,
@@ -15,6 +12,8 @@ from storage.catalogue import (
     NewJob,
     SubmissionKey,
 )
+from sqlalchemy.exc import IntegrityError
+from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)

@@ -8,9 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from stepped_clock import Clock
-
-from storage.catalogue import (
+from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     Fenced,
@@ -21,7 +19,8 @@ from storage.catalogue import (
     NewJob,
     SubmissionKey,
 )
-from storage.catalogue.identifiers import Identifiers
+from jointplay.storage.catalogue.identifiers import Identifiers
+from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

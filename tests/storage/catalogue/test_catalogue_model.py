@@ -20,8 +20,7 @@ from hypothesis.stateful import (
     precondition,
     rule,
 )
-
-from storage.catalogue import (
+from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     Fenced,
@@ -32,7 +31,7 @@ from storage.catalogue import (
     SubmissionKey,
     Verdict,
 )
-from storage.catalogue.records import LEGAL_STEPS
+from jointplay.storage.catalogue.records import LEGAL_STEPS
 
 LEASE = 30.0
 MAX_ATTEMPTS = 3

@@ -3,9 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from stepped_clock import Clock
-
-from storage.catalogue import (
+from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     JobError,
@@ -13,6 +11,7 @@ from storage.catalogue import (
     NewJob,
     SubmissionKey,
 )
+from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

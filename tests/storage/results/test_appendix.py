@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 import zarr
-from made_up_runs import MadeUpRun, made_up_layout
-
-from storage.results import (
+from jointplay.storage.results import (
     IMPACT,
     Appendix,
     InvalidAppend,
@@ -13,6 +11,7 @@ from storage.results import (
     ResultWriter,
     SmallArray,
 )
+from made_up_runs import MadeUpRun, made_up_layout
 
 TABLE = np.array([[1.0, np.nan], [np.inf, -0.0], [3.0, 4.0]])
 APPENDIX = Appendix(

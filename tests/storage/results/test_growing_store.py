@@ -8,9 +8,7 @@ from itertools import count
 import numpy as np
 import pytest
 import zarr
-from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
-
-from storage.results import (
+from jointplay.storage.results import (
     ArraySpec,
     InvalidAppend,
     InvalidLayout,
@@ -21,6 +19,7 @@ from storage.results import (
     StoreExists,
     StoreSealed,
 )
+from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import zarr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from jointplay.storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 from made_up_runs import (
     MEMORY,
     PLAIN_FILES,
@@ -19,8 +20,6 @@ from made_up_runs import (
     made_up_impacts,
     made_up_layout,
 )
-
-from storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 
 json_documents = st.dictionaries(
     st.text(max_size=10),

@@ -1,10 +1,9 @@
 """Studies to be stored: noise, because any bit may matter, in the order in which lanes compute."""
 
 import numpy as np
-
-from solver.study.results import PointEnd, SectionRows, StudySlice
-from storage.results import ArraySpec
-from storage.studies import StudyBlock, StudyLayout, create, seal
+from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
+from jointplay.storage.results import ArraySpec
+from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
 
 
 def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, attributes=None):

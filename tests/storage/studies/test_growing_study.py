@@ -8,11 +8,10 @@ import tracemalloc
 import numpy as np
 import pytest
 import zarr
+from jointplay.solver.runs.study.results import StudySlice
+from jointplay.storage.results.errors import IncompleteStudy
+from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
 from made_up_studies import MadeUpStudy, files, made_up_layout
-
-from solver.study.results import StudySlice
-from storage.results.errors import IncompleteStudy
-from storage.studies import StudyBlock, StudyReader, create, seal
 
 SHAPES = {
     "a chunk a block": made_up_layout(),

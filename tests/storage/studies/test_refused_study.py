@@ -7,11 +7,10 @@ from itertools import count
 
 import numpy as np
 import pytest
+from jointplay.solver.runs.study.results import StudySlice
+from jointplay.storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
+from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
 from made_up_studies import MadeUpStudy, files, made_up_layout
-
-from solver.study.results import StudySlice
-from storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
-from storage.studies import StudyBlock, StudyReader, create, seal
 
 SHAPES = {
     "a chunk a block": made_up_layout(),

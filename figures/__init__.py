@@ -1,0 +1,181 @@
+"""Figures of runs and studies, as a journal would print them; PNG and SVG from the same code.
+
+A family: one figure a file, the rosters below. Every figure takes a `records.run.Source`, or
+a `records.study.StudySource`, and a `Selection`. Importing this package does not load
+matplotlib; drawing does, without touching pyplot or the caller's settings.
+
+>>> from jointplay import figures
+>>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from jointplay.figures import page, scene_facts, study_facts
+from jointplay.figures.bifurcation import BIFURCATION
+from jointplay.figures.certificate import CERTIFICATE
+from jointplay.figures.choosing import select
+from jointplay.figures.contact_force import CONTACT_FORCE
+from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
+from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study
+from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
+from jointplay.figures.orbit import ORBIT
+from jointplay.figures.page import Form, warm_up
+from jointplay.figures.phase_portrait import PHASE_PORTRAIT
+from jointplay.figures.section import SECTION
+from jointplay.figures.spectrum import SPECTRUM
+from jointplay.figures.sweep import SWEEP
+from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
+from jointplay.figures.work_precision import WORK_PRECISION
+from jointplay.records.run import Source
+from jointplay.records.study import StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "ROSTER",
+    "STUDY_ROSTER",
+    "FigureError",
+    "FigureKind",
+    "Form",
+    "Listed",
+    "NotDrawable",
+    "Selection",
+    "UnknownFigure",
+    "available",
+    "draw",
+    "draw_mechanism",
+    "is_study",
+    "render",
+    "render_mechanism",
+    "required",
+    "select",
+    "warm_up",
+]
+
+ROSTER: Final[tuple[RunFigure, ...]] = (
+    OUTPUTS,
+    CONTACT_FORCE,
+    ORBIT,
+    PHASE_PORTRAIT,
+    SPECTRUM,
+    MECHANISM,
+    TIME_HISTORY,
+    CERTIFICATE,
+)
+"""Figures of one run."""
+STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION, WORK_PRECISION)
+"""Figures of a study."""
+
+
+class Listed(NamedTuple):
+    """A figure that can be drawn, with what it shows."""
+
+    name: str
+    title: str
+
+
+def available(source: Source | StudySource) -> tuple[Listed, ...]:
+    """List what can be drawn of these results without any selection.
+
+    The figures of the roster whose channels were stored, then, of a run, each declared output by
+    its name. Besides these, the name of any stored channel is a figure: its time history, its
+    bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep.
+    """
+    listed = [Listed(kind.name, kind.title) for kind in _roster(source) if _drawable(kind, source)]
+    if not is_study(source):
+        named = {channel.name: channel.long_name for channel in source.channels}
+        listed += [Listed(name, named[name]) for name in scene_facts.outputs(source)]
+    return tuple(listed)
+
+
+def required(
+    source: Source | StudySource, name: str, selection: Selection | None = None
+) -> tuple[str, ...]:
+    """Name the channels whose values a figure reads; only source's metadata is looked at.
+
+    Raises
+    ------
+    UnknownFigure
+        There is no such figure or channel.
+    NotDrawable
+        The source or the selection lacks what the figure needs.
+    """
+    kind, selection = _find(source, name, selection)
+    return kind.channels(source, selection)
+
+
+def draw(source: Source | StudySource, name: str, selection: Selection | None = None) -> Figure:
+    """Draw a figure.
+
+    Parameters
+    ----------
+    source
+        The results.
+    name
+        A figure of the roster, or a stored channel for its own picture.
+    selection
+        Channels, joints, window of time or points; by default all.
+
+    Raises
+    ------
+    UnknownFigure
+        There is no such figure or channel.
+    NotDrawable
+        The source or the selection lacks what the figure needs.
+    """
+    kind, selection = _find(source, name, selection)
+    kind.channels(source, selection)
+    with page.style():
+        return kind.draw(source, selection)
+
+
+def render(
+    source: Source | StudySource, name: str, form: Form, selection: Selection | None = None
+) -> bytes:
+    """Draw a figure and give the bytes of a PNG or SVG file; errors as for `draw`."""
+    with page.style():
+        return page.save(draw(source, name, selection), form)
+
+
+def _find(
+    source: Source | StudySource, name: str, selection: Selection | None
+) -> tuple[FigureKind[Any], Selection]:
+    selection = selection or Selection()
+    for kind in _roster(source):
+        if kind.name == name:
+            kind.check(selection)
+            return kind, selection
+    found = _of_channel(source, name)
+    if found is None:
+        raise UnknownFigure(name, [kind.name for kind in _roster(source)])
+    if selection.channels:
+        raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
+    found.check(selection)
+    return found, replace(selection, channels=(name,))
+
+
+def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | None:
+    """Give the figure that the name of a channel stands for."""
+    if not is_study(source):
+        stored = any(channel.name == name for channel in source.channels)
+        return TIME_HISTORY if stored else None
+    if source.kind == "bifurcation" and any(one.name == name for one in source.observables):
+        return BIFURCATION
+    over_points = (*source.channels, *study_facts.statistics(source))
+    return SWEEP if any(one.name == name for one in over_points) else None
+
+
+def _roster(source: Source | StudySource) -> tuple[FigureKind[Any], ...]:
+    return STUDY_ROSTER if is_study(source) else ROSTER
+
+
+def _drawable(kind: FigureKind[Any], source: Source | StudySource) -> bool:
+    try:
+        kind.channels(source, Selection())
+    except NotDrawable:
+        return False
+    return is_study(source) or source.samples > 0

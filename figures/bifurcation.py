@@ -1,0 +1,159 @@
+"""Bifurcation diagram: what an observable does at the sections, for every value of a parameter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import marks, page, study_facts
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.parameter_axis import ParameterAxis
+from jointplay.figures.quantity import scale
+from jointplay.figures.study_facts import Group
+from jointplay.records.study import StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_PANELS = 6
+_FIRST_PANELS = 4
+"""Of the observables, when none are chosen."""
+_PANEL_HEIGHT = 30.0  # mm
+_SINGLE_HEIGHT = 50.0
+_EXPONENT_HEIGHT = 20.0
+_STRIP_HEIGHT = 7.0
+_AXIS_HEIGHT = 8.0
+
+
+@dataclass(frozen=True)
+class _Diagram:
+    """What all panels share."""
+
+    source: StudySource
+    points: slice
+    axis: ParameterAxis
+    groups: tuple[Group, ...]
+    """Points of one colour."""
+
+
+def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if source.kind != "bifurcation":
+        raise NotDrawable("A bifurcation diagram is drawn of a job of kind bifurcation.")
+    study_facts.chosen_points(source, selection)
+    names = study_facts.chosen_observables(source, selection)
+    if len(names) > _MOST_PANELS:
+        raise NotDrawable(
+            f"One figure shows at most {_MOST_PANELS} observables, not {len(names)}; choose fewer.",
+            "channels",
+        )
+    if names:
+        return names
+    positions = [position for position, _ in study_facts.observed_pairs(source)]
+    return tuple(positions or [one.name for one in source.observables])[:_FIRST_PANELS]
+
+
+def _draw(source: StudySource, selection: Selection) -> Figure:
+    names = _chosen(source, selection)
+    points = study_facts.chosen_points(source, selection)
+    everything = Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
+    verdicts = study_facts.by_verdict(source)
+    directions = study_facts.directions(source)
+    diagram = _Diagram(
+        source,
+        points,
+        ParameterAxis.of(source, 0, points),
+        directions or verdicts or (everything,),
+    )
+    heights = [_SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT] * len(names)
+    if has_exponent := "lyapunov" in source.indicators:
+        heights.append(_EXPONENT_HEIGHT)
+    if has_strip := bool(directions and verdicts):
+        heights.append(_STRIP_HEIGHT)
+    entries = _legend(diagram, verdicts if has_strip else ())
+    rows = -(-len(entries) // page.LEGEND_COLUMNS)
+    height = sum(heights) + _AXIS_HEIGHT + rows * page.LEGEND_HEIGHT
+    figure, grid = page.panels(len(heights), 1, height, share_x=True, row_heights=heights)
+    panels = [row[0] for row in grid]
+    for axes, name in zip(panels, names, strict=False):
+        _sections(axes, diagram, name)
+    if has_exponent:
+        _exponents(panels[len(names)], diagram)
+    if has_strip:
+        _verdicts(panels[-1], diagram, directions, verdicts)
+    for axes in panels:
+        diagram.axis.dress(axes)
+    panels[-1].set_xlabel(diagram.axis.label)
+    figure.align_ylabels()
+    if entries:
+        page.legend_of_marks(figure, entries)
+    return figure
+
+
+def _sections(axes: Axes, diagram: _Diagram, name: str) -> None:
+    """Draw one observable at the sections of every value."""
+    rows = marks.sections(diagram.source, name, diagram.points)
+    shown = scale(study_facts.described(diagram.source.observables, name).unit, rows)
+    size = marks.size(int(np.count_nonzero(np.isfinite(rows))))
+    for group in diagram.groups:
+        members = group.members[diagram.points]
+        across = np.repeat(diagram.axis.shown[members], rows.shape[1])
+        marks.draw_cloud(axes, across, rows[members].ravel() / shown.factor, group.colour, size)
+    axes.set_ylabel(page.in_two_lines(shown.label(name)))
+
+
+def _exponents(axes: Axes, diagram: _Diagram) -> None:
+    """Draw the largest Lyapunov exponent with its uncertainty."""
+    exponents = diagram.source.indicators["lyapunov"][diagram.points]
+    errors = diagram.source.indicators.get("lyapunov_error")
+    reach = np.zeros_like(exponents) if errors is None else errors[diagram.points]
+    axes.axhline(0.0, color=page.BLACK, linewidth=0.4, zorder=1.0)
+    for group in diagram.groups:
+        members = group.members[diagram.points] & np.isfinite(exponents)
+        axes.errorbar(
+            diagram.axis.shown[members],
+            exponents[members],
+            yerr=np.nan_to_num(reach[members]),
+            fmt="o",
+            color=group.colour,
+            markersize=1.2,
+            markeredgewidth=0.0,
+            elinewidth=0.4,
+        )
+    axes.set_ylabel("exponent [1/s]")
+
+
+def _verdicts(
+    axes: Axes, diagram: _Diagram, directions: tuple[Group, ...], verdicts: tuple[Group, ...]
+) -> None:
+    """Draw one row of coloured cells for each direction."""
+    edges, values = diagram.axis.cells()
+    widths = np.diff(edges)
+    for row, direction in enumerate(directions):
+        for verdict in verdicts:
+            members = (direction.members & verdict.members)[diagram.points]
+            index = np.searchsorted(values, diagram.axis.shown[members])
+            cells = [(float(edges[i]), float(widths[i])) for i in index]
+            axes.broken_barh(cells, (row - 0.4, 0.8), color=verdict.colour, linewidth=0.0)
+    axes.set_yticks(range(len(directions)), [direction.name for direction in directions])
+    axes.tick_params(axis="y", length=0.0)
+
+
+def _legend(diagram: _Diagram, verdicts: tuple[Group, ...]) -> dict[str, tuple[str, str]]:
+    """Say what colours and signs mean: label, then marker and colour."""
+    entries = {}
+    if len(diagram.groups) > 1 or diagram.source.verdicts is not None:
+        entries = {group.name: ("o", group.colour) for group in diagram.groups}
+    entries |= {verdict.name: ("s", verdict.colour) for verdict in verdicts}
+    return entries | diagram.axis.legend()
+
+
+BIFURCATION = StudyFigure(
+    name="bifurcation",
+    title="Bifurcation diagram: observables at the sections over the parameter",
+    uses=("channels", "first", "last"),
+    channels=_chosen,
+    draw=_draw,
+)

@@ -1,0 +1,95 @@
+"""Contact force at each clearance joint over time, with the impacts that samples step over."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import horizon, page, sampling, scene_facts
+from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.quantity import scale
+from jointplay.records.run import Floats, Source
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_PANEL_HEIGHT = 34.0  # mm
+_AXIS_HEIGHT = 8.0
+_MOST_IMPACTS = 4000
+"""Lines drawn for impacts a joint: the strongest ones."""
+
+
+def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
+    joints = scene_facts.chosen_joints(source, selection)
+    return scene_facts.stored(source, [f"{joint}.normal_force" for joint in joints])
+
+
+def _draw(source: Source, selection: Selection) -> Figure:
+    joints = list(scene_facts.chosen_joints(source, selection))
+    curves = [sampling.over_time(source, f"{joint}.normal_force", selection) for joint in joints]
+    step = _sample_step(source, selection)
+    impacts = [_between_samples(source, joint, selection, step) for joint in joints]
+    newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
+    seconds = scale("s", *(time for time, _ in curves))
+    time = curves[0][0]
+    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
+    explained = spans or any(len(onset) for onset, _ in impacts)
+    legend_height = page.LEGEND_HEIGHT if explained else 0.0
+    height = _PANEL_HEIGHT * len(joints) + _AXIS_HEIGHT + legend_height
+    figure, grid = page.panels(len(joints), 1, height, share_x=True)
+    for (axes,), joint, (time, force), (onset, peak) in zip(
+        grid, joints, curves, impacts, strict=True
+    ):
+        axes.plot(time / seconds.factor, force / newtons.factor, color=page.BLUE, label="samples")
+        axes.vlines(
+            onset / seconds.factor,
+            0.0,
+            peak / newtons.factor,
+            color=page.VERMILION,
+            linewidth=0.5,
+            zorder=1.5,
+            label="impacts between samples",
+        )
+        horizon.shade(axes, spans, seconds.factor)
+        axes.set_ylim(bottom=0.0)
+        axes.set_ylabel(newtons.label("normal force"))
+        page.corner_text(axes, f"joint {joint}")
+    grid[-1][0].set_xlabel(seconds.label("time"))
+    figure.align_ylabels()
+    if legend_height:
+        page.legend(figure, grid[0][0])
+    return figure
+
+
+def _sample_step(source: Source, selection: Selection) -> float:
+    """Mean distance of the samples in the window [s]; infinite for a single one."""
+    first, last = sampling.window(source, selection)
+    if last - first < 2:
+        return np.inf
+    (ends,) = [time for time, _ in source.blocks([], first, first + 1)]
+    begin = float(ends[0])
+    (ends,) = [time for time, _ in source.blocks([], last - 1, last)]
+    return (float(ends[0]) - begin) / (last - first - 1)
+
+
+def _between_samples(
+    source: Source, joint: str, selection: Selection, step: float
+) -> tuple[Floats, Floats]:
+    """Give onset [s] and peak force [N] of the contacts that samples cannot resolve."""
+    rows = source.impacts()
+    rows = rows[rows["joint"] == list(source.joints).index(joint)]
+    low = -np.inf if selection.start is None else selection.start
+    high = np.inf if selection.stop is None else selection.stop
+    rows = rows[(rows["onset"] >= low) & (rows["onset"] <= high)]
+    rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
+    rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]
+    return rows["onset"], rows["peak_force"]
+
+
+CONTACT_FORCE = RunFigure(
+    name="contact-force",
+    title="Contact force at each clearance joint",
+    uses=("joints", "start", "stop"),
+    channels=_channels,
+    draw=_draw,
+)

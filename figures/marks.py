@@ -1,0 +1,69 @@
+"""Clouds of fine marks: as many as a picture can show, however many sections were recorded."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from jointplay.figures import page
+from jointplay.records.run import Floats
+from jointplay.records.study import StudySource
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MOST_VALUES: Final = 4_000_000
+"""Of an observable's values in one picture; of more, every second, third, … section is taken."""
+MOST_MARKS: Final = 100_000
+"""Of a colour; of more, those that lie within half a dot of each other become one."""
+_DOTS: Final = 2000
+_BLOCK: Final = 1_000_000
+_LARGEST, _SMALLEST = 1.6, 0.4  # diameter, points
+
+
+def sections(source: StudySource, observable: str, points: slice) -> Floats:
+    """Give (points, k) values at sections, evenly chosen if there are more than can be shown."""
+    count = points.stop - points.start
+    stride = max(1, -(-count * source.record // MOST_VALUES))
+    rows = max(1, _BLOCK // max(source.record, 1))
+    parts = [
+        source.sections(observable, first, min(first + rows, points.stop))[:, ::stride]
+        for first in range(points.start, points.stop, rows)
+    ]
+    return np.concatenate(parts)
+
+
+def size(count: int) -> float:
+    """Choose the diameter [points] of marks: smaller the more there are in a panel."""
+    return float(np.clip(60.0 / np.sqrt(max(count, 1)), _SMALLEST, _LARGEST))
+
+
+def draw_cloud(axes: Axes, x: Floats, y: Floats, colour: str, diameter: float) -> None:
+    """Draw marks of a diameter [points] at the finite ones of (n,) x and y."""
+    finite = np.isfinite(x) & np.isfinite(y)
+    x, y = _apart(x[finite], y[finite])
+    axes.plot(
+        x,
+        y,
+        linestyle="",
+        marker="o",
+        color=colour,
+        markersize=diameter,
+        markeredgewidth=0.0,
+        rasterized=len(x) > page.MOST_VECTOR_MARKS,
+    )
+
+
+def _apart(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Keep one of the marks that no printed page tells apart, if there are too many."""
+    if len(x) <= MOST_MARKS:
+        return x, y
+    _, kept = np.unique(_cell(x) * _DOTS + _cell(y), return_index=True)
+    return x[kept], y[kept]
+
+
+def _cell(values: Floats) -> NDArray[np.int64]:
+    low, high = float(values.min()), float(values.max())
+    span = high - low if high > low else 1.0
+    return np.minimum((values - low) / span * _DOTS, _DOTS - 1).astype(np.int64)

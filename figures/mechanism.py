@@ -1,0 +1,117 @@
+"""The mechanism at a pose: bodies with their points, joints, and which of them have clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from jointplay.figures import page, scene_facts
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.mechanism_geometry import Geometry, Pose, geometry
+from jointplay.figures.mechanism_labels import draw_labels
+from jointplay.figures.mechanism_marks import draw_bodies, draw_gravity, draw_joints, draw_rails
+from jointplay.figures.quantity import scale
+from jointplay.records.run import Source
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_MARGIN = 0.1
+"""White around the mechanism, in its largest extent."""
+_LEAST_HEIGHT, _MOST_HEIGHT = 45.0, 90.0  # mm
+_FRAME_WIDTH, _FRAME_HEIGHT = 12.0, 16.0  # mm that axes labels and the legend take
+
+
+def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> Figure:
+    """Draw a scene at a pose.
+
+    Parameters
+    ----------
+    scene
+        The scene document, checked.
+    pose
+        By body: x and y of the centre of mass [m] and angle [rad].
+
+    Raises
+    ------
+    NotDrawable
+        The pose lacks a body.
+    """
+    if missing := [name for name in scene["bodies"] if name not in pose]:
+        raise NotDrawable(f"The pose does not say where {', '.join(missing)} is.")
+    with page.style():
+        return _draw(geometry(scene, pose))
+
+
+def render_mechanism(scene: Mapping[str, Any], pose: Pose, form: page.Form) -> bytes:
+    """Draw a scene at a pose and give the bytes of a PNG or SVG file."""
+    with page.style():
+        return page.save(draw_mechanism(scene, pose), form)
+
+
+def _draw(shape: Geometry) -> Figure:
+    (left, right), (low, high) = shape.extent
+    metres = scale("m", shape.corners)
+    margin = _MARGIN * max(right - left, high - low)
+    width, height = right - left + 2.0 * margin, high - low + 2.0 * margin
+    frame = page.COLUMN_WIDTH - _FRAME_WIDTH
+    height = max(height, width * (_LEAST_HEIGHT - _FRAME_HEIGHT) / frame)
+    width = max(width, height * frame / (_MOST_HEIGHT - _FRAME_HEIGHT))
+    figure, ((axes,),) = page.panels(1, 1, frame * height / width + _FRAME_HEIGHT)
+    axes.set_aspect("equal")
+    axes.locator_params(nbins=6)
+    for set_limits, middle, span in (
+        (axes.set_xlim, (left + right) / 2.0, width),
+        (axes.set_ylim, (low + high) / 2.0, height),
+    ):
+        set_limits((middle - span / 2.0) / metres.factor, (middle + span / 2.0) / metres.factor)
+    draw_rails(axes, shape, metres.factor)
+    draw_bodies(axes, shape, metres.factor)
+    draw_joints(axes, shape, metres.factor)
+    draw_labels(axes, shape, metres.factor, _points(frame) / width)
+    draw_gravity(axes, shape)
+    axes.set_xlabel(metres.label("x"))
+    axes.set_ylabel(metres.label("y"))
+    page.legend(figure, axes)
+    return figure
+
+
+def _points(millimetres: float) -> float:
+    return millimetres * 72.0 / 25.4
+
+
+def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
+    bodies = scene_facts.scene(source).get("bodies")
+    if not bodies:
+        raise NotDrawable("The results carry no scene to draw.")
+    names = [f"{body}.{coordinate}" for body in bodies for coordinate in ("x", "y", "theta")]
+    return scene_facts.stored(source, names)
+
+
+def _draw_first(source: Source, selection: Selection) -> Figure:
+    """Draw the first sample of the window."""
+    names = _channels(source, selection)
+    first, last = source.between(selection.start, selection.stop)
+    if last <= first:
+        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
+    ((_, row),) = source.blocks(names, first, first + 1)
+    scene = scene_facts.scene(source)
+    pose = {
+        body: (
+            float(row[f"{body}.x"][0]),
+            float(row[f"{body}.y"][0]),
+            float(row[f"{body}.theta"][0]),
+        )
+        for body in scene["bodies"]
+    }
+    return draw_mechanism(scene, pose)
+
+
+MECHANISM = RunFigure(
+    name="mechanism",
+    title="The mechanism at the first sample of the window",
+    uses=("start", "stop"),
+    channels=_channels,
+    draw=_draw_first,
+)

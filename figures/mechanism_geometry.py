@@ -1,0 +1,196 @@
+"""Where the bodies, points and joints of a scene are, in world coordinates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jointplay.records.run import Floats
+
+Point = tuple[float, float]
+Segment = tuple[Point, Point]
+Pose = Mapping[str, tuple[float, float, float]]
+"""By body: x and y of the centre of mass [m] and angle [rad]."""
+
+GROUND = "ground"
+_SAME_PLACE = 1e-6
+"""Joints closer than this share of the extent are labelled together."""
+
+
+_BEARINGS_ACROSS = 6.0
+"""Width of the picture of a scene without extension, in bearing radii."""
+
+
+@dataclass(frozen=True)
+class JointMark:
+    """One joint: its place [m], what it is, and the direction of its axis if it slides [rad]."""
+
+    name: str
+    kind: str
+    place: Point
+    driven: bool
+    clearance: bool
+    grounded: bool
+    axis: float | None
+    bodies: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """A scene at a pose; all lengths in m, world frame."""
+
+    bodies: dict[str, dict[str, Point]]
+    centres: dict[str, Point]
+    joints: tuple[JointMark, ...]
+    gravity: Point
+    fixed_points: tuple[Point, ...]
+    smallest_extent: float
+
+    @property
+    def corners(self) -> Floats:
+        """(2n,) every coordinate that is drawn."""
+        points = [point for named in self.bodies.values() for point in named.values()]
+        points += [*self.centres.values(), *self.fixed_points]
+        return np.array(points).ravel()
+
+    @property
+    def extent(self) -> tuple[Point, Point]:
+        """Smallest and largest x, and y; never empty."""
+        points = self.corners.reshape(-1, 2)
+        (left, low), (right, high) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        if right - left == high - low == 0.0:
+            around = self.smallest_extent / 2.0
+            return (left - around, right + around), (low - around, high + around)
+        return (left, right), (low, high)
+
+    @property
+    def size(self) -> float:
+        """Largest side of the extent."""
+        (left, right), (low, high) = self.extent
+        return max(right - left, high - low)
+
+    def is_block(self, name: str) -> bool:
+        """Tell whether this is a body without extension, drawn as a block or disc."""
+        return name in self.bodies and len(set(self.bodies[name].values())) < 2
+
+    def segments(self) -> list[tuple[str, Segment]]:
+        """Edges of the bodies with the body's name; a body of one point is a single point."""
+        found = []
+        for name, points in self.bodies.items():
+            corners = outline([*points.values()]) or [self.centres[name]]
+            following = corners[1:] + corners[:1] if len(corners) > 2 else corners[1:] or corners
+            found += [(name, segment) for segment in zip(corners, following, strict=False)]
+        return found
+
+    def places(self) -> list[tuple[Point, list[JointMark]]]:
+        """Joints by place: those in the same one together."""
+        found: list[tuple[Point, list[JointMark]]] = []
+        for joint in self.joints:
+            for place, here in found:
+                if math.dist(place, joint.place) <= _SAME_PLACE * self.size:
+                    here.append(joint)
+                    break
+            else:
+                found.append((joint.place, [joint]))
+        return found
+
+
+def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
+    """Place everything that the scene document names."""
+
+    def world(reference: str) -> Point:
+        body, _, point = reference.partition(".")
+        if body == GROUND:
+            x, y = scene.get("ground", {}).get("points", {})[point]
+            return float(x), float(y)
+        return _placed(pose[body], scene["bodies"][body]["points"][point])
+
+    bearings = [
+        joint["clearance"]["bearing_radius"]
+        for joint in scene["joints"].values()
+        if joint.get("clearance")
+    ]
+    driven = {driver["joint"] for driver in scene.get("drivers", {}).values()}
+    joints = []
+    for name, joint in scene["joints"].items():
+        kind = joint["type"]
+        first, second = {
+            "revolute": ("bearing", "journal"),
+            "prismatic": ("guide", "slider"),
+            "fixed": ("base", "part"),
+        }[kind]
+        bodies = (joint[first].partition(".")[0], joint[second].partition(".")[0])
+        axis = None
+        if kind == "prismatic":
+            turned = 0.0 if bodies[0] == GROUND else pose[bodies[0]][2]
+            axis = turned + math.atan2(joint["axis"][1], joint["axis"][0])
+        clearance = joint.get("clearance")
+        joints.append(
+            JointMark(
+                name=name,
+                kind=kind,
+                place=world(joint[second]),
+                driven=name in driven,
+                clearance=bool(clearance) and clearance["radial_clearance"] > 0.0,
+                grounded=GROUND in bodies,
+                axis=axis,
+                bodies=bodies,
+            )
+        )
+    return Geometry(
+        bodies={
+            name: {
+                point: _placed(pose[name], place) for point, place in body.get("points", {}).items()
+            }
+            for name, body in scene["bodies"].items()
+        },
+        centres={name: (pose[name][0], pose[name][1]) for name in scene["bodies"]},
+        joints=tuple(joints),
+        gravity=tuple(scene.get("gravity") or (0.0, 0.0)),
+        fixed_points=tuple(joint.place for joint in joints if joint.grounded),
+        smallest_extent=_BEARINGS_ACROSS * max(bearings, default=1.0 / _BEARINGS_ACROSS),
+    )
+
+
+def _placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Point:
+    x, y, angle = pose
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return x + cosine * point[0] - sine * point[1], y + sine * point[0] + cosine * point[1]
+
+
+def outline(points: list[Point]) -> list[Point]:
+    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    ordered = sorted(set(points))
+    if len(ordered) < 3:
+        return ordered
+
+    def half(line: list[Point]) -> list[Point]:
+        chain: list[Point] = []
+        for point in line:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
+                chain.pop()
+            chain.append(point)
+        return chain[:-1]
+
+    return half(ordered) + half(ordered[::-1])
+
+
+def distance(place: Point, segment: Segment) -> float:
+    """Distance of a place from a segment."""
+    start, end = np.array(segment[0]), np.array(segment[1])
+    along = end - start
+    length = float(along @ along)
+    share = 0.0 if length == 0.0 else float(np.clip((place - start) @ along / length, 0.0, 1.0))
+    return float(np.linalg.norm(place - (start + share * along)))
+
+
+def among(place: Point, places: list[Point], nearness: float) -> bool:
+    """Tell whether one of the places is no farther than `nearness`."""
+    return any(math.dist(place, other) <= nearness for other in places)
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -1,0 +1,164 @@
+"""Names beside bodies and joints, where they cover neither, nor each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from jointplay.figures import page
+from jointplay.figures.mechanism_geometry import Geometry, JointMark, Point, distance, outline
+from jointplay.figures.mechanism_marks import BLOCK_SIZE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_DISTANCE = 7.0  # points from the middle of a mark to its name
+_BLOCK_DISTANCE = BLOCK_SIZE / 2.0 + 2.0
+_SIZE = 6.0
+_LETTER_WIDTH = 0.62 * _SIZE  # of the typeface, on average
+_NEAR = 0.03
+"""A body this close to a joint, in extents of the mechanism, is in the way of its name."""
+_UP, _DOWN = math.pi / 2.0, -math.pi / 2.0
+# straight down first: a support apart, the space below a joint is where one looks for its name
+_DIRECTIONS = (_DOWN, _UP, *(math.pi * quarter / 4.0 for quarter in (-1, -3, 1, 3, 0, 4)))
+_ALONG = (0.0, 0.15, -0.15, 0.3, -0.3)
+"""Where along a body its name may stand, from the middle, in lengths of the body."""
+
+
+_Box = tuple[float, float, float, float]
+"""Left, low, right and high edge, in points."""
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A name `apart` points from a point [m], in a direction [rad]; `merit` is better if larger."""
+
+    point: Point
+    angle: float
+    apart: float
+    merit: float
+
+    @property
+    def alignment(self) -> tuple[str, str]:
+        """Horizontal and vertical alignment of the text, so that it grows away from the point."""
+        x, y = math.cos(self.angle), math.sin(self.angle)
+        return (
+            "center" if abs(x) < 0.4 else ("left" if x > 0.0 else "right"),
+            "center" if abs(y) < 0.4 else ("bottom" if y > 0.0 else "top"),
+        )
+
+    def box(self, text: str, points_per_metre: float) -> _Box:
+        """Left, low, right and high edge of the text [points], estimated."""
+        horizontal, vertical = self.alignment
+        width, height = _LETTER_WIDTH * len(text), 1.2 * _SIZE
+        x = self.point[0] * points_per_metre + self.apart * math.cos(self.angle)
+        y = self.point[1] * points_per_metre + self.apart * math.sin(self.angle)
+        left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[horizontal] * width
+        low = y - {"bottom": 0.0, "center": 0.5, "top": 1.0}[vertical] * height
+        return left, low, left + width, low + height
+
+
+def draw_labels(axes: Axes, shape: Geometry, metre: float, points_per_metre: float) -> None:
+    """Name every joint, those in one place together, and every body in italics.
+
+    Parameters
+    ----------
+    metre
+        Metres in one unit of the axes.
+    points_per_metre
+        Printer's points that one metre of the mechanism takes.
+    """
+    written: list[_Box] = []
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    points = metre * points_per_metre
+    frame = (left * points, low * points, right * points, high * points)
+
+    def write(text: str, places: Iterator[_Place], **look: Any) -> None:
+        def merit(place: _Place) -> tuple[int, float]:
+            box = place.box(text, points_per_metre)
+            faults = sum(_overlap(box, other) for other in written) + (not _within(box, frame))
+            return -faults, place.merit
+
+        best = max(places, key=merit)
+        written.append(best.box(text, points_per_metre))
+        horizontal, vertical = best.alignment
+        note = axes.annotate(
+            text,
+            xy=(best.point[0] / metre, best.point[1] / metre),
+            xytext=(best.apart * math.cos(best.angle), best.apart * math.sin(best.angle)),
+            textcoords="offset points",
+            ha=horizontal,
+            va=vertical,
+            fontsize=_SIZE,
+            zorder=6,
+            **look,
+        )
+        note.set_in_layout(False)
+
+    for point, joints in shape.places():
+        play = any(joint.clearance for joint in joints)
+        write(
+            ", ".join(joint.name for joint in joints),
+            _joint_places(shape, point, joints),
+            color=page.VERMILION if play else page.BLACK,
+            weight="bold" if play else "normal",
+        )
+    for name in shape.bodies:
+        write(name, _body_places(shape, name), color=page.BLACK, style="italic")
+
+
+def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Iterator[_Place]:
+    """Around a joint: the farther in angle from bodies, supports and rails, the better."""
+    taken = [
+        math.atan2(end[1] - point[1], end[0] - point[0])
+        for _, segment in shape.segments()
+        if distance(point, segment) < _NEAR * shape.size
+        for end in segment
+        if math.dist(end, point) > _NEAR * shape.size
+    ]
+    on_block = any(shape.is_block(body) for joint in joints for body in joint.bodies)
+    for joint in joints:
+        if joint.axis is not None:
+            taken += [joint.axis, joint.axis + math.pi]
+        elif joint.grounded and not on_block:
+            taken.append(_DOWN)
+    if on_block:
+        taken.append(_UP)  # where the block's own name is
+    for angle in _DIRECTIONS:
+        free = min((_angle_between(angle, other) for other in taken), default=math.pi)
+        yield _Place(point, angle, _BLOCK_DISTANCE if on_block else _DISTANCE, round(free, 6))
+
+
+def _body_places(shape: Geometry, name: str) -> Iterator[_Place]:
+    """Above a block; along a long body on both sides, better where other bodies are far."""
+    corners = outline([*shape.bodies[name].values()])
+    if len(corners) < 2:
+        point = corners[0] if corners else shape.centres[name]
+        yield _Place(point, _UP, _BLOCK_DISTANCE, 0.0)
+        return
+    along = np.subtract(corners[1], corners[0])
+    angle = math.atan2(along[1], along[0])
+    others = [segment for other, segment in shape.segments() if other != name]
+    for side in sorted((angle + _UP, angle + _DOWN), key=math.sin, reverse=True):
+        for share in _ALONG:
+            x, y = (np.mean(corners, axis=0) + share * along).tolist()
+            reach = 2.0 * _NEAR * shape.size
+            beside = (x + reach * math.cos(side), y + reach * math.sin(side))
+            room = min((distance(beside, segment) for segment in others), default=math.inf)
+            enough = min(room / shape.size, 2.0 * _NEAR)
+            yield _Place((x, y), side, _DISTANCE, round(enough, 3))
+
+
+def _within(box: _Box, frame: _Box) -> bool:
+    return frame[0] <= box[0] and frame[1] <= box[1] and box[2] <= frame[2] and box[3] <= frame[3]
+
+
+def _overlap(one: _Box, other: _Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+
+def _angle_between(one: float, other: float) -> float:
+    return abs(math.remainder(one - other, 2.0 * math.pi))

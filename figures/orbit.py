@@ -1,0 +1,89 @@
+"""Path of each journal's centre inside its clearance circle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import page, sampling, scene_facts, smooth
+from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.quantity import scale
+from jointplay.records.run import Floats, Source
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_COLUMNS = 2
+_INTERVALS = 6
+"""Of the axes of a panel as wide as the page, so that their numbers stand apart."""
+_PANEL_HEIGHT = 47.0  # mm
+_WIDE_PANEL_HEIGHT = 78.0
+
+
+def _names(joint: str) -> tuple[str, str]:
+    return f"{joint}.eccentricity_x", f"{joint}.eccentricity_y"
+
+
+def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
+    joints = scene_facts.chosen_joints(source, selection)
+    rates = [rate for joint in joints for rate in smooth.stored_rates(source, _names(joint))]
+    names = [name for joint in joints for name in _names(joint)]
+    return scene_facts.stored(source, [*rates, *names])
+
+
+def _draw(source: Source, selection: Selection) -> Figure:
+    joints = scene_facts.chosen_joints(source, selection)
+    columns = min(_COLUMNS, len(joints))
+    rows = -(-len(joints) // columns)
+    height = _WIDE_PANEL_HEIGHT if columns == 1 else _PANEL_HEIGHT
+    figure, grid = page.panels(rows, columns, height * rows + page.LEGEND_HEIGHT)
+    metres = scale("m", np.array(list(joints.values())))
+    panels = [axes for row in grid for axes in row]
+    for axes, (joint, clearance) in zip(panels, joints.items(), strict=False):
+        time, path = smooth.path(source, joint, _names(joint), selection)
+        x, y = (path[name] / metres.factor for name in _names(joint))
+        beginning = sampling.beginning(source, time, selection)
+        _orbit(axes, x, y, clearance / metres.factor, beginning)
+        axes.locator_params(nbins=_INTERVALS // columns)
+        axes.set_xlabel(metres.label("eccentricity x"))
+        page.corner_text(axes, f"joint {joint}, c = {clearance / metres.factor:.4g} {metres.unit}")
+    for row in grid:
+        row[0].set_ylabel(metres.label("eccentricity y"))
+    for axes in panels[len(joints) :]:
+        axes.remove()
+    page.legend(figure, panels[0])
+    return figure
+
+
+def _orbit(axes: Axes, x: Floats, y: Floats, radius: float, beginning: str) -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 241)
+    axes.plot(
+        x,
+        y,
+        color=page.BLUE,
+        linewidth=0.4,
+        rasterized=len(x) > page.MOST_VECTOR_POINTS,
+        label=f"journal centre{beginning}",
+    )
+    axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=2.5, label="first sample")
+    axes.plot(
+        radius * np.cos(angle),
+        radius * np.sin(angle),
+        color=page.BLACK,
+        linewidth=0.6,
+        linestyle=(0, (4, 3)),
+        label="clearance circle",
+    )
+    reach = 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0)))
+    axes.set_aspect("equal")
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+
+
+ORBIT = RunFigure(
+    name="orbit",
+    title="Path of each journal's centre inside its clearance circle",
+    uses=("joints", "start", "stop"),
+    channels=_channels,
+    draw=_draw,
+)

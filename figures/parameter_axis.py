@@ -1,0 +1,155 @@
+"""The axis of a study's parameter: scale, what is not finished, what failed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import page
+from jointplay.figures.quantity import Scale, scale
+from jointplay.records.run import Floats
+from jointplay.records.study import FAILED, RUNNING, WAITING, StudySource
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+
+_LOGARITHMIC = 20.0
+"""Values that span such a ratio, spaced more evenly by ratio, have a logarithmic axis."""
+
+
+@dataclass(frozen=True)
+class ParameterAxis:
+    """Values of one parameter along an axis.
+
+    Parameters
+    ----------
+    name
+        Of the parameter.
+    scale
+        How the axis shows them.
+    shown
+        (points,) values as they are shown.
+    status
+        (points,) codes of the points.
+    logarithmic
+        Whether the values are spaced by ratio.
+    """
+
+    name: str
+    scale: Scale
+    shown: Floats
+    status: NDArray[np.uint8]
+    logarithmic: bool
+
+    @classmethod
+    def of(cls, source: StudySource, column: int, points: slice) -> ParameterAxis:
+        """Make the axis of a study's parameter over some of its points."""
+        values = source.values[points, column]
+        parameter = source.parameters[column]
+        chosen = scale(parameter.unit, values)
+        return cls(
+            parameter.name,
+            chosen,
+            values / chosen.factor,
+            source.status[points],
+            _spaced_by_ratio(np.unique(values)),
+        )
+
+    @property
+    def label(self) -> str:
+        """Name and unit."""
+        return self.scale.label(self.name)
+
+    def dress(self, axes: Axes, intervals: int = 8) -> None:
+        """Give the axes of a panel their ends, shade unfinished ranges and mark failed values."""
+        if self.logarithmic:
+            axes.set_xscale("log")
+        self.ticks(axes.xaxis, intervals)
+        edges, _ = self.cells()
+        axes.set_xlim(float(edges[0]), float(edges[-1]))
+        for low, high in self.unfinished():
+            axes.axvspan(low, high, color=page.SHADE, linewidth=0.0, zorder=0.5)
+        failed = self.shown[self.status == FAILED]
+        if len(failed):
+            axes.plot(
+                failed,
+                np.zeros(len(failed)),
+                "x",
+                transform=axes.get_xaxis_transform(),
+                clip_on=False,
+                color=page.BLACK,
+                markersize=3.0,
+                markeredgewidth=0.7,
+                zorder=3.0,
+            )
+
+    def ticks(self, axis: Axis, intervals: int) -> None:
+        """Give an axis of this one's scale numbers that stand apart."""
+        from matplotlib.ticker import (
+            FixedLocator,
+            LogLocator,
+            MaxNLocator,
+            NullFormatter,
+            StrMethodFormatter,
+        )
+
+        _, values = self.cells()
+        if len(values) <= intervals:
+            axis.set_major_locator(FixedLocator(values.tolist()))
+            axis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
+            axis.set_minor_locator(FixedLocator([]))
+            return
+        if not self.logarithmic:
+            axis.set_major_locator(MaxNLocator(intervals, steps=[1, 2, 2.5, 5, 10]))
+            return
+        decades = float(np.log10(values[-1] / values[0]))
+        axis.set_major_locator(LogLocator(10.0, subs=(1.0,) if decades > 2.0 else (1.0, 2.0, 5.0)))
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))  # no powers as mathematics
+        axis.set_minor_formatter(NullFormatter())
+
+    def legend(self) -> dict[str, tuple[str, str]]:
+        """Explain the signs that `dress` draws: marker and colour by label."""
+        entries = {}
+        if (self.status == FAILED).any():
+            entries["failed"] = ("x", page.BLACK)
+        if self.unfinished():
+            entries["not finished"] = ("s", page.SHADE)
+        return entries
+
+    def cells(self) -> tuple[Floats, Floats]:
+        """Give the n + 1 edges half way between the n different values, and these."""
+        values = np.unique(self.shown)
+        if self.logarithmic:
+            return np.exp(_edges(np.log(values))), values
+        return _edges(values), values
+
+    def unfinished(self) -> list[tuple[float, float]]:
+        """Give the ranges in which values wait or are being computed."""
+        edges, values = self.cells()
+        open_ones = np.isin(self.status, (WAITING, RUNNING))
+        is_open = np.zeros(len(values), dtype=bool)
+        is_open[np.searchsorted(np.unique(self.shown), self.shown[open_ones])] = True
+        changes = np.flatnonzero(np.diff(np.concatenate([[False], is_open, [False]])))
+        pairs = zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True)
+        return [(float(edges[begin]), float(edges[end])) for begin, end in pairs]
+
+
+def _edges(values: Floats) -> Floats:
+    """Give n + 1 edges half way between n ascending values."""
+    if len(values) == 1:
+        reach = 0.5 * abs(float(values[0])) or 0.5
+        return np.array([values[0] - reach, values[0] + reach])
+    middle = (values[1:] + values[:-1]) / 2.0
+    first, last = 2.0 * values[0] - middle[0], 2.0 * values[-1] - middle[-1]
+    return np.concatenate([[first], middle, [last]])
+
+
+def _spaced_by_ratio(values: Floats) -> bool:
+    """Tell whether ascending values are spaced more evenly by ratio than by difference."""
+    if len(values) < 3 or values[0] <= 0.0 or values[-1] < _LOGARITHMIC * values[0]:
+        return False
+    steps, ratios = np.diff(values), np.diff(np.log(values))
+    return bool(np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))

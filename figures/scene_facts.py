@@ -1,0 +1,75 @@
+"""What figures need to know of the scene: declared outputs and clearance joints.
+
+Names come from the scene document alone; no mechanism is known here.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection
+from jointplay.records.run import ChannelLike, Source
+
+
+def outputs(source: Source) -> tuple[str, ...]:
+    """Name the declared outputs that were stored, in the order of the scene."""
+    stored = {channel.name for channel in source.channels}
+    declared = [output["name"] for output in scene(source).get("outputs", ())]
+    return tuple(name for name in declared if name in stored)
+
+
+def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
+    """Give the radial clearance [m] of every joint that has one above zero."""
+    found: dict[str, float] = {}
+    for name, joint in scene_document.get("joints", {}).items():
+        clearance = joint.get("clearance")
+        if clearance and clearance["radial_clearance"] > 0.0:
+            found[name] = float(clearance["radial_clearance"])
+    return found
+
+
+def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
+    """Give the clearance joints to draw with their radial clearance [m].
+
+    Raises
+    ------
+    NotDrawable
+        There is none, or one was asked for that has no clearance.
+    """
+    known = clearances(scene(source))
+    if not known:
+        raise NotDrawable("This figure needs a joint with clearance, and the scene has none.")
+    for name in selection.joints:
+        if name not in known:
+            raise NotDrawable(
+                f"No joint {name!r} has clearance; those that do are {', '.join(known)}.", "joints"
+            )
+    return {name: known[name] for name in selection.joints or known}
+
+
+def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the names if all of them were stored.
+
+    Raises
+    ------
+    NotDrawable
+        Some were not; the sentence names them.
+    """
+    known = {channel.name for channel in source.channels}
+    if missing := [name for name in names if name not in known]:
+        raise NotDrawable(
+            f"The results do not hold {', '.join(missing)}, which this figure is drawn from; "
+            "choose these channels when the job is submitted."
+        )
+    return tuple(names)
+
+
+def channel(source: Source, name: str) -> ChannelLike:
+    """Give unit and meaning of a stored channel."""
+    return next(channel for channel in source.channels if channel.name == name)
+
+
+def scene(source: Source) -> Mapping[str, Any]:
+    """Give the scene document; empty where the results carry none."""
+    found: Mapping[str, Any] = source.attributes.get("scene") or {}
+    return found

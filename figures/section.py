@@ -1,0 +1,114 @@
+"""Poincare sections of a study's points: a position against its rate, one mark a section."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import marks, page, study_facts
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.quantity import scale
+from jointplay.records.study import StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_PANELS = 8
+_COLUMNS = 2
+_INTERVALS = 8
+"""Of the axis of a panel as wide as the page, so that its numbers stand apart."""
+_PANEL_HEIGHT = 40.0  # mm
+_SINGLE_HEIGHT = 65.0
+
+
+def _pairs(source: StudySource, selection: Selection) -> list[tuple[str, str]]:
+    if not source.observables:
+        raise NotDrawable("Sections are drawn of a job that records them, not of a sweep.")
+    points = study_facts.chosen_points(source, selection)
+    if source.parameters and points.stop - points.start > 1:
+        raise NotDrawable(
+            "Choose one point of the study: its sections differ from those of the others.", "first"
+        )
+    names = study_facts.chosen_observables(source, selection)
+    if selection.joints and names:
+        raise NotDrawable("Choose joints or channels, not both.", "joints")
+    if names:
+        if len(names) != 2:
+            raise NotDrawable("A section is drawn of two channels, across and up.", "channels")
+        return [(names[0], names[1])]
+    pairs = study_facts.observed_pairs(source)
+    for joint in selection.joints:
+        if not any(position.startswith(f"{joint}.eccentricity_") for position, _ in pairs):
+            raise NotDrawable(f"No eccentricity of a joint {joint!r} was observed.", "joints")
+    if selection.joints:
+        pairs = [pair for pair in pairs if pair[0].rpartition(".")[0] in selection.joints]
+    of_joints = [pair for pair in pairs if ".eccentricity_" in pair[0]]
+    if not pairs:
+        raise NotDrawable("No position was observed with its rate; choose two channels.")
+    return (of_joints or pairs)[:_MOST_PANELS]
+
+
+def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    return tuple(name for pair in _pairs(source, selection) for name in pair)
+
+
+def _draw(source: StudySource, selection: Selection) -> Figure:
+    pairs = _pairs(source, selection)
+    points = study_facts.chosen_points(source, selection)
+    if not source.counts[points].any():
+        raise NotDrawable("No section was recorded there yet.", "first")
+    everything = study_facts.Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
+    verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
+    columns = min(_COLUMNS, len(pairs))
+    rows = -(-len(pairs) // columns)
+    height = _SINGLE_HEIGHT if columns == 1 else _PANEL_HEIGHT * rows
+    figure, grid = page.panels(rows, columns, height + (page.LEGEND_HEIGHT if verdicts else 0.0))
+    panels = [axes for row in grid for axes in row]
+    for axes, pair in zip(panels, pairs, strict=False):
+        _scatter(axes, source, pair, points, verdicts or [everything])
+        axes.locator_params(axis="x", nbins=_INTERVALS // columns)
+    for axes in panels[len(pairs) :]:
+        axes.remove()
+    figure.align_ylabels()
+    if verdicts:
+        page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
+    return figure
+
+
+def _scatter(
+    axes: Axes,
+    source: StudySource,
+    pair: tuple[str, str],
+    points: slice,
+    groups: list[study_facts.Group],
+) -> None:
+    values = [marks.sections(source, name, points) for name in pair]
+    across, up = (
+        scale(study_facts.described(source.observables, name).unit, one)
+        for name, one in zip(pair, values, strict=True)
+    )
+    size = marks.size(values[0].size)
+    for group in groups:
+        x, y = (one[group.members[points]].ravel() for one in values)
+        marks.draw_cloud(axes, x / across.factor, y / up.factor, group.colour, size)
+    axes.set_xlabel(across.label(_short(pair[0])))
+    axes.set_ylabel(up.label(_short(pair[1])))
+    owners = {name.rpartition(".")[0] for name in pair}
+    if len(owners) == 1:
+        page.corner_text(axes, owners.pop())
+
+
+def _short(name: str) -> str:
+    """Give the quantity of a channel as words; the panel says whose it is."""
+    return name.rpartition(".")[2].replace("_", " ")
+
+
+SECTION = StudyFigure(
+    name="section",
+    title="Poincaré sections: positions against their rates",
+    uses=("channels", "joints", "first", "last"),
+    channels=_channels,
+    draw=_draw,
+)

@@ -1,0 +1,143 @@
+"""Power spectra of channels: lines where the motion is regular, a continuum where it is chaotic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.quantity import per_hertz, power_of_ten
+from jointplay.figures.time_history import declared
+from jointplay.records.run import Floats, Source
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_FEWEST_SAMPLES: Final = 32
+_MOST_SAMPLES: Final = 2**20
+"""Of a longer window its end, where transients are over."""
+_PERIODS: Final = 8
+"""Of the drivers in one segment: their lines stand four steps of resolution clear of each other."""
+_MOST_SEGMENTS: Final = 15
+_DECADES: Final = 12
+"""Shown below the strongest power: what lies deeper is rounding."""
+_COLUMNS: Final = 1000
+"""Of the page, on a logarithmic axis: each shows the largest and the smallest power in it."""
+_NOTHING: Final = "fewer than 32 samples, or no change"
+_PANEL_HEIGHT, _AXIS_HEIGHT = 34.0, 8.0  # mm
+
+
+def _draw(source: Source, selection: Selection) -> Figure:
+    names = declared(source, selection)
+    drive = _driving_frequency(source)
+    spectra = [_spectrum(*_samples(source, name, selection), drive) for name in names]
+    marked = any(len(one) and one[0] <= drive <= one[-1] for one, _ in spectra)
+    height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + page.LEGEND_HEIGHT * marked
+    figure, grid = page.panels(len(names), 1, height, share_x=True)
+    for (axes,), name, (frequency, power) in zip(grid, names, spectra, strict=True):
+        unit = scene_facts.channel(source, name).unit
+        axes.set_ylabel(f"{name}\n[{per_hertz(unit)}]")
+        if not len(frequency):
+            axes.text(0.5, 0.5, _NOTHING, transform=axes.transAxes, ha="center", va="center")
+            axes.set_yticks([])
+            continue
+        axes.loglog(*_thinned(frequency, power), color=page.BLUE, linewidth=0.6)
+        top = float(power.max())
+        axes.set_ylim(max(top * 10.0**-_DECADES, float(power.min()) / 3.0), 3.0 * top)
+        axes.set_xlim(frequency[0], frequency[-1])
+        if marked:
+            _mark(axes, drive)
+        _ticks(axes)
+    grid[-1][0].set_xlabel("frequency [Hz]")
+    figure.align_ylabels()
+    if marked:
+        page.legend(figure, next(axes for (axes,) in grid if axes.lines))
+    return figure
+
+
+def _mark(axes: Axes, drive: float) -> None:
+    axes.axvline(
+        drive,
+        color=page.VERMILION,
+        linewidth=0.7,
+        linestyle=(0, (4, 3)),
+        zorder=1.5,
+        label="once a period of the drivers",
+    )
+
+
+def _driving_frequency(source: Source) -> float:
+    period = source.attributes.get("period") or 0.0
+    return 1.0 / period if period > 0.0 else 0.0
+
+
+def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float]:
+    """Give (n,) values that are equally far apart, and how far [s]."""
+    first, last = sampling.window(source, selection)
+    parts = list(source.blocks([name], max(first, last - _MOST_SAMPLES), last))
+    time = np.concatenate([time for time, _ in parts])
+    values = np.concatenate([columns[name] for _, columns in parts])
+    missing = np.flatnonzero(~np.isfinite(values))
+    known = int(missing[0]) if len(missing) else len(values)
+    if known > 2 and time[known - 1] - time[known - 2] < 0.99 * (time[1] - time[0]):
+        known -= 1  # the end of the run, between two output steps
+    step = float(time[known - 1] - time[0]) / (known - 1) if known > 1 else 0.0
+    return values[:known], step
+
+
+def _spectrum(values: Floats, step: float, drive: float) -> tuple[Floats, Floats]:
+    """Give (m,) frequencies above zero [Hz] and power spectral density [unit^2/Hz].
+
+    Welch's average over half-overlapping Hann windows, as many as leave `_PERIODS` of the drivers
+    in each; its sum over frequency is the variance. m = 0 where there is nothing to be seen.
+    Importing SciPy's takes longer than drawing the figure.
+    """
+    if len(values) < _FEWEST_SAMPLES or np.ptp(values) == 0.0:
+        return np.empty(0), np.empty(0)
+    apart = drive * step * len(values) / _PERIODS  # without drivers 0: one window, sharp lines
+    segments = int(np.clip(2.0 * apart - 1.0, 1, min(_MOST_SEGMENTS, len(values) // 16)))
+    length = 2 * len(values) // (segments + 1)
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
+    pieces = np.lib.stride_tricks.sliding_window_view(values, length)[:: length - length // 2]
+    parts = np.fft.rfft(window * (pieces - pieces.mean(axis=1, keepdims=True)))
+    power = (np.abs(parts) ** 2).mean(axis=0) * (2.0 * step / float((window**2).sum()))
+    if length % 2 == 0:
+        power[-1] *= 0.5  # half the sampling frequency has no twin below zero
+    frequency = np.fft.rfftfreq(length, step)
+    return np.asarray(frequency[1:], np.float64), np.asarray(power[1:], np.float64)
+
+
+def _thinned(frequency: Floats, power: Floats) -> tuple[Floats, Floats]:
+    """Keep the largest and the smallest power of each column of the page."""
+    column = np.floor(_COLUMNS * np.log(frequency / frequency[0]) / np.log(len(frequency)))
+    starts = np.flatnonzero(np.diff(column, prepend=-1.0))
+    if 2 * len(starts) >= len(frequency):
+        return frequency, power
+    extremes = [np.minimum.reduceat(power, starts), np.maximum.reduceat(power, starts)]
+    return np.repeat(frequency[starts], 2), np.column_stack(extremes).ravel()
+
+
+def _ticks(axes: Axes) -> None:
+    """Write powers of ten without mathematics, which names of channels switch off."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, StrMethodFormatter
+
+    def power(value: float, position: Any) -> str:
+        return power_of_ten(round(np.log10(value)))
+
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.yaxis.set_major_locator(LogLocator(10.0, numticks=6))
+    axes.yaxis.set_major_formatter(FuncFormatter(power))
+    axes.yaxis.set_minor_locator(LogLocator(10.0, subs=(1.0,), numticks=99))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+SPECTRUM = RunFigure(
+    name="spectrum",
+    title="Power spectra of the scene's declared outputs, or of chosen channels",
+    uses=("channels", "start", "stop"),
+    channels=lambda source, selection: declared(source, selection),
+    draw=_draw,
+)

@@ -1,0 +1,145 @@
+"""What figures need to know of a study: its observables in pairs, its directions, its verdicts."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jointplay.figures import page
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection
+from jointplay.records.channel_choice import NoSuchChannel, no_such_channel
+from jointplay.records.run import ChannelLike
+from jointplay.records.run_in_memory import Channel
+from jointplay.records.study import StudySource
+from numpy.typing import NDArray
+
+_RATES = (
+    ("eccentricity_x", "eccentricity_rate_x"),
+    ("eccentricity_y", "eccentricity_rate_y"),
+    ("x", "vx"),
+    ("y", "vy"),
+    ("theta", "omega"),
+)
+COLOURS = {
+    "periodic": page.BLUE,
+    "quasi-periodic": page.GREEN,
+    "chaotic": page.VERMILION,
+    "undecided": page.GREY,
+}
+"""By verdict, in the order of legends."""
+UNJUDGED = page.BLACK
+
+
+@dataclass(frozen=True)
+class Group:
+    """Points that are drawn alike: name for the legend, colour, and (points,) which they are."""
+
+    name: str
+    colour: str
+    members: NDArray[np.bool_]
+
+
+def observed_pairs(source: StudySource) -> list[tuple[str, str]]:
+    """Give (position, rate) for every observable whose rate was observed too.
+
+    Those of joints come first: where joints have play, that is what a study looks at.
+    """
+    names = [observable.name for observable in source.observables]
+    found = []
+    for position, rate in _RATES:
+        for name in names:
+            owner, _, quantity = name.rpartition(".")
+            if quantity == position and f"{owner}.{rate}" in names:
+                found.append((name, f"{owner}.{rate}"))
+    found.sort(key=lambda pair: (".eccentricity_" not in pair[0], names.index(pair[0])))
+    return found
+
+
+def chosen_observables(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    """Give the observables that were asked for; none if none were.
+
+    Raises
+    ------
+    NotDrawable
+        One is none of the study's; the sentence names near ones.
+    """
+    return _checked(selection.channels, source.observables)
+
+
+def statistics(source: StudySource) -> tuple[ChannelLike, ...]:
+    """Give the statistics of channels and joints whose meaning the study tells."""
+    meanings = source.attributes.get("meanings", {})
+    return tuple(Channel(name, *meanings[name]) for name in source.statistics if name in meanings)
+
+
+def chosen_over_points(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    """Give the channels with extremes, or the statistics, that were asked for; none if none were.
+
+    Raises
+    ------
+    NotDrawable
+        One is none of the study's; the sentence names near ones.
+    """
+    return _checked(selection.channels, (*source.channels, *statistics(source)))
+
+
+def chosen_points(source: StudySource, selection: Selection) -> slice:
+    """Give the points to draw.
+
+    Raises
+    ------
+    NotDrawable
+        There are none in this range.
+    """
+    first = 0 if selection.first is None else selection.first
+    last = source.points - 1 if selection.last is None else selection.last
+    if not 0 <= first <= last < source.points:
+        raise NotDrawable(
+            f"The study has points 0 to {source.points - 1}; choose a range of them, not "
+            f"{first} to {last}.",
+            "last" if selection.first is None or first < source.points else "first",
+        )
+    return slice(first, last + 1)
+
+
+def directions(source: StudySource) -> tuple[Group, ...]:
+    """Give forward and backward points of a continuation in both directions, else nothing."""
+    if source.attributes["job"].get("continuation") != "both":
+        return ()
+    forward = np.arange(source.points) < source.points // 2
+    return (
+        Group("forward", page.BLUE, forward),
+        Group("backward", page.VERMILION, ~forward),
+    )
+
+
+def by_verdict(source: StudySource) -> tuple[Group, ...]:
+    """Give the points of every verdict that occurs, and those without one; nothing if none has."""
+    codes = source.verdicts
+    if codes is None or not (codes >= 0).any():
+        return ()
+    names = list(source.verdict_names)
+    groups = [
+        Group(name, COLOURS.get(name, UNJUDGED), codes == names.index(name))
+        for name in sorted(names, key=_as_listed)
+    ]
+    groups.append(Group("no verdict", UNJUDGED, (codes < 0) & (source.counts > 0)))
+    return tuple(group for group in groups if group.members.any())
+
+
+def described(channels: Sequence[ChannelLike], name: str) -> ChannelLike:
+    """Give unit and meaning of a channel."""
+    return next(channel for channel in channels if channel.name == name)
+
+
+def _checked(names: tuple[str, ...], channels: Sequence[ChannelLike]) -> tuple[str, ...]:
+    known = [channel.name for channel in channels]
+    if unknown := [name for name in names if name not in known]:
+        error: NoSuchChannel = no_such_channel(unknown, known)
+        raise NotDrawable(str(error), "channels")
+    return names
+
+
+def _as_listed(verdict: str) -> int:
+    listed = list(COLOURS)
+    return listed.index(verdict) if verdict in listed else len(listed)

@@ -1,0 +1,204 @@
+"""Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import page, study_facts
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.parameter_axis import ParameterAxis
+from jointplay.figures.quantity import Scale, scale
+from jointplay.records.run import Floats
+from jointplay.records.study import FAILED, StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_CURVES = 8
+_MOST_MAPS = 6
+_FIRST_PANELS = 4
+"""Of the channels, when none are chosen."""
+_PANEL_HEIGHT = 30.0  # mm
+_SINGLE_HEIGHT = 50.0
+_MAP_HEIGHT = 46.0
+_AXIS_HEIGHT = 8.0
+_MOST_NUMBERS = 60
+"""Marks are drawn at the values of a curve if there are no more."""
+
+
+def _varying(source: StudySource, points: slice) -> list[int]:
+    """Give the columns of the parameters that differ among the points."""
+    values = source.values[points]
+    columns = range(values.shape[1])
+    return [column for column in columns if len(np.unique(values[:, column])) > 1] or [0]
+
+
+def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if not (source.channels and source.parameters):
+        raise NotDrawable("A sweep's figure needs parameters and channels with kept extremes.")
+    points = study_facts.chosen_points(source, selection)
+    varying = _varying(source, points)
+    if len(varying) > 2:
+        parameters = ", ".join(source.parameters[column].name for column in varying)
+        raise NotDrawable(
+            f"{parameters} vary; a picture shows one or two parameters. Choose a range of points "
+            "in which no more vary, or export the table.",
+            "first",
+        )
+    most = _MOST_CURVES if len(varying) == 1 else _MOST_MAPS
+    names = study_facts.chosen_over_points(source, selection)
+    statistics = {one.name for one in study_facts.statistics(source)}
+    if 0 < len(statistics.intersection(names)) < len(names):
+        raise NotDrawable("One figure shows extremes or statistics; choose either.", "channels")
+    if len(names) > most:
+        raise NotDrawable(
+            f"One figure shows at most {most} channels, not {len(names)}; choose fewer.", "channels"
+        )
+    return names or _first(source)
+
+
+def _first(source: StudySource) -> tuple[str, ...]:
+    """Give the channels that are looked at first: declared outputs, contact forces, the rest."""
+    outputs = [output["name"] for output in source.attributes["scene"].get("outputs", ())]
+    names = sorted(
+        (one.name for one in source.channels),
+        key=lambda name: (name not in outputs, not name.endswith(".normal_force")),
+    )
+    return tuple(names[:_FIRST_PANELS])
+
+
+def _draw(source: StudySource, selection: Selection) -> Figure:
+    names = _chosen(source, selection)
+    points = study_facts.chosen_points(source, selection)
+    varying = _varying(source, points)
+    axes = [ParameterAxis.of(source, column, points) for column in varying]
+    if len(axes) == 1:
+        return _curves(source, names, points, axes[0])
+    return _maps(source, names, points, axes[0], axes[1])
+
+
+@dataclass(frozen=True)
+class _Row:
+    """What one row of panels shows: both extremes of a channel, or one statistic."""
+
+    panels: dict[str, Floats]
+    """By what it is of the channel; "" is a statistic."""
+    shown: Scale
+    label: str
+
+    @classmethod
+    def of(cls, source: StudySource, name: str, points: slice) -> _Row:
+        statistics = study_facts.statistics(source)
+        if any(one.name == name for one in statistics):
+            values = source.statistics[name][points]
+            shown = scale(study_facts.described(statistics, name).unit, values)
+            owner, _, statistic = name.rpartition(".")
+            return cls({"": values}, shown, f"{owner}\n{shown.label(statistic)}")
+        peaks = source.peaks(name)
+        panels = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
+        shown = scale(study_facts.described(source.channels, name).unit, *panels.values())
+        return cls(panels, shown, shown.label(name))
+
+
+def _curves(
+    source: StudySource, names: tuple[str, ...], points: slice, parameter: ParameterAxis
+) -> Figure:
+    """Draw what each row shows over the parameter, side by side."""
+    rows = [_Row.of(source, name, points) for name in names]
+    entries = parameter.legend()
+    height = _SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT * len(names)
+    height += _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
+    figure, grid = page.panels(len(names), len(rows[0].panels), height, share_x=True)
+    order = np.argsort(parameter.shown, kind="stable")
+    for panels, row in zip(grid, rows, strict=True):
+        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
+            axes.plot(
+                parameter.shown[order],
+                values[order] / row.shown.factor,
+                color=page.BLUE,
+                marker="o" if len(order) <= _MOST_NUMBERS else "",
+                markersize=1.6,
+                linewidth=0.7,
+            )
+            axes.locator_params(axis="y", nbins=5)
+            parameter.dress(axes, intervals=4)
+            if panels is grid[0]:
+                page.corner_text(axes, which)
+        panels[0].set_ylabel(page.in_two_lines(row.label))
+    for axes in grid[-1]:
+        axes.set_xlabel(parameter.label)
+    figure.align_ylabels()
+    if entries:
+        page.legend_of_marks(figure, entries)
+    return figure
+
+
+def _maps(
+    source: StudySource,
+    names: tuple[str, ...],
+    points: slice,
+    across: ParameterAxis,
+    up: ParameterAxis,
+) -> Figure:
+    """Draw what each row shows over two parameters, in colours."""
+    rows = [_Row.of(source, name, points) for name in names]
+    entries = across.legend()
+    height = _MAP_HEIGHT * len(names) + _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
+    columns = len(rows[0].panels)
+    figure, grid = page.panels(len(names), columns, height, share_x=True, share_y=True)
+    for panels, row in zip(grid, rows, strict=True):
+        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
+            label = page.in_two_lines(f"{which} {row.label}".strip())
+            _map(figure, axes, values / row.shown.factor, label, across, up)
+        panels[0].set_ylabel(up.label)
+    for axes in grid[-1]:
+        axes.set_xlabel(across.label)
+    if entries:
+        page.legend_of_marks(figure, entries)
+    return figure
+
+
+def _map(
+    figure: Figure,
+    axes: Axes,
+    values: Floats,
+    label: str,
+    across: ParameterAxis,
+    up: ParameterAxis,
+) -> None:
+    """Draw a cell for each pair of values; cells without a result are shaded."""
+    x_edges, x_values = across.cells()
+    y_edges, y_values = up.cells()
+    table = np.full((len(y_values), len(x_values)), np.nan)
+    table[np.searchsorted(y_values, up.shown), np.searchsorted(x_values, across.shown)] = values
+    axes.set_facecolor(page.SHADE)
+    drawn = axes.pcolormesh(
+        x_edges, y_edges, np.ma.masked_invalid(table), cmap="cividis", rasterized=True
+    )
+    failed = across.status == FAILED
+    axes.plot(
+        across.shown[failed], up.shown[failed], "x", color=page.BLACK, markersize=3.0, zorder=3.0
+    )
+    if across.logarithmic:
+        axes.set_xscale("log")
+    if up.logarithmic:
+        axes.set_yscale("log")
+    across.ticks(axes.xaxis, intervals=3)
+    up.ticks(axes.yaxis, intervals=5)
+    axes.tick_params(which="both", direction="out", top=False, right=False)
+    bar = figure.colorbar(drawn, ax=axes, location="top", aspect=25.0)
+    bar.set_label(label)
+    bar.ax.locator_params(nbins=3)
+
+
+SWEEP = StudyFigure(
+    name="sweep",
+    title="Extremes of channels, or statistics, over the parameters",
+    uses=("channels", "first", "last"),
+    channels=_chosen,
+    draw=_draw,
+)

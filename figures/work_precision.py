@@ -1,0 +1,102 @@
+"""What accuracy costs: the error of every method and tolerance over its evaluations."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.figures import page
+from jointplay.figures.errors import NotDrawable
+from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.quantity import power_of_ten
+from jointplay.records.run import Floats
+from jointplay.records.study import StudySource
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_PANEL_HEIGHT = 55.0  # mm
+_LEGEND_COLUMNS = 3  # names of methods are long
+_STYLES = (
+    (page.BLUE, "o", "-"),
+    (page.VERMILION, "s", "--"),
+    (page.GREEN, "^", "-."),
+    (page.BLACK, "D", ":"),
+    (page.GREY, "v", "-"),
+)
+"""Colour, mark and dashes: told apart in grey, too."""
+_MOST_ASTRAY = 0.05
+"""Share of energy astray beyond which methods are refused."""
+
+
+def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
+    if "runs" not in source.attributes:
+        raise NotDrawable("Work and precision are drawn of an accuracy-study.")
+    return ()
+
+
+def _draw(source: StudySource, selection: Selection) -> Figure:
+    runs = source.attributes["runs"]
+    measured = [i for i, run in enumerate(runs) if not run["reference"]]
+    references = len(runs) - len(measured)
+    errors = _column(source, "error")
+    if not np.isfinite(errors[measured]).any():
+        raise NotDrawable("No run has been compared with the reference yet.")
+    admitted = np.array([run["admitted"] for run in runs])
+    cost = _column(source, "evaluations")
+    drawn = {"error": errors, "energy astray / losses": _column(source, "astray")}
+    if not (drawn["energy astray / losses"][measured] > 0.0).any():  # nothing takes any
+        del drawn["energy astray / losses"]
+    height = _PANEL_HEIGHT * len(drawn)
+    figure, grid = page.panels(len(drawn), 1, height, share_x=True)
+    above, last = grid[0][0], grid[-1][0]
+    methods = dict.fromkeys(runs[i]["method"] for i in measured)
+    for name, (colour, mark, dashes) in zip(methods, _STYLES, strict=False):
+        chosen = np.array([i for i in measured if runs[i]["method"] == name])
+        for (axes,), values in zip(grid, drawn.values(), strict=True):
+            shown = chosen[values[chosen] > 0.0]
+            axes.plot(cost[shown], values[shown], color=colour, linestyle=dashes, label=name)
+            for inside, each in ((colour, admitted[shown]), ("white", ~admitted[shown])):
+                axes.plot(
+                    cost[shown][each],
+                    values[shown][each],
+                    color=colour,
+                    linestyle="",
+                    marker=mark,
+                    markerfacecolor=inside,
+                    markeredgewidth=0.6,
+                )
+    for (axes,), label in zip(grid, drawn, strict=True):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_ylabel(label)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(lambda value, _: power_of_ten(round(math.log10(value))))
+            axis.set_minor_formatter(lambda value, _: "")
+    uncertainty = errors[references - 1]
+    if uncertainty > 0.0:
+        low = min(above.get_ylim()[0], uncertainty)
+        above.axhspan(0.1 * low, uncertainty, color=page.SHADE, linewidth=0.0)
+        above.set_ylim(bottom=low)
+    if last is not above:
+        last.axhline(_MOST_ASTRAY, color=page.GREY, linewidth=0.6, linestyle="--")
+    last.set_xlabel("evaluations; what jobs may not ask for is open")
+    figure.align_ylabels()
+    names = above.get_legend_handles_labels()
+    figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
+    return figure
+
+
+def _column(source: StudySource, name: str) -> Floats:
+    """Give (points,) of a number; not a number where no run has it yet."""
+    return source.statistics.get(name, np.full(source.points, np.nan))
+
+
+WORK_PRECISION = StudyFigure(
+    name="work-precision",
+    title="Error, and energy astray, of every method and tolerance over its evaluations",
+    uses=(),
+    channels=_channels,
+    draw=_draw,
+)

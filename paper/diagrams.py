@@ -1,0 +1,107 @@
+"""Bifurcation diagrams in numbers: verdicts, exponents and spread over the printed intervals."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jointplay.paper import cases, reported
+from jointplay.paper.comparison import Cell, Row, small
+from jointplay.paper.motions import UNKNOWN, in_words, mean_exponent, tally
+from jointplay.paper.variants import Variant
+from jointplay.records.run import Floats
+from jointplay.solver.nonlinear.estimate import SIGNIFICANT
+from jointplay.storage.studies import StudyReader
+from numpy.typing import NDArray
+
+_QUANTILES = (0.1, 0.5, 0.9)
+_NEAR = 5
+
+
+def spread(study: StudyReader, joint: str, axes: str) -> Floats:
+    """Return (points,) extent of a joint's sections in units of its clearance, the larger axis."""
+    extents = []
+    for axis in axes:
+        rows = study.sections(f"{joint}.eccentricity_{axis}")
+        known = np.isfinite(rows).any(axis=1)
+        extent = np.full(len(rows), np.nan)
+        extent[known] = np.nanmax(rows[known], axis=1) - np.nanmin(rows[known], axis=1)
+        extents.append(extent)
+    return np.asarray(np.max(extents, axis=0) / _clearances(study, joint), np.float64)
+
+
+def rows(folder: Path, which: int, variants: Sequence[Variant]) -> Iterator[Row]:
+    """Set the diagram's numbers beside the words on each interval."""
+    entry = reported.document()["bifurcation"][which]
+    studies = [StudyReader(folder / cases.diagram(which, variant)) for variant in variants]
+    for words in entry["reported"]:
+        low, high = words["interval"]
+        yield Row(
+            (),
+            f"{low:g} to {high:g} {entry['unit']}",
+            f"{words['joint']}, {' and '.join(words['axes'])}",
+            words["words"],
+            tuple(_cell(study, entry, words) for study in studies),
+            ("system", "window", "tolerance"),
+        )
+
+
+def _cell(study: StudyReader, entry: Mapping[str, Any], words: Mapping[str, Any]) -> Cell:
+    inside = _inside(study, entry["parameter"], words)
+    if not inside.any():
+        return Cell("no value computed")
+    details = [UNKNOWN]
+    if mean_exponent(study, inside) is not None:
+        exponents = study.indicators["lyapunov"][inside]
+        part = exponents > SIGNIFICANT * study.indicators["lyapunov_error"][inside]
+        details = [
+            f"λ {_quantiles(exponents, 0.005)} 1/s",
+            f"neighbours part at {100 * part.mean():.0f} %",
+        ]
+    extent = spread(study, words["joint"], words["axes"])[inside]
+    details.append(f"extent {_quantiles(extent, 0.0005)} c")
+    return Cell(in_words(tally(study, inside)) or "no verdict", tuple(details))
+
+
+def medians(study: StudyReader, setting: str, words: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the medians of extent [clearances] and exponent [1/s] over a printed interval."""
+    inside = _inside(study, setting, words)
+    exponents = study.indicators.get("lyapunov", np.full(study.points, np.nan))[inside]
+    extent = spread(study, words["joint"], words["axes"])[inside]
+    known = exponents[np.isfinite(exponents)]
+    return float(np.median(extent)), float(np.median(known)) if len(known) else float("nan")
+
+
+def largest_rise(study: StudyReader, joint: str) -> tuple[float, float, float]:
+    """Return where a joint's extent rises most: the value [SI], and the extent before and after.
+
+    Before and after are medians over five values of the parameter.
+    """
+    extent = spread(study, joint, "xy")
+    if len(extent) <= 2 * _NEAR:
+        return float("nan"), float("nan"), float("nan")
+    medians = np.median(np.lib.stride_tricks.sliding_window_view(extent, _NEAR), axis=1)
+    before, after = medians[:-_NEAR], medians[_NEAR:]
+    index = int(np.nanargmax(after - before))
+    return float(study.values[index + _NEAR, 0]), float(before[index]), float(after[index])
+
+
+def _inside(study: StudyReader, setting: str, words: Mapping[str, Any]) -> NDArray[np.bool_]:
+    """Return (points,) which lie in a printed interval, both its ends included."""
+    low, high = (reported.si(setting, edge) for edge in words["interval"])
+    values = study.values[:, 0]
+    return np.asarray((values >= low * (1.0 - 1e-9)) & (values <= high * (1.0 + 1e-9)))
+
+
+def _quantiles(values: Floats, bound: float) -> str:
+    low, middle, high = (small(float(one), bound) for one in np.nanquantile(values, _QUANTILES))
+    return f"{middle} ({low} … {high})"
+
+
+def _clearances(study: StudyReader, joint: str) -> Floats:
+    """Return (points,) clearances of a joint [m]."""
+    if study.parameters[0].name == "clearance":
+        return study.values[:, 0]
+    scene = study.attributes["scene"]
+    clearance = scene["joints"][joint]["clearance"]["radial_clearance"]
+    return np.full(study.points, float(clearance))

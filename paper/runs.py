@@ -1,0 +1,89 @@
+"""Computes the jobs of a reproduction, each into a store of its own."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final, cast
+
+from jointplay.paper.cases import Run
+from jointplay.paper.processes import Advance, Call, Processes, Report
+from jointplay.solver.admission import Admission, Study, admit, readmit
+from jointplay.solver.runs.study.run import StudyRun
+from jointplay.worker.execute import execute
+from jointplay.worker.study_block import create_store, run_block, seal_store
+
+_SEALS_FROM: Final = 0.96
+"""Of the progress, computing; the rest makes the stores of studies durable."""
+
+
+class RunFailed(Exception):
+    """A job of the reproduction did not come to its end; the sentence says which and why."""
+
+
+def compute(
+    chosen: Sequence[Run], kernels: Sequence[Run], folder: Path, crew: Processes, report: Report
+) -> None:
+    """Compute runs into stores named for them in a folder.
+
+    What is computed does not depend on the processes.  `kernels` are jobs that need the same
+    kernels: they go first, so that every kernel is compiled once only.
+
+    Raises
+    ------
+    Interrupted
+        By Ctrl-C; what is in the folder is of no use then.
+    RunFailed
+        A simulation failed.  A point of a study may fail: its store says so.
+    OSError
+        The stores cannot be written.
+    """
+    report(0.0, "preparing the kernels")
+    crew.make([Call(_prepare, (run,), 1.0) for run in kernels], lambda fraction, note: None)
+    calls, seals = [], []
+    for run in chosen:
+        store = folder / run.name
+        if run.job["kind"] == "simulate":
+            calls.append(Call(_simulate, (run, store), run.weight, run.name))
+            continue
+        study = cast("Study", admit(run.job))
+        create_store(study, store)
+        seals.append(Call(_seal, (run, store), 1.0))
+        for block, (_, count) in enumerate(study.blocks):
+            weight = run.weight * count / study.points
+            calls.append(Call(_block, (run, block, store), weight, run.name))
+    crew.make(calls, lambda fraction, note: report(_SEALS_FROM * fraction, note))
+    crew.make(seals, lambda fraction, _: report(_share(fraction), "making the results durable"))
+
+
+def _share(fraction: float) -> float:
+    return _SEALS_FROM + (1.0 - _SEALS_FROM) * fraction
+
+
+def _prepare(run: Run, advance: Advance) -> None:
+    """Compile the kernels, or load them."""
+    for _ in StudyRun(cast("Study", admit(run.job)), 0).slices():
+        if not advance(0.0):
+            return
+
+
+def _simulate(run: Run, store: Path, advance: Advance) -> None:
+    admission = cast("Admission", admit(run.job))
+    outcome = execute(
+        admission,
+        store,
+        report=lambda done: "continue" if advance(done.fraction) else "cancel",
+    )
+    if outcome.error is not None:
+        raise RunFailed(f"{run.name}: {outcome.error.detail}")
+
+
+def _block(run: Run, block: int, store: Path, advance: Advance) -> None:
+    run_block(
+        cast("Study", readmit(run.job)),
+        block,
+        store,
+        report=lambda done: "continue" if advance(done.fraction) else "cancel",
+    )
+
+
+def _seal(run: Run, store: Path, advance: Advance) -> None:
+    seal_store(cast("Study", readmit(run.job)), store)

@@ -1,0 +1,1 @@
+"""The vocabulary that every package shares: runs, studies, channels, failures, names."""

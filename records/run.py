@@ -1,0 +1,139 @@
+"""What figures and exports take: named channels over time, wherever they came from."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Columns = tuple[Floats, dict[str, Floats]]
+"""(k,) times [s], and by channel (k,) values in its unit."""
+
+
+class ChannelLike(Protocol):
+    """What a channel says of itself."""
+
+    @property
+    def name(self) -> str:
+        """Name, unique in its source."""
+        ...
+
+    @property
+    def unit(self) -> str:
+        """SI unit, `m/s^2` for example; `1` for a pure number."""
+        ...
+
+    @property
+    def long_name(self) -> str:
+        """A few words of meaning."""
+        ...
+
+
+class PeakLike(Protocol):
+    """Signed extremes of a channel, found between the samples too."""
+
+    @property
+    def minimum(self) -> float:
+        """Smallest value, in the channel's unit."""
+        ...
+
+    @property
+    def minimum_time(self) -> float:
+        """When it was reached [s]."""
+        ...
+
+    @property
+    def maximum(self) -> float:
+        """Largest value, in the channel's unit."""
+        ...
+
+    @property
+    def maximum_time(self) -> float:
+        """When it was reached [s]."""
+        ...
+
+
+class NumbersLike(Protocol):
+    """An array of a certificate."""
+
+    @property
+    def values(self) -> Floats:
+        """Its numbers."""
+        ...
+
+
+class CertificateLike(Protocol):
+    """What is known of the errors of one run: a document, and arrays by name.
+
+    The arrays are those that `records.certificate` names, their columns in the order of channels.
+    """
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """The document: "horizon" and "converged" among others."""
+        ...
+
+    @property
+    def arrays(self) -> Mapping[str, NumbersLike]:
+        """Times, errors, extremes, histograms."""
+        ...
+
+
+class Source(Protocol):
+    """Results of one run; a reader of the results store is one as it is."""
+
+    @property
+    def attributes(self) -> Mapping[str, Any]:
+        """At least "scene", the scene document with its parameters set."""
+        ...
+
+    @property
+    def channels(self) -> Sequence[ChannelLike]:
+        """Channels that were stored."""
+        ...
+
+    @property
+    def joints(self) -> Sequence[str]:
+        """Names that the `joint` of an impact points to."""
+        ...
+
+    @property
+    def complete(self) -> bool:
+        """The run came to its end."""
+        ...
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        ...
+
+    def blocks(
+        self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
+    ) -> Iterator[Columns]:
+        """Give samples `start` to `stop` - 1 in consecutive pieces that fit into memory."""
+        ...
+
+    def between(self, start: float | None, stop: float | None) -> tuple[int, int]:
+        """Find the samples [first, last) of start <= time <= stop [s]; None is unbounded."""
+        ...
+
+    def sections(self, channels: Sequence[str] | None = None) -> Columns:
+        """Give the Poincare sections."""
+        ...
+
+    def peaks(self) -> Mapping[str, PeakLike]:
+        """Give the signed extremes by channel."""
+        ...
+
+    def impacts(self) -> NDArray[Any]:
+        """Give the contacts in order of release: (j,) structured array.
+
+        Fields: joint (index), onset and release [s] (NaN where contact had not ended),
+        approach_rate [m/s], peak_force [N], impulse [N s].
+        """
+        ...
+
+    def certificate(self) -> CertificateLike | None:
+        """Give what is known of the errors; none where nobody asked for it, or not yet."""
+        ...

@@ -1,0 +1,50 @@
+"""The HTTP process, with bounds on what clients may hold."""
+
+import argparse
+import gc
+import socket
+
+import uvicorn
+from fastapi import FastAPI
+
+LONGEST_HEAD = 256 * 1024
+"""Bytes of a request's line and headers: 20 000 characters of a query, each of up to nine bytes."""
+
+
+def main() -> None:
+    """Serve on an address, or on a listening socket inherited from the supervisor."""
+    parser = argparse.ArgumentParser(prog="python -m jointplay.service.processes.api")
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, default=8000)
+    parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
+    arguments = parser.parse_args()
+    configuration = uvicorn.Config(
+        _application,
+        factory=True,
+        host=arguments.host,
+        port=arguments.port,
+        access_log=False,  # clients poll; the log would say little else
+        limit_concurrency=256,
+        timeout_keep_alive=30,
+        timeout_graceful_shutdown=5,
+        h11_max_incomplete_event_size=LONGEST_HEAD,
+    )
+    inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
+    uvicorn.Server(configuration).run(sockets=inherited)
+
+
+def _application() -> FastAPI:
+    """Return the application; looking through what is loaded for garbage would halt all requests.
+
+    That takes a tenth of a second, and finds nothing.
+    """
+    from jointplay.service.app import create_app
+
+    application = create_app()
+    gc.collect()
+    gc.freeze()
+    return application
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Kernels: equations recorded, emitted as compiled code, and the loop that drives them."""

@@ -1,0 +1,83 @@
+"""Where compiled code is kept, and how a generated module is loaded so that Numba finds it there.
+
+Numba keys its cache on a file's own text, so a change in a file that it calls would go unseen:
+the whole cache lives under a digest of all solver sources. Wiping it is always safe.
+"""
+
+from __future__ import annotations
+
+import gc
+import hashlib
+import importlib.util
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import numba
+from jointplay.solver.version import SOLVER_VERSION
+
+
+@cache
+def cache_folder() -> Path:
+    """Return the folder of compiled code of this solver version, made on first use.
+
+    ``JOINTPLAY_CACHE`` chooses its parent; the default is the user's cache folder, or a private
+    temporary one where that cannot be written.
+    """
+    chosen = os.environ.get("JOINTPLAY_CACHE") or os.path.join(
+        os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
+        "jointplay",
+    )
+    digest = SOLVER_VERSION.split("+")[-1]
+    for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
+        folder = parent / f"kernels-{digest}"
+        try:
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        except OSError:
+            continue
+        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]  # numba sets it at import
+        return folder
+    raise OSError("no folder for compiled kernels can be written; set JOINTPLAY_CACHE to one")
+
+
+def load(source: str) -> ModuleType:
+    """Import generated source under the name of its digest; compiled once, then from the cache."""
+    name = f"jointplay_kernel_{hashlib.sha256(source.encode()).hexdigest()[:24]}"
+    if name in sys.modules:
+        return sys.modules[name]
+    path = cache_folder() / f"{name}.py"
+    if not path.exists():
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as partial:
+            partial.write(source)
+        os.replace(partial.name, path)
+    specification = importlib.util.spec_from_file_location(name, path)
+    if specification is None or specification.loader is None:
+        raise ImportError(f"cannot load {path}")
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module  # before it runs, or Numba's cache does not load
+    try:
+        with without_collection():
+            specification.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+@contextmanager
+def without_collection() -> Iterator[None]:
+    """Compile without looking for garbage: nearly all objects live on, and it takes a sixth."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()

@@ -1,0 +1,240 @@
+"""Writes recorded expressions as tapes: straight lines of arithmetic over eight lanes.
+
+What makes them fast was measured: no library call, no branch but selects, and one flat array with
+constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from types import MappingProxyType
+
+from jointplay.records.failure import LimitExceeded
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Expression, too_many
+
+HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
+
+from numba import float64, int64, njit, void
+
+from jointplay.solver.kernels.emit.straight_line import over_lanes, over_one_lane
+from jointplay.solver.kernels.emit.straight_line import over_one_row, over_rows
+
+options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
+'''
+DECORATOR = "@njit(void(float64[::1]), **options)"
+RETURNING = "@njit(float64(float64[::1]), **options)"
+
+TYPES = {"W": "float64[::1]", "S": "float64[::1]", "lane": "int64", "row": "int64"}
+
+LONGEST = 3 * MOST_STATEMENTS
+"""Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
+
+Outputs = Sequence[tuple[str, Expression]]
+"""Slot name and what is to be in it."""
+Known = Mapping[Expression, str]
+"""Expressions that a function called before has left in a slot, given by its name."""
+NONE: Known = MappingProxyType({})
+
+
+class FixedNodes:
+    """Expressions of the scene's numbers alone that kernels load instead of computing."""
+
+    def __init__(self, layout: Layout) -> None:
+        self.layout = layout
+        self.nodes: dict[int, Expression] = {}
+
+    def slot(self, node: Expression) -> str:
+        """Return the name of the slot that holds the node's value, giving it one on first use."""
+        name = f"fixed{node.index}"
+        if name not in self.layout:
+            self.layout.add(name)
+            self.nodes[node.index] = node
+        return name
+
+
+class Tape:
+    """Statements in their order; a value is named by its number, so equal equations look alike.
+
+    Parameters
+    ----------
+    fixed
+        Collects what depends on the scene's numbers alone; None: there is no such expression.
+    known
+        What need not be computed again.
+    fetch
+        How a slot is read, by its name; None: all its lanes.
+    """
+
+    def __init__(
+        self,
+        layout: Layout,
+        fixed: FixedNodes | None = None,
+        known: Known = NONE,
+        fetch: Callable[[str], str] | None = None,
+    ) -> None:
+        self.layout, self.fixed, self.known = layout, fixed, known
+        self.fetch = fetch or (lambda name: f"load {layout[name]}")
+        self.lines: list[str] = []
+        self.values: dict[Expression, str] = {}
+        self.carried: dict[str, str] = {}
+
+    def carry(self, outputs: Outputs) -> None:
+        """Evaluate what later statements shall find in slots, though it is not stored there."""
+        for name, expression in outputs:
+            self.carried[name] = self._evaluate(expression)
+
+    def store(self, outputs: Outputs) -> None:
+        """Evaluate outputs, of what slots hold before any is stored, and store each at once.
+
+        To hold all of them until the last is known would take more registers than there are.
+        """
+        place = {name: i for i, (name, _) in enumerate(outputs)}
+        seen = set(self._found())
+        for i, (_, expression) in enumerate(outputs):
+            for node in reachable([expression], seen):
+                if node.operation == "variable" and place.get(str(node.data), i) < i:
+                    self._evaluate(node)
+                seen.add(node)
+        for name, expression in outputs:
+            value = self._evaluate(expression)
+            self.lines.append(f"store {self.layout[name]} {value}")
+
+    def keep(self, names: Iterable[str]) -> None:
+        """Store what is carried."""
+        self.lines += [f"store {self.layout[name]} {self.carried[name]}" for name in names]
+
+    def give(self, expression: Expression) -> None:
+        """End with the largest of an expression's lanes as the function's value."""
+        self.lines.append(f"return {self._evaluate(expression)}")
+
+    def mark(self, name: str, expression: Expression) -> None:
+        """Note the lanes in which an expression is positive, in the row's byte of a block."""
+        self.lines.append(f"mark {self.layout[name]} {self._evaluate(expression)}")
+
+    def store_rows(self, outputs: Outputs) -> None:
+        """Evaluate outputs, then store them in the row of blocks, given by their first slots."""
+        values = [self._evaluate(expression) for _, expression in outputs]
+        for (name, _), value in zip(outputs, values, strict=True):
+            self.lines.append(f"store {self.layout[name]}+ {value}")
+
+    def function(self, name: str) -> str:
+        """Return the source of a function of W."""
+        value = "float64" if self.lines[-1].startswith("return") else "void"
+        return self._source(name, value, "W", "over_lanes")
+
+    def function_of_one_lane(self, name: str) -> str:
+        """Return the source of a function of W, S and a lane: S is written, from a lane of W."""
+        return self._source(name, "void", "W, S, lane", "over_one_lane")
+
+    def function_of_one_row(self, name: str) -> str:
+        """Return the source of a function of W and a row."""
+        return self._source(name, "void", "W, row", "over_one_row")
+
+    def function_of_rows(self, name: str, rows: int) -> str:
+        """Return the source of a function of W that runs the tape for each row."""
+        return self._source(name, "int64", "W", "over_rows", f", {rows}")
+
+    def _source(
+        self, name: str, value: str, arguments: str, compiler: str, further: str = ""
+    ) -> str:
+        types = ", ".join(TYPES[argument] for argument in arguments.split(", "))
+        lines = [
+            f'{name}_tape = {compiler}("""',
+            *self.lines,
+            f'"""{further})',
+            "",
+            "",
+            f"@njit({value}({types}), **options)",
+            f"def {name}({arguments}):",
+            f"    {'' if value == 'void' else 'return '}{name}_tape({arguments})",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def _found(self) -> AbstractSet[Expression]:
+        return self.known.keys() | self.values.keys()
+
+    def _evaluate(self, expression: Expression) -> str:
+        for node in reachable([expression], self._found()):
+            if node not in self.values:
+                self._state(node)
+        return self._operand(expression)
+
+    def _state(self, node: Expression) -> None:
+        if node in self.known:
+            self._define(node, self.fetch(self.known[node]))
+        elif node.operation == "variable":
+            name = str(node.data)
+            if name in self.carried:
+                self.values[node] = self.carried[name]
+            else:
+                self._define(node, self.fetch(name))
+        elif not node.fixed:
+            arguments = [self._operand(argument) for argument in node.arguments]
+            self._define(node, " ".join([node.operation, *arguments]))
+
+    def _operand(self, node: Expression) -> str:
+        if node.operation == "constant":
+            return repr(node.value)
+        if node not in self.values and self.fixed is not None:
+            self._define(node, self.fetch(self.fixed.slot(node)))
+        return self.values[node]
+
+    def _define(self, node: Expression, text: str) -> None:
+        if len(self.lines) >= LONGEST:
+            raise LimitExceeded([too_many(len(self.lines))])
+        self.values[node] = f"v{len(self.lines)}"
+        self.lines.append(f"{self.values[node]} = {text}")
+
+
+def lane_function(
+    name: str,
+    outputs: Outputs,
+    layout: Layout,
+    fixed: FixedNodes | None = None,
+    known: Known = NONE,
+) -> str:
+    """Return the source of a function W -> W that evaluates `outputs`.
+
+    Raises
+    ------
+    LimitExceeded
+        More statements than can be compiled in reasonable time.
+    """
+    tape = Tape(layout, fixed, known)
+    tape.store(outputs)
+    return tape.function(name)
+
+
+def nothing(name: str) -> str:
+    """Return the source of a function W -> W that does nothing."""
+    return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
+
+
+def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:
+    """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
+
+    So are `known` nodes.
+
+    A fixed node comes where it is first used, so that the order, and with it the source, does not
+    depend on what the scene's numbers are computed from.
+    """
+    wanted = list(outputs)
+    found: dict[int, Expression] = {}
+    waiting = list(wanted)
+    while waiting:
+        node = waiting.pop()
+        if node.index in found:
+            continue
+        found[node.index] = node
+        if not (node.fixed or node in known):
+            waiting.extend(node.arguments)
+    ordered: dict[int, Expression] = {}
+    for node in (found[index] for index in sorted(found) if not found[index].fixed):
+        needed = () if node in known else node.arguments
+        for argument in (*needed, node):
+            ordered.setdefault(argument.index, argument)
+    for node in wanted:
+        ordered.setdefault(node.index, node)
+    return list(ordered.values())

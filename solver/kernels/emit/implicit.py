@@ -1,0 +1,225 @@
+"""Records one step of a Rosenbrock method: a Jacobian, its factors, stages, the ledger.
+
+The Jacobian's columns are derivatives of the recorded equations along one state each. The ledger,
+which nothing feeds back on, is integrated by Lobatto's formula on the dense output.
+"""
+
+from __future__ import annotations
+
+import math
+
+from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.kernels.emit.emit import DECORATOR, FixedNodes, Known, lane_function
+from jointplay.solver.kernels.emit.stepping import SMALLEST_ERROR, StepRecorder
+from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.record.derivative import Derivative
+from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.recorder import Expression
+
+INNER = (0.5 - math.sqrt(0.05), 0.5 + math.sqrt(0.05))
+"""Nodes of Lobatto's formula of order six between the ends of a step."""
+LOBATTO = (1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0)
+
+
+def allocate(layout: Layout, states: int) -> None:
+    """Give slots to the linear equations of a step."""
+    layout.add("direction_time")
+    for name in ("direction", "product", "drift", "right", "pivot"):
+        layout.add_block(name, states)
+    layout.add_block("factor", states * states)
+
+
+class RosenbrockRecorder(StepRecorder):
+    """Records the functions of a Rosenbrock method's step."""
+
+    def __init__(
+        self,
+        method: Rosenbrock,
+        equations: Equations,
+        fixed: FixedNodes,
+        ledger: int,
+        layout: Layout,
+        known: Known,
+    ) -> None:
+        states = 2 * len(equations.coordinates)
+        super().__init__(method, states, ledger, len(equations.play), layout, known)
+        self.method, self.equations, self.fixed = method, equations, fixed
+
+    def _steps(self) -> list[str]:
+        stages = range(1, len(self.method.nodes) + 1)
+        parts = [self._start(), self._product(), self._linear()]
+        parts += [self._point(s) for s in stages if s > 1]
+        parts += [self._right(s) for s in stages]
+        parts += [self._inner(1), self._inner(2), self._finish()]
+        return parts
+
+    def _start(self) -> str:
+        outputs = [("tried", self._tried()), *self._held()]
+        outputs += [(f"stage{i}", self.variable(f"y{i}")) for i in range(self.states)]
+        return self._function("start", [*outputs, ("stage_time", self.variable("time"))])
+
+    def _product(self) -> str:
+        """Write product(W): the derivative of the slopes along the direction."""
+        recorder, count = self.equations.recorder, self.states // 2
+        along = {f"stage{i}": recorder.variable(f"direction{i}") for i in range(self.states)}
+        derivative = Derivative(along | {"stage_time": recorder.variable("direction_time")})
+        outputs = [
+            (f"product{i}", recorder.variable(f"direction{count + i}")) for i in range(count)
+        ]
+        outputs += [
+            (f"product{count + i}", derivative(acceleration))
+            for i, acceleration in enumerate(self.equations.accelerations)
+        ]
+        return lane_function("product", outputs, self.layout, self.fixed)
+
+    def _linear(self) -> str:
+        """Write jacobian(W), which leaves the factors of I - h γ J, and solve(W)."""
+        at = {
+            name: self.layout[f"{name}0"] * LANES
+            for name in ("direction", "product", "drift", "right", "pivot", "factor")
+        }
+        n, time = self.states, self.layout["direction_time"] * LANES
+        tried, row = self.layout["tried"] * LANES, self.states * LANES
+        return f"""{DECORATOR}
+def jacobian(W):
+    for i in range({n * LANES}):
+        W[{at["direction"]} + i] = 0.0
+    for l in range({LANES}):
+        W[{time} + l] = 1.0
+    product(W)
+    for i in range({n * LANES}):
+        W[{at["drift"]} + i] = W[{at["product"]} + i]
+    for l in range({LANES}):
+        W[{time} + l] = 0.0
+    for j in range({n}):
+        for l in range({LANES}):
+            W[{at["direction"]} + j * {LANES} + l] = 1.0
+        product(W)
+        for i in range({n}):
+            one = 1.0 if i == j else 0.0
+            for l in range({LANES}):
+                slope = {self.method.gamma!r} * W[{at["product"]} + i * {LANES} + l]
+                slope *= W[{tried} + l]
+                W[{at["factor"]} + i * {row} + j * {LANES} + l] = one - slope
+        for l in range({LANES}):
+            W[{at["direction"]} + j * {LANES} + l] = 0.0
+    for k in range({n}):
+        top = {at["factor"]} + k * {row}
+        for l in range({LANES}):
+            W[{at["pivot"]} + k * {LANES} + l] = 1.0 / W[top + k * {LANES} + l]
+        for i in range(k + 1, {n}):
+            here = {at["factor"]} + i * {row}
+            for l in range({LANES}):
+                W[here + k * {LANES} + l] *= W[{at["pivot"]} + k * {LANES} + l]
+            for j in range(k + 1, {n}):
+                for l in range({LANES}):
+                    above = W[top + j * {LANES} + l]
+                    W[here + j * {LANES} + l] -= W[here + k * {LANES} + l] * above
+
+
+{DECORATOR}
+def solve(W):
+    for i in range({n}):
+        for k in range(i):
+            for l in range({LANES}):
+                W[{at["right"]} + i * {LANES} + l] -= (
+                    W[{at["factor"]} + i * {row} + k * {LANES} + l]
+                    * W[{at["right"]} + k * {LANES} + l]
+                )
+    for i in range({n} - 1, -1, -1):
+        for k in range(i + 1, {n}):
+            for l in range({LANES}):
+                W[{at["right"]} + i * {LANES} + l] -= (
+                    W[{at["factor"]} + i * {row} + k * {LANES} + l]
+                    * W[{at["right"]} + k * {LANES} + l]
+                )
+        for l in range({LANES}):
+            W[{at["right"]} + i * {LANES} + l] *= W[{at["pivot"]} + i * {LANES} + l]
+"""
+
+    def _moved(self, weights: tuple[float, ...], i: int, newest: int = 0) -> Expression:
+        """State i after h times a weighted sum of stages; the newest is in `right` still."""
+        v = self.variable
+        total: Expression = self.recorder.constant(0.0)
+        for s, weight in enumerate(weights, start=1):
+            total = total + weight * v(f"right{i}" if s == newest else f"k{s + 1}_{i}")
+        return v(f"y{i}") + v("tried") * total
+
+    def _stored(self, s: int) -> list[tuple[str, Expression]]:
+        return [(f"k{s + 1}_{i}", self.variable(f"right{i}")) for i in range(self.states)]
+
+    def _point(self, s: int) -> str:
+        """Go where stage s evaluates the slope; keep the stage before."""
+        v, weights = self.variable, self.method.matrix[s - 1]
+        outputs = [(f"stage{i}", self._moved(weights, i, s - 1)) for i in range(self.states)]
+        outputs.append(("stage_time", v("time") + self.method.nodes[s - 1] * v("tried")))
+        return self._function(f"point_{s}", [*outputs, *self._stored(s - 1)])
+
+    def _right(self, s: int) -> str:
+        """Set the right side of stage s."""
+        v, gamma = self.variable, self.method.gamma
+        outputs: list[tuple[str, Expression]] = []
+        for i in range(self.states):
+            total = v(f"k1_{i}") if s == 1 else self._inner_slope(i)
+            total = total + (self.method.drifts[s - 1] * v("tried")) * v(f"drift{i}")
+            for j, c in enumerate(self.method.couplings[s - 1], start=1):
+                total = total + c * v(f"k{j + 1}_{i}")
+            outputs.append((f"right{i}", gamma * total))
+        return self._function(f"right_{s}", outputs)
+
+    def _inner(self, place: int) -> str:
+        """Go to an inner node of the ledger's formula, and keep the ledger where it was."""
+        v, theta = self.variable, INNER[place - 1]
+        weights = tuple(
+            sum(c * theta ** (k + 1) for k, c in enumerate(row)) for row in self.method.dense[1:]
+        )
+        newest = len(self.method.nodes) if place == 1 else 0
+        outputs = [(f"stage{i}", self._moved(weights, i, newest)) for i in range(self.states)]
+        outputs.append(("stage_time", v("time") + theta * v("tried")))
+        if place == 1:
+            outputs += self._stored(len(self.method.nodes))
+        else:
+            outputs += self._kept_ledger(2)
+        return self._function(f"inner_{place}", outputs)
+
+    def _finish(self) -> str:
+        v = self.variable
+        outputs = [(f"stage{i}", self._moved(self.method.weights, i)) for i in range(self.states)]
+        outputs += [("stage_time", v("time") + v("tried")), ("arrival", v("time") + v("tried"))]
+        return self._function("finish", outputs + self._kept_ledger(3))
+
+    def _slope(self, s: int, i: int) -> str:
+        return f"k{s}_{i}"
+
+    def _inner_slope(self, i: int) -> Expression:
+        """Slope of state i at the point just evaluated: of a coordinate, the speed there."""
+        count = self.states // 2
+        return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
+
+    def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:
+        return [(f"kledger{s}_{i}", self.variable(f"ledger{i}")) for i in range(self.ledger)]
+
+    def _ledger_at(self, s: int, i: int) -> str:
+        return f"ledger{i}" if s == len(LOBATTO) else f"kledger{s}_{i}"
+
+    def _ledger_weights(self) -> tuple[float, ...]:
+        return LOBATTO
+
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
+        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            error: Expression = self.recorder.constant(0.0)
+            for s, weight in enumerate(weights, start=1):
+                error = error + weight * self.variable(f"k{s + 1}_{i}")
+            scaled = error * self._weighed(i)
+            squared = squared + scaled * scaled
+        return squared
+
+    def _calls(self) -> list[str]:
+        place = self.layout["slope0"] - self.layout["k1_0"]
+        calls = ["start(W)", "jacobian(W)", "right_1(W)", "solve(W)"]
+        for s in range(2, len(self.method.nodes) + 1):
+            calls += [f"point_{s}(W)", f"slopes(W, {place})", f"right_{s}(W)", "solve(W)"]
+        for name in ("inner_1", "inner_2", "finish"):
+            calls += [f"{name}(W)", "right_hand_side(W)"]
+        return calls

@@ -1,0 +1,78 @@
+"""What follows from a step: how much the next one grows, and what contacts did in it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from jointplay.solver.kernels.record.coarse_functions import coarse_exp2
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+
+SAFETY = 0.95
+PROPORTIONAL = 0.04
+"""Weight of the previous error in the step controller (Hairer and Wanner 1996, IV.2)."""
+LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
+
+LANDED = 1e-13
+"""Largest penetration, m, at which an onset counts as located."""
+
+REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
+"""What a lane's flag is the sum of."""
+
+
+def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:
+    """Return the factor from a step to the next.
+
+    Parameters
+    ----------
+    order
+        Of the error in the step.
+    good
+        Positive where the step is accepted.
+    magnitude, memory
+        log2 of this step's error and of the last one's, in tolerances.
+    """
+    exponent = 1.0 / order
+    smooth = exponent - 0.75 * PROPORTIONAL
+    onwards = PROPORTIONAL * memory - smooth * magnitude
+    again = -exponent * magnitude
+    factor: Expression = coarse_exp2(math.log2(SAFETY) + select_positive(good, onwards, again))
+    factor = select_positive(good, factor, minimum(factor, 1.0))
+    factor = select_positive(factor - LARGEST_CUT, factor, LARGEST_CUT)
+    limited: Expression = minimum(factor, LARGEST_GROWTH)
+    return limited
+
+
+def contact_flags(
+    v: Callable[[str], Expression], j: int, *, shortened: bool
+) -> tuple[Expression, Expression]:
+    """Flag a gap that closed, or nearly, inside the step; and one in contact that opened.
+
+    Either may be over at the step's end, so both look at the extreme in between; but not where
+    steps are fixed, not `shortened`: there contacts change where a step ends.
+    """
+    gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
+    start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
+    # the extreme of the cubic through both ends, at the zero of the linear rate
+    turn = start_rate / (start_rate - rate + 1e-300)
+    rest = 1.0 - turn
+    extreme = (
+        rest * rest * (1.0 + 2.0 * turn) * start
+        + turn * turn * (3.0 - 2.0 * turn) * gap
+        + turn * rest * v("tried") * (rest * start_rate - turn * rate)
+    )
+    grazing: Expression | float = 0.0
+    dip: Expression | float = 0.0
+    if shortened:
+        near = extreme + 0.1 * abs(extreme - maximum(gap, start))
+        touches = select_positive(near, ONSET, 0.0)
+        grazing = select_positive(start_rate, select_positive(-rate, touches, 0.0), 0.0)
+        away = 0.1 * abs(extreme - minimum(gap, start)) - extreme
+        parts = select_positive(away, RELEASE, 0.0)
+        dip = select_positive(rate, select_positive(-start_rate, parts, 0.0), 0.0)
+    onset = select_positive(gap, ONSET, grazing)
+    opened = select_positive(maximum(-rate, start - LANDED), RELEASE, 0.0)
+    release = select_positive(gap, dip, opened)
+    closed = v(f"mode{j}")
+    return select_positive(closed, 0.0, onset), select_positive(closed, release, 0.0)

@@ -1,0 +1,214 @@
+"""A kernel: a scene's compiled equations, one method's step, and the layout they share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from jointplay.solver.integrators import Method
+from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
+from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
+from jointplay.solver.kernels.emit.lane_functions import FOLD
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import (
+    Equations,
+    record,
+    right_hand_side,
+    slopes,
+    trigonometry,
+)
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.record.rows import Rows, arrange
+from jointplay.solver.kernels.slots import slots_of
+from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
+from numba.core.types.function_type import WrapperAddressProtocol
+from numpy.typing import NDArray
+
+LOSSES = 2
+"""Terms of the ledger before the drivers' works and the joints' impulses."""
+
+
+class CompiledAddress(WrapperAddressProtocol):
+    """A compiled function as kernels take it, its address looked up once, not at every call."""
+
+    def __init__(self, function: Any) -> None:
+        result = next(iter(function.overloads.values()))
+        self._signature = result.signature
+        name = result.fndesc.llvm_cfunc_wrapper_name
+        self._address = int(result.library.get_pointer_to_function(name))
+
+    def __wrapper_address__(self) -> int:
+        return self._address
+
+    def signature(self) -> Any:
+        """Return the function's Numba signature."""
+        return self._signature
+
+
+@dataclass(frozen=True, eq=False)
+class Kernel:
+    """Compiled functions over one work array, and what the slots mean."""
+
+    module: ModuleType
+    layout: Layout
+    slots: NDArray[np.int64]
+    """Indexed by `solver.kernels.slots.Slot`."""
+    coordinates: tuple[str, ...]
+    drivers: tuple[str, ...]
+    play: tuple[str, ...]
+    rows: Rows
+    """What the ``channel`` block holds."""
+    fixed: tuple[tuple[int, Expression], ...]
+    """Slot and expression of what depends on the scene's numbers alone."""
+    equations: Equations
+    tableau: Method
+
+    @property
+    def states(self) -> int:
+        """Coordinates and speeds."""
+        return 2 * len(self.coordinates)
+
+    @cached_property
+    def functions(self) -> tuple[CompiledAddress, ...]:
+        """The compiled functions, in the order that `kernels.loop.advance` takes them."""
+        m = self.module
+        functions = (
+            m.attempt,
+            m.remember,
+            m.take,
+            m.weigh,
+            m.observe,
+            m.scan,
+            m.scan_some,
+            m.states_within,
+            m.gaps_within,
+            m.channels_within,
+            m.channels_around,
+        )
+        return tuple(CompiledAddress(function) for function in functions)
+
+    @cached_property
+    def observing(self) -> tuple[CompiledAddress, ...]:
+        """Those that `solver.kernels.loop.observation.observe_rows` takes."""
+        m = self.module
+        functions = (m.right_hand_side, m.observe, m.observe_rest)
+        return tuple(CompiledAddress(function) for function in functions)
+
+    def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
+        """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
+
+        The scene must have the structure that this kernel was compiled for.
+        """
+        return values_of([node for _, node in self.fixed], scene)
+
+
+def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) -> Kernel:
+    """Record, emit and load the kernel of a scene's structure; seconds when it is not cached.
+
+    Raises
+    ------
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    equations = record(scene, tree, formulation)
+    layout = Layout()
+    states, joints = 2 * len(equations.coordinates), len(equations.play)
+    drivers = len(equations.drivers)
+    ledger = LOSSES + drivers + joints
+    stepping.allocate(layout, states, ledger, joints, tableau.stages)
+    angles = trigonometry(equations)
+    layout.add_block("trigonometry", len(angles))
+    known = {node: f"trigonometry{i}" for i, node in enumerate(angles)}
+    if isinstance(tableau, Rosenbrock):
+        implicit.allocate(layout, states)
+    rows = arrange(scene, equations)
+    scanning.allocate(layout, rows.scanned, len(rows.rest))
+    layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
+    layout.add_block("phase", drivers)
+    layout.add_block("wound", drivers)
+    fixed = FixedNodes(layout)
+    steps = (
+        implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout, known)
+        if isinstance(tableau, Rosenbrock)
+        else stepping.StepRecorder(tableau, states, ledger, joints, layout, known)
+    )
+    observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
+    energies = [
+        ("potential", equations.channels["energy.potential"]),
+        ("stored", equations.channels["stored"]),
+    ]
+    evaluated = right_hand_side(equations) + [(known[node], node) for node in angles]
+    scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
+    source = "\n\n".join(
+        [
+            HEADER,
+            _slope_function(equations, layout, fixed),
+            lane_function("right_hand_side", evaluated, layout, fixed),
+            lane_function("observe", scanned, layout, fixed, known),
+            lane_function("observe_rest", rest, layout, fixed, known),
+            lane_function("weigh", energies, layout, fixed, known),
+            steps.source(energies, fixed),
+            scanning.source(layout, rows.scanned),
+            inside.source(equations, steps.dense(), scanned, layout, fixed),
+        ]
+    )
+    module = load(source)
+    return Kernel(
+        module,
+        layout,
+        slots_of(
+            layout,
+            states=states,
+            ledger=ledger,
+            joints=joints,
+            drivers=drivers,
+            rows=rows.scanned,
+        ),
+        equations.coordinates,
+        equations.drivers,
+        equations.play,
+        rows,
+        tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+        equations,
+        tableau,
+    )
+
+
+def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of slopes(W, row), which writes slopes where a stage's are kept.
+
+    `row` : slots from those of the first stage.
+    """
+    held = equations.recorder.held.values()
+    tape = Tape(layout, fixed, {node: f"inverse_rate{j}" for j, node in enumerate(held)})
+    kept = {"slope": "k1_", "ledger": "kledger1_"}
+    named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
+    tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
+    return tape.function_of_one_row("slopes")
+
+
+def values_of(nodes: Sequence[Expression], scene: Scene) -> NDArray[np.float64]:
+    """Evaluate expressions of a scene's numbers alone."""
+    numbers: dict[str, float] = {}
+    view(scene, lambda path, value: numbers.setdefault(path, value))
+    found: dict[int, float] = {}
+    return np.array([_evaluate(node, numbers, found) for node in nodes])
+
+
+def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:
+    if node.operation == "constant":
+        return node.value
+    if node.operation == "number":
+        return numbers[str(node.data)]
+    if node.index not in found:
+        arguments = [_evaluate(a, numbers, found) for a in node.arguments]
+        found[node.index] = FOLD[node.operation](*arguments)
+    return found[node.index]

@@ -1,0 +1,64 @@
+"""The scan for extremes: which channels of which lanes just passed one that may be a record.
+
+It looks at the values at step ends only to find candidates; the extremes themselves are then
+sought inside the steps on the dense output (`solver.kernels.loop.peaks`).
+Before the second step there is no change before: it is not a number, and no candidate.
+"""
+
+from __future__ import annotations
+
+from jointplay.solver.kernels.emit.emit import Tape
+from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.quantities.scalars import minimum, select_positive
+
+BLOCKS = ("channel", "previous", "change", "highest", "lowest")
+
+BYTES = 8 * LANES
+"""Of a slot: one for each row, whose bits are the lanes."""
+
+LOPSIDED, SPARE = 0.3, 0.02
+"""How far an extreme may lie beyond the step end between the changes r (before) and c (after).
+
+A parabola reaches (r + c)² / (8 (|r| + |c|)) beyond, nothing where the changes are equal and
+opposite; a sine sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. LOPSIDED
+covers that with room for unequal steps, SPARE the even case."""
+
+
+def allocate(layout: Layout, rows: int, rest: int) -> None:
+    """Give slots to `rows` channel values, their predecessors, changes and records.
+
+    `rest` further channel values are not scanned.
+    """
+    layout.add_block("marked", -(-rows // BYTES))
+    layout.add_block("channel", rows + rest)
+    for block in (*BLOCKS[1:], "highest_time", "lowest_time"):
+        layout.add_block(block, rows)
+
+
+def source(layout: Layout, rows: int) -> str:
+    """Return the source of scan(W), and of scan_some(W) for the lanes that accept their step.
+
+    Their value, and for each row a byte of `marked`, tell the lanes with a candidate, a bit each;
+    a lane that does not accept its step has none, whatever its bit says.
+    """
+    return "\n\n".join(_scan(name, layout, rows) for name in ("scan", "scan_some"))
+
+
+def _scan(name: str, layout: Layout, rows: int) -> str:
+    recorder = Recorder()
+    value, before, rose, highest, lowest = (recorder.variable(f"{block}0") for block in BLOCKS)
+    change = value - before
+    nearest = minimum(highest - before, before - lowest)
+    both, uneven = abs(rose - change), rose + change  # the signs differ where it turned
+    found = LOPSIDED * uneven * uneven + (SPARE * both - nearest) * both
+    found = select_positive(rose * change, 0.0, found)
+    if name == "scan_some":
+        accepted = recorder.variable("accept")
+        value = select_positive(accepted, value, before)
+        change = select_positive(accepted, change, rose)
+    blocks = {f"{block}0" for block in BLOCKS}
+    tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
+    tape.mark("marked0", found)
+    tape.store_rows([("previous0", value), ("change0", change)])
+    return tape.function_of_rows(name, rows)

@@ -1,0 +1,300 @@
+"""Records one step of an embedded Runge-Kutta method: stages, error, control, commit, dense output.
+
+The functions work on the slots of one work array (`allocate` names them). They decide nothing
+that needs a branch: flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want
+attention.
+"""
+
+from __future__ import annotations
+
+from jointplay.solver.integrators import Method
+from jointplay.solver.kernels.emit.emit import (
+    RETURNING,
+    FixedNodes,
+    Known,
+    Outputs,
+    Tape,
+    lane_function,
+    reachable,
+)
+from jointplay.solver.kernels.emit.judging import DUE, PACE, REJECTED, contact_flags, growth
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.coarse_functions import coarse_log2
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+
+SMALLEST_ERROR = 1e-16
+"""Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
+
+
+def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
+    """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
+    layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
+    layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
+    layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
+    layout.add_block("y", states)
+    for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
+        layout.add_block(f"k{s}_", states)
+        layout.add_block(f"kledger{s}_", ledger)
+    layout.add_block("slope", states)
+    layout.add_block("ledger", ledger)
+    layout.add_block("total", ledger)
+    layout.add("gross", "potential", "stored", "potential_start", "stored_start")
+    layout.add_block("stage", states)
+    layout.add_block("weight", states)
+    for j in range(joints):
+        layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
+    layout.add_block("mode", joints)
+    layout.add_block("impact_rate", joints)
+    layout.add_block("inverse_rate", joints)
+    for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
+        layout.add_block(name, joints)
+
+
+def before(name: str) -> str:
+    """Return the slot of a quantity of the step before."""
+    return {"tried": "before_step"}.get(name, f"before_{name}")
+
+
+class StepRecorder:
+    """Records the functions of one method for a number of states, ledger terms and joints."""
+
+    def __init__(
+        self,
+        tableau: Method,
+        states: int,
+        ledger: int,
+        joints: int,
+        layout: Layout,
+        known: Known,
+    ) -> None:
+        """`known` : what the right-hand side leaves in slots."""
+        self.tableau = tableau
+        self.states, self.ledger, self.joints = states, ledger, joints
+        self.layout, self.known = layout, known
+        self.recorder = Recorder()
+        layout.add(*(before(name) for name in self._remembered()))
+
+    def variable(self, name: str) -> Expression:
+        """Return the expression of a slot."""
+        return self.recorder.variable(name)
+
+    def source(self, energies: Outputs, fixed: FixedNodes) -> str:
+        """Return the source of all functions of a step.
+
+        `energies` : what gravity and contacts store, at the stage.
+        """
+        parts = [*self._steps(), self._judge(), self._attempt()]
+        parts += [self._remember(), self._take(energies, fixed)]
+        return "\n\n".join(parts)
+
+    def _function(self, name: str, outputs: Outputs) -> str:
+        return lane_function(name, outputs, self.layout)
+
+    def _steps(self) -> list[str]:
+        """Return the sources of what an attempt calls beside the slopes, but for the judge."""
+        return [self._stage(s) for s in range(2, self.tableau.stages + 1)]
+
+    def _calls(self) -> list[str]:
+        """Return what an attempt calls before the judge, in its order."""
+        last = self.tableau.stages
+        calls = []
+        for s in range(2, last):
+            place = self.layout[f"k{s}_0"] - self.layout["k1_0"]
+            calls += [f"stage_{s}(W)", f"slopes(W, {place})"]
+        return [*calls, f"stage_{last}(W)", "right_hand_side(W)"]
+
+    def _ledger_weights(self) -> tuple[float, ...]:
+        return self.tableau.matrix[-1]
+
+    def _tried(self) -> Expression:
+        v = self.variable
+        remaining = v("end") - v("time")
+        limited = minimum(minimum(v("step"), v("largest_step")), remaining)
+        tried: Expression = select_positive(v("active"), limited, self.recorder.constant(0.0))
+        return tried
+
+    def _stage(self, s: int) -> str:
+        """Stage s of the step: y + h Σ a k. The slopes of its coordinates are its speeds."""
+        v = self.variable
+        weights = self.tableau.matrix[s - 1]
+        step = self._tried() if s == 2 else v("tried")
+        outputs = [("tried", step), *self._held()] if s == 2 else []
+        for i in range(self.states):
+            total: Expression = self.recorder.constant(0.0)
+            for j, a in enumerate(weights, start=1):
+                total = total + a * v(f"k{j}_{i}")
+            moved = v(f"y{i}") + step * total
+            outputs.append((f"stage{i}", moved))
+            coordinate = i - self.states // 2
+            if coordinate >= 0 and s < self.tableau.stages:
+                outputs.append((f"k{s}_{coordinate}", moved))
+        moment = v("time") + self.tableau.nodes[s - 1] * step
+        outputs.append(("stage_time", moment))
+        if s == self.tableau.stages:
+            outputs.append(("arrival", moment))
+        return self._function(f"stage_{s}", outputs)
+
+    def _held(self) -> list[tuple[str, Expression]]:
+        """Return what slopes need that keeps its value in a step."""
+        return [
+            (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.joints)
+        ]
+
+    def _slope(self, s: int, i: int) -> str:
+        """Return the slot of the slope of state i at stage s: the last is where the step ends."""
+        return f"slope{i}" if s == self.tableau.stages else f"k{s}_{i}"
+
+    def _ledger_at(self, s: int, i: int) -> str:
+        return f"kledger{s}_{i}"
+
+    def _judge(self) -> str:
+        """Error of the step, the next step size, and what needs attention."""
+        v, number = self.variable, self.recorder.constant
+        squared = self._squared_error() if self.tableau.error else self._overflow()
+        good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
+        magnitude = 0.5 * coarse_log2(squared)
+        if self.tableau.error:
+            next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
+        else:  # fixed; after an overflow there is none
+            next_step = select_positive(good, v("step"), number(0.0))
+        due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
+        pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
+        flag = REJECTED * (1.0 - good) + due + pace
+        onset: Expression = number(0.0)
+        release: Expression = number(0.0)
+        for j in range(self.joints):
+            begins, ends = contact_flags(v, j, shortened=bool(self.tableau.error))
+            onset, release = maximum(onset, begins), maximum(release, ends)
+        flag = select_positive(v("active"), flag + onset + release, number(0.0))
+        outputs = [
+            ("accept", good * v("active")),
+            ("flag", flag),
+            ("next_step", next_step),
+            ("new_memory", magnitude),
+        ]
+        tape = Tape(self.layout)
+        tape.store(outputs)
+        tape.give(flag)
+        return tape.function("judge")
+
+    def _squared_error(self) -> Expression:
+        """Square of the step's error, in tolerances."""
+        squared = self._sum_of_squares(self.tableau.error)
+        if not self.tableau.coarse_error:
+            return squared
+        coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
+        return squared * (squared / (squared + coarse))
+
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
+        """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
+        v = self.variable
+        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            error: Expression = self.recorder.constant(0.0)
+            for s, weight in enumerate(weights, start=1):
+                error = error + weight * v(self._slope(s, i))
+            scaled = error * self._weighed(i)
+            squared = squared + scaled * scaled
+        return squared
+
+    def _weighed(self, i: int) -> Expression:
+        """Step times weight of state i; more, while nothing has moved as fast as it may."""
+        v = self.variable
+        return v("tried") * (v("full") / v("fastest")) * v(f"weight{i}")
+
+    def _overflow(self) -> Expression:
+        """Next to nothing, but infinite or not a number where a slope is."""
+        overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
+        return overflow
+
+    def _attempt(self) -> str:
+        """Attempt a step; the largest flag of a lane."""
+        calls = [f"    {call}" for call in self._calls()]
+        return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
+
+    def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
+        """Take the step in the lanes that accept it.
+
+        The gross work grows by the magnitudes of what a step's works come to: of each driver, of
+        gravity, of what contacts store and lose, of friction.
+        """
+        v = self.variable
+        running = v("active")
+        smallest = minimum(v("tried"), v("smallest_step"))
+        outputs = [
+            ("time", v("arrival")),
+            ("memory", v("new_memory")),
+            ("steps", v("steps") + running),
+            ("smallest_step", select_positive(running, smallest, v("smallest_step"))),
+        ]
+        fastest = v("fastest")
+        for i in range(self.states // 2, self.states):
+            fastest = maximum(fastest, abs(v(f"stage{i}")) * v(f"weight{i}"))
+        outputs.append(("fastest", minimum(fastest, v("full"))))
+        gross = v("gross")
+        for energy in ("potential", "stored"):
+            gross = gross + abs(v(energy) - v(f"{energy}_start"))
+            outputs.append((f"{energy}_start", v(energy)))
+        for i in range(self.ledger):
+            total: Expression = self.recorder.constant(0.0)
+            for s, b in enumerate(self._ledger_weights(), start=1):
+                total = total + b * v(self._ledger_at(s, i))
+            added = v("tried") * total
+            if i == 0:  # what went into contacts and is not stored there is lost
+                added = added - (v("stored") - v("stored_start"))
+            outputs.append((f"total{i}", v(f"total{i}") + added))
+            if i < self.ledger - self.joints:
+                gross = gross + abs(added)
+        outputs.insert(0, ("gross", gross))
+        for j in range(self.joints):
+            outputs.append((f"gap_start{j}", v(f"gap{j}")))
+            outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
+        for i in range(self.states):
+            outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
+        outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]
+        outputs = self._where_accepted(outputs)
+        tape = Tape(self.layout, fixed, self.known)
+        tape.carry(energies)
+        tape.store([*outputs, ("step", v("next_step"))])
+        return tape.function("take")
+
+    def _remember(self) -> str:
+        """Keep the dense output of this step, before the next one begins."""
+        outputs = [(before(name), self.variable(name)) for name in self._remembered()]
+        return self._function("remember", self._where_accepted(outputs))
+
+    def _remembered(self) -> list[str]:
+        """Return the slots that dense output reads."""
+        return sorted(
+            str(node.data)
+            for node in reachable(expression for _, expression in self.dense())
+            if node.operation == "variable" and node.data != "theta"
+        )
+
+    def _where_accepted(self, outputs: Outputs) -> list[tuple[str, Expression]]:
+        taken = self.variable("accept")
+        return [(slot, select_positive(taken, new, self.variable(slot))) for slot, new in outputs]
+
+    def dense(self) -> list[tuple[str, Expression]]:
+        """Return time, state, modes and impact rates at the share `theta` of the step."""
+        v = self.variable
+        theta, step = v("theta"), v("tried")
+        weights: list[Expression] = []
+        for row in self.tableau.dense:
+            total: Expression = self.recorder.constant(0.0)
+            for coefficient in reversed(row):
+                total = (total + coefficient) * theta
+            weights.append(total)
+        outputs = [("stage_time", v("time") + theta * step)]
+        for i in range(self.states):
+            slope: Expression = self.recorder.constant(0.0)
+            for s, weight in enumerate(weights, start=1):
+                slope = slope + weight * v(self._slope(s, i))
+            outputs.append((f"stage{i}", v(f"y{i}") + step * slope))
+        for j in range(self.joints):
+            outputs.append((f"mode{j}", v(f"mode{j}")))
+            outputs.append((f"impact_rate{j}", v(f"impact_rate{j}")))
+        return outputs

@@ -1,0 +1,189 @@
+"""Compiles a tape: straight-line arithmetic over eight lanes of work arrays.
+
+A tape has one statement a line::
+
+    v0 = load 12            slot 12 of W, its eight lanes
+    v0 = spread 12          slot 12 of W in one lane, the same in all eight
+    v0 = spread 12 45       the same; slot 45 in the upper four
+    v0 = given 12           slot 12 of S
+    v0 = lanes 0.0 0.25 …   eight numbers
+    v3 = mul v1 0.5         arithmetic: see `solver.kernels.emit.lane_arithmetic`
+    store 14 v3             into slot 14 of S, or of W where there is no S
+    return v3               the largest of its lanes
+
+A tape for one of many rows has slots that move with the row, and one for all of them tells where
+something is positive::
+
+    v0 = load 12+           slot 12 + row
+    mark 14 v3              byte `row` of slot 14 and those behind it: bit k is set where lane k is
+
+As Python's arithmetic in a loop over the lanes, which it was once, the types of a thousand scalars
+had to be inferred and the loop found to be one of vectors: it took five times as long to compile
+and ran no faster.
+"""
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
+
+from __future__ import annotations
+
+from typing import Any
+
+from jointplay.solver.kernels.emit.lane_arithmetic import (
+    MARKS,
+    NUMBERS,
+    OPERATIONS,
+    WORD,
+    everywhere,
+    largest,
+    lower_and_upper,
+    positive,
+    same,
+)
+from jointplay.solver.kernels.layout import LANES
+from llvmlite import ir
+from numba import float64, int64, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+ALIGNED = 8
+"""Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
+
+
+def over_lanes(tape: str) -> Any:
+    """Return a function of W, inside kernels, that does what the tape says."""
+
+    @intrinsic
+    def run(_typing, W):  # noqa: N803  (as in every generated kernel)
+        def generate(context, builder, signature, arguments):
+            work = _first_number(context, builder, signature, arguments, 0)
+            return _run(tape, _Tape(builder, work, work)) or context.get_dummy_value()
+
+        return (float64 if "\nreturn " in tape else types.void)(W), generate
+
+    return run
+
+
+def over_one_lane(tape: str) -> Any:
+    """Return a function of W, S and a lane of W, inside kernels, that does what the tape says."""
+
+    @intrinsic
+    def run(_typing, W, S, lane):  # noqa: N803
+        def generate(context, builder, signature, arguments):
+            work, spare = (
+                _first_number(context, builder, signature, arguments, i) for i in range(2)
+            )
+            _run(tape, _Tape(builder, work, spare, lane=arguments[2]))
+            return context.get_dummy_value()
+
+        return types.void(W, S, lane), generate
+
+    return run
+
+
+def over_one_row(tape: str) -> Any:
+    """Return a function of W and a row, inside kernels, that does what the tape says."""
+
+    @intrinsic
+    def run(_typing, W, row):  # noqa: N803
+        def generate(context, builder, signature, arguments):
+            work = _first_number(context, builder, signature, arguments, 0)
+            _run(tape, _Tape(builder, work, work, row=arguments[1]))
+            return context.get_dummy_value()
+
+        return types.void(W, row), generate
+
+    return run
+
+
+def over_rows(tape: str, rows: int) -> Any:
+    """Return a function of W, inside kernels, that does what the tape says for each row.
+
+    It is a loop, and its value tells which lanes were marked in any row, bit k for lane k: written
+    out, the rows would push everything else that a step does out of the cache of instructions.
+    """
+
+    @intrinsic
+    def run(_typing, W):  # noqa: N803
+        def generate(context, builder, signature, arguments):
+            work = _first_number(context, builder, signature, arguments, 0)
+            marks = cgutils.alloca_once_value(builder, MARKS(0))
+            with cgutils.for_range(builder, WORD(rows)) as loop:
+                _run(tape, _Tape(builder, work, work, row=loop.index, marks=marks))
+            return builder.zext(builder.load(marks), WORD)
+
+        return int64(W), generate
+
+    return run
+
+
+def _first_number(context, builder, signature, arguments, i):
+    """Return the address of an argument's first number."""
+    return context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
+
+
+def _run(tape: str, statements: _Tape) -> Any:
+    for line in tape.strip().splitlines():
+        name, *rest = line.replace("= ", "").split()
+        if name.startswith("v"):
+            statements.define(name, *rest)
+        else:
+            getattr(statements, f"{name}_")(*rest)
+    return statements.result
+
+
+class _Tape:
+    """The values that a tape has made so far; its statements have their names with a ``_``."""
+
+    def __init__(self, builder, source, target, *, lane=None, row=None, marks=None) -> None:
+        self.builder, self.source, self.target = builder, source, target
+        self.lane, self.row, self.marks = lane, row, marks
+        self.values: dict[str, Any] = {}
+        self.result: Any = None
+
+    def define(self, name: str, operation: str, *operands: str) -> None:
+        if operation in OPERATIONS:
+            values = map(self._value, operands)
+            self.values[name] = OPERATIONS[operation](self.builder, *values)
+        else:
+            self.values[name] = getattr(self, f"{operation}_")(*operands)
+
+    def load_(self, slot: str) -> Any:
+        return self.builder.load(self._place(self.source, slot), align=ALIGNED)
+
+    def given_(self, slot: str) -> Any:
+        return self.builder.load(self._place(self.target, slot), align=ALIGNED)
+
+    def spread_(self, slot: str, upper_slot: str = "") -> Any:
+        lower = self._spread(slot)
+        return (
+            lower_and_upper(self.builder, lower, self._spread(upper_slot)) if upper_slot else lower
+        )
+
+    def lanes_(self, *numbers: str) -> Any:
+        return ir.Constant(NUMBERS, [float(number) for number in numbers])
+
+    def store_(self, slot: str, value: str) -> None:
+        self.builder.store(self._value(value), self._place(self.target, slot), align=ALIGNED)
+
+    def return_(self, value: str) -> None:
+        self.result = largest(self.builder, self._value(value))
+
+    def mark_(self, slot: str, value: str) -> None:
+        builder, bits = self.builder, positive(self.builder, self._value(value))
+        builder.store(builder.or_(builder.load(self.marks), bits), self.marks)
+        rows = builder.bitcast(self._place(self.target, slot), MARKS.as_pointer())
+        builder.store(bits, builder.gep(rows, [self.row]))
+
+    def _value(self, text: str) -> Any:
+        return self.values[text] if text in self.values else same(float(text))
+
+    def _place(self, array: Any, slot: str) -> Any:
+        place = WORD(int(slot.removesuffix("+")))
+        if slot.endswith("+"):
+            place = self.builder.add(place, self.row)
+        return self.builder.gep(self.builder.bitcast(array, NUMBERS.as_pointer()), [place])
+
+    def _spread(self, slot: str) -> Any:
+        place = self.builder.add(WORD(int(slot) * LANES), self.lane)
+        number = self.builder.load(self.builder.gep(self.source, [place]))
+        return everywhere(self.builder, number)

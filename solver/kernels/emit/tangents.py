@@ -1,0 +1,161 @@
+"""Tangent vectors: how a small deviation from a run grows, compiled from the run's own equations.
+
+A tangent vector v of a lane is the derivative of its state along a direction of starts. It follows
+the variational equation v' = J(y, t) v along the base's steps. No step is ever chosen for the
+tangent's sake, and nothing that the run reads is written: a run with tangents has the same bits as
+one without.
+
+The functions live in a module of their own, over a layout that begins with all slots of the
+kernel's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from types import ModuleType
+
+import numpy as np
+from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit import tangent_step
+from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
+from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel, values_of
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record import kinks
+from jointplay.solver.kernels.record.derivative import Derivative
+from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.kinks import Kinks
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.slots import Slot, slots_of
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Tangents:
+    """Compiled tangent functions of a kernel, over its work array made longer.
+
+    Attributes
+    ----------
+    slots
+        The kernel's, with those of tangents filled in; indexed by `solver.kernels.slots.Slot`.
+    fixed
+        Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`.
+    kinks
+        Number of piecewise linear functions in the equations.
+    """
+
+    module: ModuleType
+    layout: Layout
+    slots: NDArray[np.int64]
+    fixed: tuple[tuple[int, Expression], ...]
+    kinks: int
+
+    @cached_property
+    def functions(self) -> tuple[CompiledAddress, CompiledAddress]:
+        """`tangent_step` and `tangent_gaps`."""
+        m = self.module
+        return CompiledAddress(m.tangent_step), CompiledAddress(m.tangent_gaps)
+
+    def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
+        """Evaluate what depends on a scene's numbers alone, in the order of `fixed`."""
+        return values_of([node for _, node in self.fixed], scene)
+
+
+@lru_cache(maxsize=16)
+def compile_tangents(kernel: Kernel) -> Tangents:
+    """Derive, emit and load a kernel's tangent functions; seconds when they are not cached.
+
+    Raises
+    ------
+    LimitExceeded
+        The derivatives are too long to compile.
+    """
+    equations, layout = kernel.equations, kernel.layout.copy()
+    bends = kinks.kinks_of(equations)
+    allocate(layout, kernel.states, len(kernel.play), len(bends))
+    fixed = FixedNodes(layout)
+    source = "\n\n".join(
+        [
+            HEADER,
+            kinks.kink_function(bends, layout, fixed),
+            slope_function(equations, bends, layout, fixed),
+            tangent_step.TangentRecorder(kernel.states, len(bends), layout).source(),
+            gap_function(equations, layout, fixed),
+        ]
+    )
+    slots = kernel.slots.copy()
+    slots[Slot.TANGENT : Slot.TANGENT_GAP + 1] = slots_of(layout)[
+        Slot.TANGENT : Slot.TANGENT_GAP + 1
+    ]
+    return Tangents(
+        load(source),
+        layout,
+        slots,
+        tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
+        len(bends),
+    )
+
+
+def allocate(layout: Layout, states: int, joints: int, bends: int) -> None:
+    """Give slots to tangents, behind all that the kernel has."""
+    layout.add_block("tangent", states)
+    layout.add_block("tangent_impact_rate", joints)
+    for j in range(joints):
+        layout.add(f"tangent_gap{j}", f"tangent_gap_rate{j}", f"gap_acceleration{j}")
+    kinks.allocate(layout, bends)
+    tangent_step.allocate(layout, states)
+
+
+class _Renamed(Layout):
+    """A layout in which some quantities are found under other names."""
+
+    def __init__(self, layout: Layout, names: dict[str, str]) -> None:
+        super().__init__()
+        self._layout, self._names = layout, names
+
+    def __getitem__(self, name: str) -> int:
+        return self._layout[self._names.get(name, name)]
+
+
+def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of carried_slopes(W): J w at a point that the step passes.
+
+    That point has slots of its own: the base's stage holds the state to come.
+    """
+    recorder = equations.recorder
+    count = len(equations.coordinates)
+    along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(2 * count)}
+    for j in range(len(equations.play)):
+        along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
+    derivative = Derivative(along)
+    kinks.bend(derivative, bends)
+    outputs = [  # the slopes of coordinates are the carried speeds
+        (f"carried_slope{count + i}", derivative(acceleration))
+        for i, acceleration in enumerate(equations.accelerations)
+    ]
+    names = {f"stage{i}": f"passing{i}" for i in range(2 * count)} | {"stage_time": "passing_time"}
+    return lane_function("carried_slopes", outputs, _Renamed(layout, names), fixed)
+
+
+def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of tangent_gaps(W): what the latching of an impact rate needs.
+
+    At the state just taken, which is still in the base's stage: the derivatives of each gap and of
+    its rate along the tangent, and the derivative of the rate in time along the motion.
+    """
+    if not equations.gaps:
+        return nothing("tangent_gaps")
+    recorder = equations.recorder
+    states = 2 * len(equations.coordinates)
+    tangent = Derivative({f"stage{i}": recorder.variable(f"tangent{i}") for i in range(states)})
+    flow = {f"stage{i}": recorder.variable(f"slope{i}") for i in range(states)}
+    motion = Derivative(flow | {"stage_time": recorder.constant(1.0)})
+    outputs = []
+    for j, (gap, rate) in enumerate(equations.gaps):
+        outputs += [
+            (f"tangent_gap{j}", tangent(gap)),
+            (f"tangent_gap_rate{j}", tangent(rate)),
+            (f"gap_acceleration{j}", motion(rate)),
+        ]
+    return lane_function("tangent_gaps", outputs, layout, fixed)

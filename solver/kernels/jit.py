@@ -1,0 +1,55 @@
+"""The decorators of hand-written kernels: cached on disk, IEEE division, no fast mathematics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+import numba
+from jointplay.solver.kernels.cache import cache_folder
+
+cache_folder()  # names Numba's cache before any kernel is declared
+
+LaneFunction = Callable[..., Any]
+"""A generated function of work arrays: first-class inside kernels."""
+
+
+def kernel() -> Callable[[Any], Any]:
+    """Compile a function when another kernel or Python first uses it."""
+    decorator: Callable[[Any], Any] = numba.njit(cache=True, error_model="numpy")
+    return decorator
+
+
+class Deferred:
+    """A kernel of one signature, compiled or loaded at its first call: importing costs nothing."""
+
+    def __init__(self, signature: Any, function: Callable[..., Any]) -> None:
+        self.signature = signature
+        self.function = function
+        self._entry_point: Callable[..., Any] | None = None
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """The compiled function, as Numba manages it."""
+        return numba.njit(self.signature, cache=True, error_model="numpy")(self.function)
+
+    def compile(self) -> Callable[..., Any]:
+        """Return the compiled function; seconds when it is not in the cache.
+
+        Its entry point is called directly, for looking up the types of a dozen functions and
+        arrays took 70 microseconds at every call: arguments must be of the declared types.
+        """
+        if self._entry_point is None:
+            (compiled,) = self.dispatcher.overloads.values()
+            self._entry_point = compiled.entry_point
+        return self._entry_point
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the kernel."""
+        return self.compile()(*arguments)
+
+
+def deferred(signature: Any) -> Callable[[Callable[..., Any]], Deferred]:
+    """Declare a kernel that Python calls with first-class functions, which need a signature."""
+    return lambda function: Deferred(signature, function)

@@ -1,0 +1,116 @@
+"""Where inside a step a gap opens, and how the step is made to end there."""
+
+from __future__ import annotations
+
+import numpy as np
+from jointplay.solver.kernels.emit.judging import LANDED
+from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.onset import look_between
+from jointplay.solver.kernels.loop.state import Counter
+from jointplay.solver.kernels.slots import Slot
+
+MOST_ITERATIONS = 40
+ROOT = 1e-15
+"""Change of a root, as a share of the step, that ends the search for it."""
+BEHIND = 1.02
+"""A step that opens a gap ends at this multiple of the time to there: open, for certain."""
+LATE = 0.95
+"""A step in which a gap opens after this share of it is taken as it is."""
+
+
+@kernel()
+def dip(
+    j: int,
+    lane: int,
+    slots: np.ndarray,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+) -> float:
+    """Return a share of the step at which joint j's gap is open, though closed at both ends.
+
+    It opened an eighth of the step before at most. 1: it stays closed.
+    """
+    look_between(0.0, 1.0, lane, slots, work, spare, gaps_within)
+    for i in range(LANES):
+        if spare[(slots[Slot.GAP] + 4 * j) * LANES + i] < 0.0:
+            return (i + 1) / LANES
+    return 1.0
+
+
+@kernel()
+def falling_root(start: float, start_rate: float, end: float, end_rate: float) -> float:
+    """Return where in 0..1 the cubic through both ends falls to zero: Newton inside a bracket.
+
+    Rates are changes over the whole interval; start > 0 >= end.
+    """
+    square = 3.0 * (end - start) - 2.0 * start_rate - end_rate
+    cube = 2.0 * (start - end) + start_rate + end_rate
+    low, high = 0.0, 1.0
+    x = start / (start - end)
+    for _ in range(MOST_ITERATIONS):
+        value = start + x * (start_rate + x * (square + x * cube))
+        slope = start_rate + x * (2.0 * square + 3.0 * x * cube)
+        if value > 0.0:
+            low = x
+        else:
+            high = x
+        better = x - value / slope if slope < 0.0 else low
+        if not low < better < high:
+            better = 0.5 * (low + high)
+        if abs(better - x) <= ROOT:
+            break
+        x = better
+    return x
+
+
+@kernel()
+def note_openings(
+    lane: int, slots: np.ndarray, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
+) -> float:
+    """Note when in this step each gap opens: at the root of the cubic through both its ends.
+
+    Infinite where it is not open at the end; where contact has only just begun, it must be on its
+    way apart. Return the smallest of these shares of the step, 1 where no contact worth mentioning
+    ends. A gap that is closed again at the end was open nevertheless: what touches then is another
+    contact, with an impact rate of its own.
+    """
+    step = work[slots[Slot.TRIED] * LANES + lane]
+    soonest = 1.0
+    for j in range(slots[Slot.JOINTS]):
+        place = (slots[Slot.GAP] + 4 * j) * LANES + lane
+        gap, rate = work[place], work[place + LANES] * step
+        start, start_rate = work[place + 2 * LANES], work[place + 3 * LANES] * step
+        closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
+        fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
+        shortened = start > LANDED and closed and not fixed
+        high = 1.0
+        if start > 0.0 >= gap:
+            high = falling_root(start, start_rate, gap, rate)
+        elif shortened and start_rate < 0.0 < rate:
+            high = dip(j, lane, slots, work, spare, gaps_within)
+        if shortened:
+            soonest = min(soonest, high)
+        opened = work[slots[Slot.TIME] * LANES + lane] + high * step
+        open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
+        work[(slots[Slot.OPENED] + j) * LANES + lane] = opened if open_now else np.inf
+    return soonest
+
+
+@kernel()
+def end_behind_opening(
+    share: float, lane: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray
+) -> None:
+    """Have this step redone so that it ends where a gap opens, after `share` of it.
+
+    The force of a contact has no second derivative there. Within a step its error would depend on
+    where between the stages it falls, and the steps that are accepted are those whose estimate
+    happens to be too small. The estimate of a step with the kink inside says nothing of the steps
+    to either side: what a rejection asks for does not count.
+    """
+    tried = work[slots[Slot.TRIED] * LANES + lane]
+    work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
+    work[slots[Slot.NEXT_STEP] * LANES + lane] = BEHIND * share * tried
+    counters[Counter.LANDING, lane] = -1
+    counters[Counter.LANDINGS, lane] = 0

@@ -1,0 +1,53 @@
+"""Extremes of channels that drivers prescribe: functions of time alone, sought afterwards."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.state import Setting, row_width
+from jointplay.solver.quantities.extremes import Floats, refine_extreme
+from jointplay.solver.runs.results import Peak
+
+INSTANTS_A_PERIOD = 720
+MOST_INSTANTS = 200_000
+
+
+def prescribed_peaks(
+    bundle: Bundle, lane: int, names: list[str], reached: float
+) -> dict[str, Peak]:
+    """Return extremes of channels over 0..reached, s; a common period is looked at once."""
+    kernel = bundle.kernel
+    setting = bundle.settings[:, lane]
+    period = float(setting[Setting.PERIOD])
+    common = bool(setting[Setting.COMMON])
+    span = min(reached, period) if common else reached
+    columns = np.array([kernel.rows.index(name) for name in names], dtype=np.int64)
+    drivers = len(kernel.drivers)
+    width = row_width(drivers, kernel.states, len(kernel.play))
+
+    def every(times: Floats) -> Floats:
+        rows = np.zeros((len(times), width))
+        rows[:, 1] = times
+        for k in range(drivers):
+            rows[:, 2 + k] = setting[Setting.FIRST_DRIVER + 2 * k]
+        return bundle.observe(lane, rows, columns)
+
+    def only(column: int) -> Callable[[Floats], Floats]:
+        return lambda instants: every(instants)[:, column]
+
+    count = min(math.ceil(INSTANTS_A_PERIOD * span / period) + 16, MOST_INSTANTS)
+    times = np.linspace(0.0, span, count)
+    values = every(times)
+    found = {}
+    for c, name in enumerate(names):
+        column = values[:, c]
+        if column.min() == column.max():
+            found[name] = Peak(float(column[0]), 0.0, float(column[0]), 0.0)
+            continue
+        low_time, low = refine_extreme(only(c), times, column, -1.0)
+        high_time, high = refine_extreme(only(c), times, column, 1.0)
+        found[name] = Peak(low, low_time, high, high_time)
+    return found

@@ -1,0 +1,62 @@
+"""What a lane is given to compute, and where it starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jointplay.solver.kernels.loop.state import SectionKind
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Event:
+    """A Poincare section that no clock gives: an onset at a joint, or a channel at a value."""
+
+    kind: SectionKind
+    place: int
+    """Index of the joint with play, or row of the channel block."""
+    value: float = 0.0
+    sense: float = 1.0
+    """1: the channel comes from below; -1: from above."""
+    not_before: float = 0.0
+    """Time from which events count, s."""
+
+
+@dataclass(frozen=True)
+class LaneStart:
+    """Where a lane starts instead of at the scene's own start."""
+
+    state: Floats
+    """Coordinates, then speeds."""
+    contact: NDArray[np.bool_] | None = None
+    """Joints that are in contact already, with their latched impact rates (m/s)."""
+    impact_rate: Floats | None = None
+    period: int = 0
+    """Whole periods of the drivers that have passed."""
+    time: float = 0.0
+    """Since then, s."""
+
+
+@dataclass(frozen=True)
+class LaneProblem:
+    """What one lane is to compute."""
+
+    scene: Scene
+    duration: float
+    tolerance: float
+    output_step: float
+    samples: int
+    sections: int
+    """Number of the section that follows the last one wanted; of events, how many."""
+    section_offset: float
+    first_section: int = 0
+    event: Event | None = None
+    start: LaneStart | None = None
+    step: float | None = None
+    """Of a method with a fixed step, s."""
+    first_sample: int = 0
+    """Index of the first sample; sample i lies at i * output_step, the last one at the end."""

@@ -1,0 +1,62 @@
+"""The start of a run: generalised coordinates and speeds of the assembled mechanism."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def start_state(
+    scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats
+) -> tuple[list[float], list[float]]:
+    """Return coordinates and speeds of the start from absolute poses (3 bodies,)."""
+    bodies = list(scene.bodies)
+    position, speed = [], []
+    for name in coordinates:
+        body, kind = name.split(".")
+        i = 3 * bodies.index(body)
+        if kind == "s":
+            at, rate = travel(scene, body, pose, velocity)
+        else:
+            at, rate = (float(a[i + ("x", "y", "theta").index(kind)]) for a in (pose, velocity))
+        position.append(at)
+        speed.append(rate)
+    return position, speed
+
+
+def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[float, float]:
+    """Return the displacement along a prismatic joint that carries a body, m, and its rate."""
+    numbers = view(scene)
+    mechanism = AbsoluteMechanism(scene, numbers, close_play=False)
+    joint = numbers.joints[spanning_tree(scene).branch(body).joint]
+    guide = mechanism.marker(joint.guide, pose, velocity)
+    slider = mechanism.marker(joint.slider, pose, velocity)
+    ux, uy = mechanism.axis(joint, guide.body, pose)
+    gap = (slider.position[0] - guide.position[0], slider.position[1] - guide.position[1])
+    rate = (slider.velocity[0] - guide.velocity[0], slider.velocity[1] - guide.velocity[1])
+    spin = 0.0 if guide.body < 0 else float(velocity[3 * guide.body + 2])
+    turned = spin * (-uy * gap[0] + ux * gap[1])
+    return (
+        float(ux * gap[0] + uy * gap[1]),
+        float(ux * rate[0] + uy * rate[1] + turned),
+    )
+
+
+def mechanism_size(scene: Scene, least: float) -> float:
+    """Return the longest distance between two points of one body, m: a lever for angles."""
+    distances = [
+        math.dist(a, b)
+        for body in scene.bodies.values()
+        for a, b in combinations(body.points.values(), 2)
+    ]
+    return max([*distances, least])

@@ -1,0 +1,1 @@
+"""Records a scene's equations as expressions, and takes their derivatives."""

@@ -1,0 +1,146 @@
+"""Records a scene's equations of motion: once, from the readable mechanics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from jointplay.solver.kernels.emit.emit import reachable
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.mechanics.lagrange import LagrangeMechanism
+from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
+from jointplay.solver.mechanics.reduced import ReducedMechanism
+from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
+
+
+@dataclass(frozen=True)
+class Equations:
+    """What kernels evaluate, as expressions of the variables.
+
+    The variables are ``stage0…`` (coordinates, then their speeds), ``stage_time`` (s within the
+    period), ``phase<k>`` (driver k's position at local time zero), ``wound<k>``
+    (its whole turns before that, rad, for angles that are shown; trigonometry needs no turns),
+    ``mode<j>`` and ``impact_rate<j>`` of joint j with play, in document order.
+    """
+
+    recorder: Recorder
+    coordinates: tuple[str, ...]
+    drivers: tuple[str, ...]
+    play: tuple[str, ...]
+    accelerations: tuple[Expression, ...]
+    ledger: tuple[Expression, ...]
+    """Rates: work into contacts, friction loss, each driver's work, each joint's impulse."""
+    gaps: tuple[tuple[Expression, Expression], ...]
+    """Penetration (m) and its rate (m/s) of each joint with play."""
+    channels: dict[str, Expression]
+    """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
+
+
+def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
+    """Run the mechanics on recorded expressions.
+
+    Raises
+    ------
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    recorder = Recorder()
+    numbers = view(scene, recorder.number)
+    lagrange = formulation == "lagrange"
+    coordinates = (
+        tuple(f"{body}.{axis}" for body in scene.bodies for axis in ("x", "y", "theta"))
+        if lagrange
+        else tree.coordinates
+    )
+    count = len(coordinates)
+    stage = [recorder.variable(f"stage{i}") for i in range(2 * count)]
+    time = recorder.variable("stage_time")
+    driven = {
+        name: recorder.variable(f"phase{k}") + numbers.drivers[name].speed * time
+        for k, name in enumerate(scene.drivers)
+    }
+    if lagrange:  # here a driven angle is a coordinate, which goes on turning
+        for k, name in enumerate(scene.drivers):
+            driven[name] = driven[name] + recorder.variable(f"wound{k}")
+    modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.play)}
+    rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.play)}
+
+    mechanism: LagrangeMechanism | ReducedMechanism
+    if lagrange:
+        mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[count:], driven)
+        motion = observed = mechanism.motion(modes, rates)
+    else:
+        position = dict(zip(coordinates, stage[:count], strict=True))
+        speed = dict(zip(coordinates, stage[count:], strict=True))
+        mechanism = ReducedMechanism(tree, numbers, position, speed, driven)
+        motion = mechanism.motion(modes, rates)
+        known = [recorder.variable(f"slope{count + i}") for i in range(count)]
+        observed = mechanism.motion(modes, rates, known)
+    lift = recorder.lift
+    channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
+    windings = {} if lagrange else _windings(scene, tree, recorder)
+    for body, wound in windings.items():
+        channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
+    channels["stored"] = lift(stored_energy(observed))
+    return Equations(
+        recorder,
+        coordinates,
+        tuple(scene.drivers),
+        tree.play,
+        tuple(lift(a) for a in motion.accelerations),
+        tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
+        tuple(
+            (lift(found.penetration), lift(found.penetration_rate))
+            for found in motion.contacts.values()
+        ),
+        channels,
+    )
+
+
+def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Expression]:
+    """Whole turns of bodies whose angle drivers prescribe, as seen from the ground."""
+    drivers = list(scene.drivers)
+    found: dict[str, Expression] = {}
+    for branch in tree.branches:
+        wound = found.get(branch.parent)
+        if branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates:
+            continue
+        if branch.kind == "revolute" and branch.driver is not None:
+            own = recorder.variable(f"wound{drivers.index(branch.driver)}")
+            own = own if branch.outward else -own
+            wound = own if wound is None else wound + own
+        if wound is not None:
+            found[branch.body] = wound
+    return found
+
+
+def slopes(equations: Equations) -> list[tuple[str, Expression]]:
+    """Return what every stage of a step needs: (slot name, expression).
+
+    The slopes of the coordinates are the stage's speeds and need not be written.
+    """
+    count = len(equations.coordinates)
+    outputs = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
+    outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
+    return outputs
+
+
+def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
+    """Return what is needed where a step ends: all slopes, the ledger's, and the gaps."""
+    count = len(equations.coordinates)
+    speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
+    outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
+    for j, (gap, rate) in enumerate(equations.gaps):
+        outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    return outputs
+
+
+def trigonometry(equations: Equations) -> list[Expression]:
+    """Return the sines and cosines in the right-hand side: what observing needs again."""
+    functions = equations.recorder.functions
+    return [
+        node
+        for node in reachable(expression for _, expression in right_hand_side(equations))
+        if node.index in functions and functions[node.index].name in ("sine", "cosine")
+    ]

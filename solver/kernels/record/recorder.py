@@ -1,0 +1,251 @@
+"""Records what the mechanics compute, as a graph of arithmetic that simplifies as it grows.
+
+A small recorder of our own, not CasADi or SymPy: what is needed is a few simplifications, one
+pass of common-subexpression elimination that falls out of hash-consing, a bound on the number of
+statements, and control over the text that is emitted; all of it fits here, without a
+dependency of 100 MB and without symbolic algebra, whose simplifier takes minutes on a mechanism.
+
+Every operation on an `Expression` returns the node that already stands for the same value, so a
+subexpression is evaluated once. Nodes that depend on numbers of the scene alone (`fixed`) are
+evaluated once a run, outside the kernel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.kernels.emit import lane_functions
+
+MOST_STATEMENTS = 10_000
+"""Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000)."""
+
+COMMUTING = frozenset({"add", "mul"})
+
+
+class Recorder:
+    """Owns the nodes of one recording."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[tuple[object, ...], Expression] = {}
+        self.numbers: dict[str, float] = {}
+        self.functions: dict[int, Function] = {}
+        """What is known of nodes that stand for a function of one expression."""
+        self.held: dict[Expression, Expression] = {}
+        """Inverses of variables that do not change within a step, by variable; see `hold`."""
+        self.kinks: dict[Expression, Expression] = {}
+        """Piecewise linear functions and their arguments, in the order of recording."""
+
+    def constant(self, value: float) -> Expression:
+        """Return the node of a literal number; minus zero is zero."""
+        return self.node("constant", (), float(value) + 0.0, fixed=True)
+
+    def number(self, name: str, value: float) -> Expression:
+        """Return the node of a number of the scene, data of a run; `value` serves as its sample."""
+        self.numbers[name] = value
+        return self.node("number", (), name, fixed=True)
+
+    def variable(self, name: str) -> Expression:
+        """Return the node of a quantity that changes while running: state, time, mode."""
+        return self.node("variable", (), name, fixed=False)
+
+    def hold(self, name: str) -> Expression:
+        """Return a variable that keeps its value in a step; dividing by it takes one inverse."""
+        variable = self.variable(name)
+        self.held[variable] = self.apply("div", self.constant(1.0), variable)
+        return variable
+
+    def lift(self, value: object) -> Expression:
+        """Return a node for a float, or the expression itself."""
+        if isinstance(value, Expression):
+            return value
+        return self.constant(float(value))  # type: ignore[arg-type]
+
+    def node(
+        self, operation: str, arguments: tuple[Expression, ...], data: object, *, fixed: bool
+    ) -> Expression:
+        """Return the one node of this operation on these arguments."""
+        ordered = arguments
+        if operation in COMMUTING:
+            ordered = tuple(sorted(arguments, key=lambda e: (not e.fixed, e.index)))
+        key = (operation, *(e.index for e in ordered), data)
+        found = self._nodes.get(key)
+        if found is None:
+            if len(self._nodes) >= 4 * MOST_STATEMENTS:
+                raise LimitExceeded([too_many(len(self._nodes))])
+            found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
+            self._nodes[key] = found
+        return found
+
+    def apply(self, operation: str, *arguments: Expression) -> Expression:
+        """Return the node of an operation, folded where all arguments are literals."""
+        if all(e.operation == "constant" for e in arguments):
+            return self.constant(lane_functions.FOLD[operation](*(e.value for e in arguments)))
+        return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
+
+
+def too_many(count: int) -> Problem:
+    """Say that a scene's equations are too long to compile."""
+    return Problem(
+        "/scene",
+        f"The equations of this scene take {count} recorded statements or more; the limit is"
+        f" {MOST_STATEMENTS}. Use fewer bodies.",
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Expression:
+    """A node: an operation on other nodes. Arithmetic on it records more nodes."""
+
+    recorder: Recorder = field(repr=False)
+    index: int
+    operation: str
+    arguments: tuple[Expression, ...] = field(repr=False)
+    data: object
+    fixed: bool
+
+    @property
+    def value(self) -> float:
+        """The number of a literal."""
+        assert isinstance(self.data, float)  # noqa: S101  (literals only; narrows the type)
+        return self.data
+
+    def is_literal(self, value: float) -> bool:
+        """Whether this is the literal `value`."""
+        return self.operation == "constant" and self.data == value
+
+    def __add__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if self.is_literal(0.0):
+            return b
+        if b.is_literal(0.0):
+            return self
+        if b.operation == "neg":
+            return self - b.arguments[0]
+        if self.operation == "neg":
+            return b - self.arguments[0]
+        return self.recorder.apply("add", self, b)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Expression:
+        if self.operation == "neg":
+            return self.arguments[0]
+        if self.operation == "sub":
+            return self.recorder.apply("sub", self.arguments[1], self.arguments[0])
+        return self.recorder.apply("neg", self)
+
+    def __sub__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if b.is_literal(0.0):
+            return self
+        if self.is_literal(0.0):
+            return -b
+        if self is b:
+            return self.recorder.constant(0.0)
+        if b.operation == "neg":
+            return self + b.arguments[0]
+        return self.recorder.apply("sub", self, b)
+
+    def __rsub__(self, other: object) -> Expression:
+        return self.recorder.lift(other) - self
+
+    def __mul__(self, other: object) -> Expression:
+        a, b = self, self.recorder.lift(other)
+        if a.is_literal(0.0) or b.is_literal(0.0):
+            return self.recorder.constant(0.0)
+        for one, rest in ((a, b), (b, a)):
+            if one.is_literal(1.0):
+                return rest
+            if one.is_literal(-1.0):
+                return -rest
+            if one.operation == "neg":
+                return -(one.arguments[0] * rest)
+        return self.recorder.apply("mul", a, b)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: object) -> Expression:
+        b = self.recorder.lift(other)
+        if self.is_literal(0.0):
+            return self
+        if b.is_literal(1.0):
+            return self
+        if b in self.recorder.held:
+            return self * self.recorder.held[b]
+        if b.fixed and not self.fixed:
+            return self * (self.recorder.constant(1.0) / b)
+        return self.recorder.apply("div", self, b)
+
+    def __rtruediv__(self, other: object) -> Expression:
+        return self.recorder.lift(other) / self
+
+    def __abs__(self) -> Expression:
+        return self.recorder.apply("abs", self)
+
+    def sqrt(self) -> Expression:
+        """Square root."""
+        return self.recorder.apply("sqrt", self)
+
+    def floor(self) -> Expression:
+        """Largest whole number not above."""
+        return self.recorder.apply("floor", self)
+
+    def exponent_and_mantissa(self) -> tuple[Expression, Expression]:
+        """Return e and m with x = m 2^e and 1 <= m < 2, for x > 0."""
+        apply = self.recorder.apply
+        return apply("exponent_of", self), apply("mantissa_of", self)
+
+    def power_of_two(self) -> Expression:
+        """2^x for a whole number x, limited to the range of a float."""
+        return self.recorder.apply("power_of_two", self)
+
+    def quarter_turns(self, n: Expression, cosine: Expression) -> Expression:
+        """Return the sine of an angle n quarter turns on, of which this is the sine."""
+        return self.recorder.apply("quarter_turns", n, self, cosine)
+
+    def select_positive(self, if_positive: object, otherwise: object) -> Expression:
+        """`if_positive` where x > 0, else `otherwise`."""
+        a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)
+        if a is b:
+            return a
+        if self.operation == "constant":
+            return a if self.value > 0.0 else b
+        return self.recorder.apply("select", self, a, b)
+
+    def sine_cosine(self) -> tuple[Expression, Expression]:
+        """Sine and cosine by our own lane functions; outside the kernel where x is fixed."""
+        if self.fixed:
+            return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
+        sine, cosine = lane_functions.sine_cosine(self)
+        self.recorder.functions[sine.index] = Function("sine", self, cosine)
+        self.recorder.functions[cosine.index] = Function("cosine", self, sine)
+        return sine, cosine
+
+    def kinked(self, argument: Expression) -> Expression:
+        """Note that this is a piecewise linear function of one expression."""
+        if not self.fixed:
+            self.recorder.kinks[self] = argument
+        return self
+
+    def power(self, exponent: object) -> Expression:
+        """X ** exponent for x >= 0 by our own lane functions."""
+        lifted = self.recorder.lift(exponent)
+        if self.fixed and lifted.fixed:
+            return self.recorder.apply("pow", self, lifted)
+        result: Expression = lane_functions.power(self, lifted)
+        if lifted.fixed:
+            self.recorder.functions[result.index] = Function("power", self, lifted)
+        return result
+
+
+@dataclass(frozen=True)
+class Function:
+    """What a node stands for, though it is recorded as arithmetic: derivatives need not go there.
+
+    `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power.
+    """
+
+    name: str
+    argument: Expression
+    partner: Expression

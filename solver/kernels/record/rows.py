@@ -1,0 +1,71 @@
+"""Which channels are watched for extremes at every step, and which need not be.
+
+A constant, a function of time alone (a driven crank) or a multiple of another channel is left out
+of the watch: its extremes follow afterwards. What is watched costs memory traffic at every step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from jointplay.solver.kernels.emit.emit import reachable
+from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.scene.document import Scene
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The channel block: watched channels, normal force of each joint again, then the rest.
+
+    The repeated normal forces have records of their own, for the peak of each contact.
+    """
+
+    watched: tuple[str, ...]
+    contacts: tuple[str, ...]
+    rest: tuple[str, ...]
+    multiples: dict[str, tuple[str, float, float]]
+    """Channels that are factor * watched channel + offset: (channel, factor, offset)."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Channel of each row."""
+        return self.watched + self.contacts + self.rest
+
+    @property
+    def scanned(self) -> int:
+        """Number of rows that the scan looks at."""
+        return len(self.watched) + len(self.contacts)
+
+    def index(self, name: str) -> int:
+        """Return the first row of a channel."""
+        return self.names.index(name)
+
+
+def arrange(scene: Scene, equations: Equations) -> Rows:
+    """Sort the channels of a scene into rows."""
+    watched: dict[int, str] = {}
+    rest: list[str] = []
+    multiples: dict[str, tuple[str, float, float]] = {}
+    linear = {o.name: (o.channel, o.factor, o.offset) for o in scene.outputs}
+    for name, expression in equations.channels.items():
+        if name == "stored" or _known_in_time(expression):
+            rest.append(name)
+        elif expression.index in watched:
+            rest.append(name)
+            multiples[name] = (watched[expression.index], 1.0, 0.0)
+        elif name in linear and linear[name][0] in watched.values():
+            rest.append(name)
+            multiples[name] = linear[name]
+        else:
+            watched[expression.index] = name
+    contacts = tuple(f"{name}.normal_force" for name in equations.play)
+    return Rows(tuple(watched.values()), contacts, tuple(rest), multiples)
+
+
+def _known_in_time(expression: Expression) -> bool:
+    return all(
+        str(node.data) == "stage_time" or str(node.data).startswith("phase")
+        for node in reachable([expression])
+        if node.operation == "variable"
+    )

@@ -1,0 +1,1 @@
+"""The laws of joints with play: contact and friction."""

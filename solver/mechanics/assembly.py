@@ -1,0 +1,248 @@
+"""Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any, Final
+
+import numpy as np
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from jointplay.solver.scene.references import ends, has_play
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+RANK_TOLERANCE = 1e-9
+"""Singular values below this share of the largest count as zero (rows scaled by length)."""
+MOST_ITERATIONS = 200
+LARGEST_TURN = 0.5
+"""Of a body in one iteration, rad."""
+ASSEMBLED = 1e-11
+"""Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+GEOMETRY: Final[Any] = {
+    "ground": True,
+    "bodies": {"__all__": {"points"}},
+    "joints": True,
+    "drivers": True,
+    "start": True,
+}
+MOST_KEPT = 512
+"""Assemblies that are kept; studies of one geometry need one."""
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A mechanism put together at t = 0, journals where they start, concentric by default.
+
+    Attributes
+    ----------
+    pose, velocity : (3 bodies,) float
+        x, y (m) and theta (rad) of each body, and their rates.
+    residual : float
+        Largest constraint residual, m or rad.
+    constraints, rank : int
+        Number of constraint rows and of independent ones, journals held.
+    freedom : int
+        Degrees of freedom of the ideal mechanism.
+    freedom_with_play : int
+        Degrees of freedom once joints with clearance are let go.
+    redundant_with_play : int
+        Dependent rows that remain then.
+    """
+
+    pose: Floats
+    velocity: Floats
+    residual: float
+    constraints: int
+    rank: int
+    freedom: int
+    freedom_with_play: int
+    redundant_with_play: int
+
+    @property
+    def redundant(self) -> int:
+        """Dependent constraint rows of the ideal mechanism."""
+        return self.constraints - self.rank
+
+
+def shortest_link(scene: Scene) -> float:
+    """Return the shortest distance between two joints on one body, m; the scene's length scale.
+
+    Without any: the largest bearing radius, else 1 m.
+    """
+    distances = link_lengths(scene)
+    if distances:
+        return min(distances)
+    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
+    radii = [c.bearing_radius for c in clearances if c is not None]
+    return max(radii, default=1.0)
+
+
+def link_lengths(scene: Scene) -> list[float]:
+    """Return the distances, m, between joints on one body that are apart; there may be none."""
+    joined: dict[str, list[list[float]]] = {name: [] for name in scene.bodies}
+    for joint in scene.joints.values():
+        for _, reference in ends(joint):
+            body, point = reference.split(".")
+            if body in joined:
+                joined[body].append(scene.bodies[body].points[point])
+    distances = [math.dist(a, b) for points in joined.values() for a, b in combinations(points, 2)]
+    return [d for d in distances if d > 0.0]
+
+
+def driver_positions(scene: Scene) -> dict[str, float]:
+    """Return each driver's position at t = 0, rad or m."""
+    return {name: driver.position for name, driver in scene.drivers.items()}
+
+
+def first_angles(scene: Scene) -> dict[str, float]:
+    """Return angles, rad, from which the assembly starts: as given, as driven, or as carried."""
+    angles = {"ground": 0.0}
+    for branch in spanning_tree(scene).branches:
+        joint = scene.joints.get(branch.joint)
+        offset = 0.0
+        if isinstance(joint, Prismatic | Fixed):
+            offset = joint.angle
+        elif branch.driver is not None:
+            offset = scene.drivers[branch.driver].position
+        carried = angles[branch.parent] + (offset if branch.outward else -offset)
+        given = scene.start.angles.get(branch.body)
+        prescribed = branch.driver is not None and isinstance(joint, Revolute)
+        if prescribed or given is None:
+            held = prescribed or isinstance(joint, Prismatic | Fixed)
+            angles[branch.body] = carried if held else 0.0
+        else:
+            angles[branch.body] = given
+    return angles
+
+
+_found: dict[str, Assembly] = {}
+
+
+def assemble(scene: Scene) -> Assembly:
+    """Close the ideal mechanism by Newton's iteration; start values steer and fill freedom.
+
+    Never raises for a mechanism that cannot close: the residual tells. Scenes of one geometry, as
+    the points of most studies, share what was found for the first.
+    """
+    geometry = _geometry(scene)
+    if geometry not in _found:
+        while len(_found) >= MOST_KEPT:
+            _found.pop(next(iter(_found)), None)
+        _found[geometry] = _assembled(scene)
+    return _found[geometry]
+
+
+def _geometry(scene: Scene) -> str:
+    """Return, as text, what an assembly depends on: no mass, no clearance, no law of contact."""
+    found = scene.model_dump_json(include=GEOMETRY, exclude={"joints": {"__all__": {"clearance"}}})
+    play = "".join(str(int(has_play(joint))) for joint in scene.joints.values())
+    return f"{found} {play} {shortest_link(scene)!r}"
+
+
+def _assembled(scene: Scene) -> Assembly:
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    length = shortest_link(scene)
+    driven = driver_positions(scene)
+    count = 3 * len(ideal.bodies)
+    scale = np.tile([length, length, 1.0], len(ideal.bodies))
+    still = np.zeros(count)
+
+    pose = still.copy()
+    for i, body in enumerate(ideal.bodies):
+        pose[3 * i + 2] = first_angles(scene)[body]
+    positions = np.arange(count) % 3 != 2
+    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+    if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles
+        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
+        pose[positions] += step
+    for _ in range(MOST_ITERATIONS):
+        residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+        if not len(residual) or not np.isfinite(residual).all():
+            break
+        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
+        # a turn of more than half a radian would lead to another assembly; positions follow
+        turn = float(np.abs(step[~positions]).max())
+        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+        if float(np.abs(step).max()) < 1e-15:
+            break
+    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+
+    loose = AbsoluteMechanism(scene, view(scene), close_play=False)
+    velocity = _start_velocity(ideal, pose, scale)
+    _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
+    rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
+    pose.flags.writeable = velocity.flags.writeable = False
+    return Assembly(
+        pose=pose,
+        velocity=velocity,
+        residual=float(np.abs(residual).max(initial=0.0)),
+        constraints=len(residual),
+        rank=rank,
+        freedom=count - rank,
+        freedom_with_play=count - open_rank,
+        redundant_with_play=len(open_jacobian) - open_rank,
+    )
+
+
+def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
+    """Velocities of the ideal mechanism; those given, where play lets a journal be thrown."""
+    scene, driven = ideal.scene, driver_positions(ideal.scene)
+    velocity = np.zeros(len(pose))
+    for i, body in enumerate(ideal.bodies):
+        velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))
+        velocity[3 * i + 2] = scene.start.angular_velocities.get(body, 0.0)
+    everything = np.full(len(pose), True)
+    for columns in (np.arange(len(pose)) % 3 != 2, everything, everything):
+        # given angular velocities first carry the centres of mass along; the last pass removes
+        # the rounding of the one before
+        _admissible(ideal, pose, velocity, driven, scale, columns)
+    if not scene.start.velocities:
+        return velocity
+    for body, given in scene.start.velocities.items():
+        i = 3 * ideal.bodies.index(body)
+        velocity[i : i + 2] = given
+    thrown = [name for name, start in scene.start.joints.items() if start.rate is not None]
+    loose = AbsoluteMechanism(scene, ideal.numbers, close_play=False, held=thrown)
+    for _ in range(2):
+        _admissible(loose, pose, velocity, driven, scale, everything)
+    return velocity
+
+
+def _admissible(
+    mechanism: AbsoluteMechanism,
+    pose: Floats,
+    velocity: Floats,
+    driven: dict[str, float],
+    scale: Floats,
+    columns: NDArray[np.bool_],
+) -> None:
+    """Change some of the velocities, as little as possible, so that the constraints hold."""
+    rows = mechanism.rows(pose, velocity, driven)
+    if rows:
+        _, jacobian = _arrays(rows, len(pose))
+        rates = np.array([row.rate for row in rows], np.float64)
+        scaled = (jacobian * scale)[:, columns]
+        step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
+        velocity[columns] += scale[columns] * step
+
+
+def _arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
+    jacobian = np.zeros((len(rows), count))
+    for i, row in enumerate(rows):
+        for k, entry in row.jacobian.items():
+            jacobian[i, k] = entry
+    return np.array([row.value for row in rows], np.float64), jacobian
+
+
+def _rank(scaled_jacobian: Floats) -> int:
+    if not scaled_jacobian.size:
+        return 0
+    rows = np.linalg.norm(scaled_jacobian, axis=1, keepdims=True)
+    values = np.linalg.svd(scaled_jacobian / np.maximum(rows, 1e-300), compute_uv=False)
+    return int((values > RANK_TOLERANCE * values[0]).sum())

@@ -1,0 +1,1 @@
+"""Physical quantities: units of scene fields, scalars that may be numbers or expressions."""

@@ -1,0 +1,91 @@
+"""The arithmetic that the mechanics are written in.
+
+The same functions run on floats (the readable reference), on NumPy arrays (many instants at once)
+and on recorded expressions (`solver.kernels.record.recorder`), which become kernels.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+type_of_array = np.ndarray
+
+Scalar = Any
+"""A float, a NumPy array or a recorded expression."""
+
+Scalars = Any
+"""A sequence of scalars: a list, or an array of floats."""
+
+
+def sqrt(x: Scalar) -> Scalar:
+    """Square root."""
+    if isinstance(x, float | int):
+        return math.sqrt(x)
+    return np.sqrt(x) if isinstance(x, type_of_array) else x.sqrt()
+
+
+def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
+    """Sine and cosine of an angle in rad."""
+    if isinstance(x, float | int):
+        return math.sin(x), math.cos(x)
+    return (np.sin(x), np.cos(x)) if isinstance(x, type_of_array) else x.sine_cosine()
+
+
+def select_positive(x: Scalar, if_positive: Scalar, otherwise: Scalar) -> Scalar:
+    """`if_positive` where x > 0, else `otherwise` (also where x is not a number)."""
+    if isinstance(x, float | int):
+        return if_positive if x > 0.0 else otherwise
+    if isinstance(x, type_of_array):
+        return np.where(x > 0.0, if_positive, otherwise)
+    return x.select_positive(if_positive, otherwise)
+
+
+def positive_part(x: Scalar) -> Scalar:
+    """Return the larger of x and 0."""
+    return select_positive(x, x, 0.0)
+
+
+def absolute(x: Scalar) -> Scalar:
+    """Return the magnitude of x."""
+    return abs(x)
+
+
+def sign(x: Scalar) -> Scalar:
+    """1 where x > 0, else -1."""
+    return select_positive(x, 1.0, -1.0)
+
+
+def minimum(x: Scalar, y: Scalar) -> Scalar:
+    """Return the smaller of x and y."""
+    return select_positive(x - y, y, x)
+
+
+def maximum(x: Scalar, y: Scalar) -> Scalar:
+    """Return the larger of x and y."""
+    return select_positive(x - y, x, y)
+
+
+def clamp_to_unit(x: Scalar) -> Scalar:
+    """Return x limited to 0..1."""
+    return minimum(positive_part(x), 1.0)
+
+
+def kinked(value: Scalar, argument: Scalar) -> Scalar:
+    """Return `value`, a function of `argument` alone that is linear but for kinks and jumps.
+
+    Recorded expressions note it: a tangent vector that passes a kink within a step takes the mean
+    slope over the step, for the slope at a few points of the step would miss where the kink is.
+    """
+    if isinstance(value, float | int | type_of_array):
+        return value
+    return value.kinked(argument)
+
+
+def power(x: Scalar, exponent: Scalar) -> Scalar:
+    """Return x ** exponent for x >= 0; the Hertz exponent 1.5 costs one square root."""
+    if isinstance(exponent, float) and exponent == 1.5:
+        return x * sqrt(x)
+    if isinstance(x, float | int | type_of_array):
+        return x**exponent
+    return x.power(exponent)

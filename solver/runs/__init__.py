@@ -1,0 +1,1 @@
+"""Runs of a mechanism: simulations, studies, ideal mechanisms, certificates."""

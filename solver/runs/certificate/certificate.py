@@ -1,0 +1,236 @@
+"""The certificate of a trajectory, put together from its companions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.failures import ledger_of, peaks_of
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.runs.certificate.companions import LADDER, PERTURBED, RUN, Companions
+from jointplay.solver.runs.certificate.estimate import (
+    CONVERGED,
+    SAFETY,
+    estimated_error,
+    spans,
+    until,
+    within,
+)
+from jointplay.solver.runs.certificate.growth import Exponent
+from jointplay.solver.runs.certificate.spread import BINS, histogram
+from jointplay.solver.runs.study.starts import start_scales
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.scene.document import Revolute, Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+JOURNAL = ("eccentricity_x", "eccentricity_y", "penetration")
+"""Channels of a joint with play whose scale is the clearance from side to side, not their range."""
+COORDINATES = ("x", "y", "theta")
+HARDLY = 1e-3
+"""A channel that moves by less than this share of another of its unit is measured by that one."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """How far a trajectory can be believed.
+
+    Attributes
+    ----------
+    time : (instants,)
+        s, from 0 to the end of the run.
+    error : (instants, channels)
+        Estimated error of each channel, in its unit; where the motion is not converged, no more
+        than how far the companions are apart. Infinite where too few of them came.
+    until : (channels,)
+        Time until which the error stays below a share of the channel's scale, s.
+    extremes : (channels, 4)
+        Lowest and highest minimum, lowest and highest maximum of several lanes.
+    edges, share, spread : (BINS + 1, channels), (BINS, channels), (BINS, channels)
+        Bins, and the share of time that channels spend there with its standard deviation over
+        companions.
+    facts
+        The rest, as a JSON document.
+    """
+
+    time: Floats
+    error: Floats
+    until: Floats
+    extremes: Floats
+    edges: Floats
+    share: Floats
+    spread: Floats
+    facts: dict[str, Any]
+
+    @classmethod
+    def of_exact(cls, channels: int, duration: float) -> Certificate:
+        """Return the certificate of a motion that follows from its drivers alone."""
+        nothing = np.zeros((0, channels))
+        facts = {
+            "note": "Nothing is integrated: the drivers prescribe the motion, which is evaluated"
+            " at each instant to rounding.",
+            "horizon": duration,
+            "converged": [[0.0, duration]],
+        }
+        return cls(
+            np.zeros(0),
+            nothing,
+            np.full(channels, duration),
+            np.full((channels, 4), np.nan),
+            np.full((BINS + 1, channels), np.nan),
+            np.full((BINS, channels), np.nan),
+            np.full((BINS, channels), np.nan),
+            facts,
+        )
+
+
+def certify(
+    companions: Companions,
+    scene: Scene,
+    channels: Sequence[Channel],
+    tolerance: float,
+    exponent: Exponent | None,
+    violation: Floats | None,
+) -> Certificate:
+    """Put a trajectory's certificate together.
+
+    Parameters
+    ----------
+    companions
+        Each at its end, or left behind.
+    channels
+        Those that the job selected.
+    violation : (2,)
+        Of constraints: of positions, m, and of angles, rad; none where there are none.
+    """
+    bundle, time = companions.bundle, companions.instants.time
+    rows = bundle.kernel.rows
+    names = [channel.name for channel in channels]
+    motion = _motion(scene)
+    columns = np.array([rows.index(name) for name in [*names, *motion]], dtype=np.int64)
+    values = companions.values(columns)
+    error = estimated_error(values)
+    units = [channel.unit for channel in channels] + list(motion.values())
+    scales = _scales(values, [*names, *motion], units, scene)
+    count = len(names)
+    small = within(error, scales)
+    known = spans(small[:, count:], time)
+    edges, share, spread = histogram(values[:, :, :count], time)
+    energy = ledger_of(bundle, RUN)
+    gross = energy["gross_work"]
+    facts = {
+        "note": "",
+        "horizon": known[0][1],
+        "converged": known,
+        "criterion": f"the estimated error of each journal's centre is below {CONVERGED:g} of its"
+        f" clearance from side to side, and that of each body's position and angle below"
+        f" {CONVERGED:g} of its range",
+        "safety": SAFETY,
+        "exponent": None if exponent is None else asdict(exponent),
+        "exponent_note": "" if exponent is not None else _no_exponent(scene),
+        "energy_residual": energy["residual"],
+        "gross_work": gross,
+        "energy_error": abs(energy["residual"]) / gross if gross > 0.0 else None,
+        "constraint_violation": _violation(violation),
+        "lanes": [_lane(companions, lane, tolerance) for lane in range(LANES)],
+        "lanes_with_extremes": [RUN, *companions.loud],
+    }
+    return Certificate(
+        time,
+        error[:, :count],
+        until(small[:, :count], time),
+        _extremes(companions, names),
+        edges,
+        share,
+        spread,
+        facts,
+    )
+
+
+def _motion(scene: Scene) -> dict[str, str]:
+    """Return channels whose errors say how long the trajectory is known, with their units."""
+    found = {
+        f"{name}.{part}": "m"
+        for name, joint in scene.joints.items()
+        if _clearance(scene, name) > 0.0
+        for part in JOURNAL[:2]
+    }
+    for body in scene.bodies:
+        found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
+    return found
+
+
+def _scales(values: Floats, names: Sequence[str], units: Sequence[str], scene: Scene) -> Floats:
+    """Return what errors are compared with, (channels,), in the channels' units."""
+    reached = values[~np.isnan(values).any(axis=(1, 2))]
+    if not len(reached):
+        reached = np.nan_to_num(values)
+    ranges = np.ptp(reached, axis=(0, 1))
+    of_unit = np.array(units)
+    largest = np.array([ranges[of_unit == unit].max() for unit in units])
+    scales: Floats = np.maximum(ranges, HARDLY * largest)
+    finest = start_scales(scene, names, 1.0)[0]  # of positions and angles, where there is play
+    play = any(_clearance(scene, name) > 0.0 for name in scene.joints)
+    for column, name in enumerate(names):
+        owner, _, quantity = name.partition(".")
+        if quantity in JOURNAL:
+            scales[column] = 2.0 * _clearance(scene, owner)
+        elif play and quantity in COORDINATES:
+            scales[column] = max(scales[column], finest[column])
+    return scales
+
+
+def _clearance(scene: Scene, name: str) -> float:
+    joint = scene.joints[name]
+    if not isinstance(joint, Revolute) or joint.clearance is None:
+        return 0.0
+    return joint.clearance.radial_clearance
+
+
+def _extremes(companions: Companions, names: Sequence[str]) -> Floats:
+    """Return lowest and highest minima and maxima of the lanes that sought them."""
+    bundle, rows = companions.bundle, companions.bundle.kernel.rows
+    sought = [name for name in names if name in rows.watched or name in rows.multiples]
+    run = peaks_of(bundle, RUN, names)  # what drivers prescribe is the same in all lanes
+    found = [run, *(run | peaks_of(bundle, lane, sought) for lane in companions.loud)]
+    low = np.array([[peaks[name].minimum for name in names] for peaks in found])
+    high = np.array([[peaks[name].maximum for name in names] for peaks in found])
+    return np.stack([low.min(0), low.max(0), high.min(0), high.max(0)], axis=1)
+
+
+def _violation(largest: Floats | None) -> dict[str, Any]:
+    if largest is None:
+        note = "Zero by construction: joint coordinates satisfy the constraints."
+        return {"position": 0.0, "angle": 0.0, "note": note}
+    return {"position": float(largest[0]), "angle": float(largest[1]), "note": ""}
+
+
+def _no_exponent(scene: Scene) -> str:
+    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
+    if any(c.friction is not None and c.friction.jumps for c in clearances if c is not None):
+        return (
+            "Friction jumps where its limit velocities are equal: a tangent has no derivative"
+            " there. Choose a dynamic_velocity above the static_velocity."
+        )
+    return "No window of the run was long enough."
+
+
+def _lane(companions: Companions, lane: int, tolerance: float) -> dict[str, Any]:
+    """Return what one lane computed and what that cost."""
+    bundle = companions.bundle
+    steps = int(bundle.table("steps")[0, lane])
+    return {
+        "tolerance": tolerance * ((1.0, *LADDER)[lane] if lane <= len(LADDER) else 1.0),
+        "perturbed": lane in PERTURBED,
+        "time": bundle.time(lane),
+        "complete": bool(bundle.counters[Counter.STATUS, lane] == Status.DONE),
+        "steps": steps,
+        "rejections": int(bundle.counters[Counter.REJECTIONS, lane]),
+        "onsets": int(bundle.counters[Counter.ONSETS, lane]),
+        "smallest_step": float(bundle.table("smallest_step")[0, lane]) if steps else None,
+        "energy_residual": ledger_of(bundle, lane)["residual"],
+    }

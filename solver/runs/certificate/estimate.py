@@ -1,0 +1,90 @@
+"""The estimated error of a trajectory over time, from how far its companions are apart.
+
+At each instant: the largest distance between those that have the run's own tolerance and those
+that have tighter ones, between the latter, and of looser ones from the tightest, by how much looser
+they are. An error changes sign, and a force is wrong where an impact is late: so the largest within
+REACH instants to either side counts. SAFETY makes it cover the true error (docs/certificate.md has
+how often it does).
+"""
+
+from __future__ import annotations
+
+import warnings
+from itertools import combinations
+
+import numpy as np
+from jointplay.solver.runs.certificate.companions import (
+    LADDER,
+    LOOSER,
+    PERTURBED,
+    TIGHTER,
+    TIGHTEST,
+)
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SAFETY = 3.0
+REACH = 2
+"""Instants."""
+CONVERGED = 0.05
+"""Share of its scale below which the error of a coordinate must stay."""
+LASTING = 8
+"""Instants."""
+
+
+def estimated_error(values: Floats) -> Floats:
+    """Return the estimated error, (instants, channels), in the channels' units.
+
+    values : (7, instants, channels) of lanes 1 to 7; not a number where one was left behind.
+    Infinite where there are not two left to compare.
+    """
+    compared = [lane - 1 for lane in (TIGHTEST, TIGHTER, *PERTURBED)]
+    same = {lane - 1 for lane in PERTURBED}
+    pairs = [pair for pair in combinations(compared, 2) if not same.issuperset(pair)]
+    distances = [np.abs(values[a] - values[b]) for a, b in pairs]
+    distances += [
+        np.abs(values[lane - 1] - values[TIGHTEST - 1]) / LADDER[lane - 1] for lane in LOOSER
+    ]
+    with warnings.catch_warnings():  # of instants that nobody reached
+        warnings.simplefilter("ignore", RuntimeWarning)
+        apart = np.nanmax(distances, axis=0)
+    return SAFETY * around(np.where(np.isnan(apart), np.inf, apart))
+
+
+def around(apart: Floats) -> Floats:
+    """Return the largest values within REACH instants, (instants, channels)."""
+    largest = apart.copy()
+    for shift in range(1, REACH + 1):
+        np.maximum(largest[shift:], apart[:-shift], out=largest[shift:])
+        np.maximum(largest[:-shift], apart[shift:], out=largest[:-shift])
+    return largest
+
+
+def within(error: Floats, scales: Floats) -> NDArray[np.bool_]:
+    """Return where errors are small, (instants, channels).
+
+    error : (instants, channels). scales : (channels,) sizes that errors are compared with.
+    """
+    return np.asarray(error <= CONVERGED * scales)
+
+
+def until(small: NDArray[np.bool_], time: Floats) -> Floats:
+    """Return the time, s, until which each channel's error stays small from the start on."""
+    count = np.where(small.all(axis=0), len(small), (~small).argmax(axis=0))
+    return np.asarray(time[np.maximum(count - 1, 0)])
+
+
+def spans(small: NDArray[np.bool_], time: Floats) -> list[list[float]]:
+    """Return first and last times, s, of the spans in which the motion is converged.
+
+    small : (instants, channels). The first span begins with the run and ends at the horizon; it
+    may be one instant. Where friction and impacts take more than chaos tears apart, companions come
+    together again: later spans have LASTING instants at least, so that chance meetings are none.
+    """
+    all_small = np.concatenate([[False], small.all(axis=1), [False]])
+    edges = np.flatnonzero(np.diff(all_small.astype(np.int8)))
+    pairs = edges.reshape(-1, 2)
+    later = [(a, b) for a, b in pairs if a > 0 and b - a >= LASTING]
+    first = [(a, b) for a, b in pairs if a == 0] or [(0, 1)]
+    return [[float(time[a]), float(time[b - 1])] for a, b in first + later]

@@ -1,0 +1,125 @@
+"""A finite-time Lyapunov exponent with its spread: tangent vectors over eight windows of a run.
+
+A tangent vector costs as much as the run that carries it. Eight at once, each over a window of its
+own that begins at an eighth of the run, show in a twentieth of the steps how small deviations
+grow, and how unevenly they do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.tangent import tangent_length
+from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SHARE, FEWEST, MOST = 0.05, 200, 1_000_000
+"""Steps of a window: a share of the run's, within bounds."""
+ALIGNING = 0.25
+"""Share of a window in which a tangent turns to the direction that grows fastest."""
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """Growth of small deviations per time, 1/s: mean over windows, its standard error, extremes."""
+
+    value: float
+    error: float
+    lowest: float
+    highest: float
+    windows: int
+    time: float
+    """Of all windows, s."""
+
+
+class Windows:
+    """Eight windows in the lanes of a bundle of their own: `advance` until it is over."""
+
+    def __init__(self, companions: Companions, problem: LaneProblem, tangents: Tangents) -> None:
+        """Start windows from the tightest companion's states, as far as it came."""
+        kernel = companions.bundle.kernel
+        self.bundle = Bundle(kernel, watch=False, tangents=tangents)
+        self.attempts = int(min(max(SHARE * companions.attempts(RUN), FEWEST), MOST))
+        self.grown = np.zeros(LANES)
+        self.aligned = np.full((2, LANES), np.nan)
+        plain = replace(problem, output_step=problem.duration, samples=0, sections=0)
+        rows = companions.dense(TIGHTEST)
+        index = companions.instants.index
+        wanted = [index.searchsorted(companions.instants.last * k // LANES) for k in range(LANES)]
+        drivers, joints = len(kernel.drivers), len(kernel.play)
+        self.bundle.number_like(companions.bundle, RUN, problem.scene)
+        for lane, row in enumerate(rows[i] for i in wanted if i < len(rows)):
+            state, contacts = np.split(row[2 + 2 * drivers :], [kernel.states])
+            contacts = contacts.reshape(joints, 2)
+            start = LaneStart(state, contacts[:, 0] > 0.0, contacts[:, 1], int(row[0]), row[1])
+            self.bundle.load(lane, replace(plain, start=start), like=0)
+
+    @property
+    def times(self) -> Floats:
+        """Simulated time that each lane has reached, s."""
+        return np.array([self.bundle.time(lane) for lane in range(LANES)])
+
+    def advance(self, budget: int) -> bool:
+        """Make some attempts; whether more are to be made."""
+        aligning = math.ceil(ALIGNING * self.attempts)
+        goal = aligning if self.bundle.attempts < aligning else self.attempts
+        running = self.bundle.advance(min(budget, goal - self.bundle.attempts))
+        for lane in range(LANES):
+            for grown in self.bundle.growth(lane)[:, 1]:  # one by one: a sum depends on slices
+                self.grown[lane] += grown
+        if self.bundle.attempts == aligning:
+            still = self.bundle.counters[Counter.STATUS] == Status.RUNNING
+            self.aligned = np.where(still, [self.times, self.logarithms], np.nan)
+        return running > 0 and self.bundle.attempts < self.attempts
+
+    def checkpoint(self) -> dict[str, NDArray[Any]]:
+        """Return arrays that `restore` takes."""
+        return {
+            "windows": np.frombuffer(self.bundle.state(), dtype=np.uint8),
+            "windows_growth": np.vstack([self.grown, self.aligned]),
+            "windows_attempts": np.array(self.bundle.attempts),
+        }
+
+    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from a checkpoint."""
+        self.bundle.restore(saved["windows"].tobytes())
+        self.bundle.attempts = int(saved["windows_attempts"])
+        self.grown, self.aligned = saved["windows_growth"][0], saved["windows_growth"][1:]
+
+    @property
+    def logarithms(self) -> Floats:
+        """Logarithm of how much each tangent has grown."""
+        slots, work = self.bundle.slots, self.bundle.work
+        lengths = [tangent_length(lane, slots, work) for lane in range(LANES)]
+        with np.errstate(divide="ignore"):
+            return self.grown + np.log(lengths)
+
+    def exponent(self) -> Exponent | None:
+        """Return what the windows say; none where there is no tangent, or no time to follow it."""
+        status = self.bundle.counters[Counter.STATUS]
+        sound = (status == Status.RUNNING) | (status == Status.DONE)
+        spans, growth = [self.times, self.logarithms] - self.aligned
+        used = sound & (spans > 0.0) & np.isfinite(growth)
+        if not used.any():
+            return None
+        rates = growth[used] / spans[used]
+        count = len(rates)
+        return Exponent(
+            float(growth[used].sum() / spans[used].sum()),
+            float(rates.std(ddof=1) / math.sqrt(count)) if count > 1 else math.inf,
+            float(rates.min()),
+            float(rates.max()),
+            count,
+            float(spans[used].sum()),
+        )

@@ -1,0 +1,94 @@
+"""Looks after what a certificate needs while a trajectory is computed, and then makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.runs.certificate.certificate import Certificate, certify
+from jointplay.solver.runs.certificate.companions import RUN, Companions
+from jointplay.solver.runs.certificate.growth import Windows
+from jointplay.solver.runs.certificate.violation import Violation
+from jointplay.solver.scene.channels import Channel
+from numpy.typing import NDArray
+
+
+class Survey:
+    """Companions of the trajectory in a bundle's first lane, and after them its windows."""
+
+    def __init__(self, bundle: Bundle, problem: LaneProblem, formulation: str) -> None:
+        """Load companions; compile tangents, which takes seconds when they are not cached."""
+        self.bundle, self.problem = bundle, problem
+        self.tangents = compile_tangents(bundle.kernel)
+        self.companions = Companions.beside(bundle, problem)
+        self.violation = Violation(problem.scene) if formulation == "lagrange" else None
+        self.windows: Windows | None = None
+        self.goes_on = True
+        """Whether there is something left to compute."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time that all companions have reached that still run, s."""
+        return self.companions.time
+
+    def advance(self, budget: int) -> None:
+        """Make at most so many attempts: of trajectory and companions, then of windows."""
+        if self.bundle.counters[Counter.STATUS, RUN] == Status.RUNNING:
+            self._follow(budget)
+            return
+        self.bundle.advance(0)  # its rows have been handed out
+        while budget > 0 and self.companions.running:
+            budget -= self._follow(budget)
+        if budget <= 0 or self.companions.running:
+            return
+        if self.windows is None:
+            self.windows = self._windows()
+        self.goes_on = self.windows.advance(budget)
+
+    def _follow(self, budget: int) -> int:
+        """Make attempts until a lane ends, at most so many; return how many."""
+        before = self.bundle.attempts
+        self.bundle.advance(self.companions.allowance(budget))
+        self.companions.collect()
+        if self.violation is not None:
+            count = self.bundle.counters[Counter.SAMPLE_ROWS, RUN]
+            self.violation.look(self.bundle.sample_rows[RUN, :count])
+        return self.bundle.attempts - before
+
+    def checkpoint(self) -> dict[str, NDArray[Any]]:
+        """Return arrays that `restore` takes."""
+        saved = self.companions.checkpoint() | {"goes_on": np.array(self.goes_on)}
+        if self.windows is not None:
+            saved |= self.windows.checkpoint()
+        if self.violation is not None:
+            saved["violation"] = self.violation.largest
+        return saved
+
+    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from a checkpoint."""
+        self.companions.restore(saved)
+        self.goes_on = bool(saved["goes_on"])
+        if "windows" in saved:
+            self.windows = self._windows()
+            self.windows.restore(saved)
+        if self.violation is not None:
+            self.violation.largest = np.array(saved["violation"])
+
+    def _windows(self) -> Windows:
+        return Windows(self.companions, self.problem, self.tangents)
+
+    def certificate(self, channels: Sequence[Channel]) -> Certificate:
+        """Return what is known by now of the trajectory's channels."""
+        return certify(
+            self.companions,
+            self.problem.scene,
+            channels,
+            self.problem.tolerance,
+            None if self.windows is None or self.goes_on else self.windows.exponent(),
+            None if self.violation is None else self.violation.largest,
+        )

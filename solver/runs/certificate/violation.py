@@ -1,0 +1,46 @@
+"""How far the constraints of absolute coordinates are violated: by Baumgarte's drift alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Violation:
+    """The largest violation of a scene's constraints at all dense states seen so far.
+
+    Attributes
+    ----------
+    largest : (2,)
+        Of positions, m, and of angles, rad.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.numbers = view(scene)
+        self.drivers: Sequence[str] = tuple(scene.drivers)
+        self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=False)
+        self.largest = np.zeros(2)
+
+    def look(self, rows: Floats) -> None:
+        """Look at dense states, (count, width), as `solver.kernels.loop.rows` writes them."""
+        if not len(rows):
+            return
+        count = len(self.drivers)
+        phases, turns = rows[:, 2 : 2 + count], rows[:, 2 + count : 2 + 2 * count]
+        driven = {
+            name: phases[:, k] + turns[:, k] + self.numbers.drivers[name].speed * rows[:, 1]
+            for k, name in enumerate(self.drivers)
+        }
+        half = 3 * len(self.mechanism.bodies)
+        q, v = rows[:, 2 + 2 * count :][:, :half].T, rows[:, 2 + 2 * count + half :][:, :half].T
+        for row in self.mechanism.rows(list(q), list(v), driven):
+            kind = 1 if row.part == "angle" else 0
+            worst = float(np.max(np.abs(row.value)))
+            self.largest[kind] = max(self.largest[kind], worst)

@@ -1,0 +1,103 @@
+"""Which values the motion of a driven mechanism can reach, with its play and before it is run."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from jointplay.solver.quantities.extremes import Floats
+from jointplay.solver.runs.ideal.motion import IdealMotion
+from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.periods import common_period
+
+POSITIONS = ("x", "y", "theta")
+RATES = ("vx", "vy", "omega", "ax", "ay", "alpha")
+SLACK = 0.01
+"""Share of a range that is granted beyond it: extremes lie between the instants looked at."""
+SECOND_ORDER = 2.0
+"""Times the first-order displacement by play: what it leaves out, and the penetration."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What a channel of a body does in a period.
+
+    Attributes
+    ----------
+    low, high : float
+        Bounds, in the channel's unit.
+    turns : int
+        Whole turns that an angle gains in a period.
+    """
+
+    low: float
+    high: float
+    turns: int = 0
+
+
+class MotionReach:
+    """The reach of all bodies of a scene whose drivers leave no freedom but the play."""
+
+    def __init__(self, scene: Scene, period: float) -> None:
+        self.motion = IdealMotion(scene, period, period)
+        self.bodies = list(scene.bodies)
+        self.play = {
+            name: joint.clearance.radial_clearance
+            for name, joint in scene.joints.items()
+            if isinstance(joint, Revolute) and joint.clearance is not None
+        }
+        self.strayed = SECOND_ORDER * self.motion.displacements(self.play)
+
+    def of(self, body: str, quantity: str) -> Reach | None:
+        """Return the reach of a body's channel; None where play leaves it open.
+
+        With play a velocity or an acceleration can be anything, unless the play does not reach
+        the body at all: then it moves as the ideal one does.
+        """
+        first = 3 * self.bodies.index(body)
+        if quantity in POSITIONS:
+            column = first + POSITIONS.index(quantity)
+            path, strayed = self.motion.table[:, column], self.strayed[:, column]
+            turns = 0
+            if quantity == "theta":
+                turns = round((path[-1] - path[0]) / (2.0 * math.pi))
+            return _widened(path - strayed, path + strayed, turns)
+        axis = RATES.index(quantity) % 3
+        if quantity not in RATES or self.strayed[:, first + axis].any():
+            return None
+        instants = np.linspace(0.0, self.motion.unit, len(self.motion.table))
+        moved = self.motion.at(instants, instants).bodies[body]
+        found = {
+            "vx": moved.velocity[0],
+            "vy": moved.velocity[1],
+            "omega": moved.spin,
+            "ax": moved.acceleration[0],
+            "ay": moved.acceleration[1],
+            "alpha": moved.angular_acceleration,
+        }
+        return _widened(found[quantity], found[quantity], 0)
+
+
+def motion_reach(scene: Scene) -> MotionReach | None:
+    """Return the reach of a scene's bodies; None where the ideal mechanism cannot be followed.
+
+    So it is with a mechanism that moves freely, has no period, or comes to a dead point.
+    """
+    period = common_period(scene).seconds
+    if period is None:
+        return None
+    try:
+        found = MotionReach(scene, period)
+    except np.linalg.LinAlgError:
+        return None
+    return None if found.motion.lost is not None else found
+
+
+def _widened(low: Floats, high: Floats, turns: int) -> Reach:
+    bottom, top = float(low.min()), float(high.max())
+    rounding = 1e-9 * max(abs(bottom), abs(top))
+    if top - bottom <= rounding:
+        return Reach(bottom, bottom, turns)
+    slack = SLACK * (top - bottom)
+    return Reach(bottom - slack, top + slack, turns)

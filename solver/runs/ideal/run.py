@@ -1,0 +1,191 @@
+"""Runs a scene whose drivers leave no freedom: no integration, only exact motion at instants."""
+
+from __future__ import annotations
+
+import io
+import math
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.admission import Admission, section_offset
+from jointplay.solver.mechanics.observe import channel_values
+from jointplay.solver.quantities.extremes import Floats, refine_extreme
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.ideal.motion import IdealMotion
+from jointplay.solver.runs.results import IMPACT, Peak, Slice, Summary
+from jointplay.solver.scene.document import Scene
+
+SCAN_A_PERIOD = 2000
+"""Instants at which extremes are first sought; parabolas and re-evaluation refine them."""
+MOST_SCANNED = 200_000
+ROWS_A_SLICE = 1000
+"""Samples or sections that are computed at once."""
+
+
+class IdealRun:
+    """A run of an ideal mechanism: samples, then sections, then extremes."""
+
+    def __init__(self, admission: Admission, scene: Scene) -> None:
+        self.admission = admission
+        self.duration = float(admission.job["duration"])
+        self.motion = IdealMotion(scene, admission.period, self.duration)
+        self.names = [channel.name for channel in admission.channels]
+        self.samples_done = 0
+        self.sections_done = 0
+        self.seconds = 0.0
+        self.peaks: dict[str, Peak] = {}
+        self.offset = 0.0
+        if admission.period is not None:
+            angle = admission.job["section"]["crank_angle"]
+            self.offset = section_offset(scene, admission.period, angle)
+
+    def slices(self) -> Iterator[Slice]:
+        """See `Simulation.slices`."""
+        lost = self.motion.lost
+        while self.samples_done < self.admission.samples:
+            begun = time.perf_counter()
+            times, local = self._sample_instants()
+            values, lost = self._up_to(times, local, lost)
+            times = times[: len(values)]
+            found = self._slice(times, values, np.empty(0), self.channels(np.empty(0)))
+            self.samples_done += len(times)
+            self.seconds += time.perf_counter() - begun
+            yield found
+            if lost is not None:
+                raise lost
+        while self.sections_done < self.admission.sections:
+            begun = time.perf_counter()
+            last = min(self.sections_done + ROWS_A_SLICE, self.admission.sections)
+            index = np.arange(self.sections_done, last, dtype=np.float64)
+            times = self.offset + index * (self.admission.period or 0.0)
+            sections = self.channels(times, np.full(len(times), self.offset))
+            found = self._slice(np.empty(0), self.channels(np.empty(0)), times, sections)
+            self.sections_done = last
+            self.seconds += time.perf_counter() - begun
+            yield found
+        self.peaks = self._extremes()
+
+    def checkpoint(self) -> bytes:
+        """See `Simulation.checkpoint`."""
+        buffer = io.BytesIO()
+        np.save(buffer, np.array([self.samples_done, self.sections_done, self.seconds]))
+        return buffer.getvalue()
+
+    def restore(self, checkpoint: bytes) -> None:
+        """Continue from a checkpoint."""
+        samples, sections, self.seconds = np.load(io.BytesIO(checkpoint), allow_pickle=False)
+        self.samples_done, self.sections_done = int(samples), int(sections)
+
+    def summary(self) -> Summary:
+        """See `Simulation.summary`; a run that was lost has the extremes up to there."""
+        peaks = self.peaks
+        if not peaks and self.samples_done:
+            times = np.arange(self.samples_done) * self.admission.job["output_step"]
+            values = self.channels(times)
+            peaks = {name: _sampled(times, values[:, c]) for c, name in enumerate(self.names)}
+        statistics: dict[str, Any] = {
+            "steps": 0,
+            "rejections": 0,
+            "onsets": 0,
+            "smallest_step": None,
+            "solver_seconds": self.seconds,
+            "energy": None,
+        }
+        return Summary(peaks, statistics)
+
+    def certificate(self) -> Certificate | None:
+        """See `Simulation.certificate`."""
+        if not self.admission.job["certificate"]:
+            return None
+        return Certificate.of_exact(len(self.names), self.duration)
+
+    def channels(self, times: Floats, local: Floats | None = None) -> Floats:
+        """Return (instants, channels) at times in s; `local` is the time within the period."""
+        if not len(times):
+            return np.empty((0, len(self.names)))
+        if local is None:
+            local = self.motion.local(np.ones(len(times)), times)
+        values = channel_values(self.motion.numbers, self.motion.at(times, local))
+        columns = [np.broadcast_to(values[name], times.shape) for name in self.names]
+        return np.stack(columns, axis=1)
+
+    def _up_to(
+        self, times: Floats, local: Floats, lost: SimulationFailed | None
+    ) -> tuple[Floats, SimulationFailed | None]:
+        """Return channels at the times before the motion is lost, and how it is lost."""
+        while True:
+            if lost is not None:
+                count = int(np.searchsorted(times, lost.time))
+                times, local = times[:count], local[:count]
+            try:
+                return self.channels(times, local), lost
+            except SimulationFailed as earlier:
+                lost = earlier
+
+    def _sample_instants(self) -> tuple[Floats, Floats]:
+        job, samples = self.admission.job, self.admission.samples
+        last = min(self.samples_done + ROWS_A_SLICE, samples)
+        index = np.arange(self.samples_done, last, dtype=np.float64)
+        times = index * job["output_step"]
+        local = self.motion.local(index, job["output_step"])
+        if last == samples:
+            times[-1] = self.duration
+            local[-1] = self.motion.local(np.ones(1), self.duration)[0]
+        return times, local
+
+    def _slice(
+        self, times: Floats, samples: Floats, section_times: Floats, sections: Floats
+    ) -> Slice:
+        reached = float(times[-1]) if len(times) else self.duration
+        return Slice(
+            reached,
+            min(reached / self.duration, 1.0),
+            self.samples_done,
+            times,
+            samples,
+            self.sections_done,
+            section_times,
+            sections,
+            np.zeros(0, dtype=IMPACT),
+        )
+
+    def _extremes(self) -> dict[str, Peak]:
+        """Seek the extremes of every channel on the exact motion."""
+        period = self.admission.period
+        span = min(self.duration, period) if period else self.duration
+        count = max(math.ceil(SCAN_A_PERIOD * span / self.motion.unit), 16)
+        times = np.linspace(0.0, span, min(count, MOST_SCANNED) + 1)
+        peaks = self._peaks(times)
+        if self.duration > span:  # angles that go on turning are extreme in the last period
+            for name, late in self._peaks(times + (self.duration - span)).items():
+                early = peaks[name]
+                low = min(early, late, key=lambda peak: peak.minimum)
+                high = max(early, late, key=lambda peak: peak.maximum)
+                peaks[name] = Peak(low.minimum, low.minimum_time, high.maximum, high.maximum_time)
+        return peaks
+
+    def _peaks(self, times: Floats) -> dict[str, Peak]:
+        values = np.concatenate(
+            [self.channels(times[i : i + ROWS_A_SLICE]) for i in range(0, len(times), ROWS_A_SLICE)]
+        )
+        peaks = {}
+        for c, name in enumerate(self.names):
+            column = values[:, c]
+            if column.min() == column.max():
+                peaks[name] = _sampled(times, column)
+                continue
+            low_time, low = refine_extreme(self._channel(c), times, column, -1.0)
+            high_time, high = refine_extreme(self._channel(c), times, column, 1.0)
+            peaks[name] = Peak(low, low_time, high, high_time)
+        return peaks
+
+    def _channel(self, column: int) -> Callable[[Floats], Floats]:
+        return lambda times: self.channels(times)[:, column]
+
+
+def _sampled(times: Floats, values: Floats) -> Peak:
+    low, high = int(values.argmin()), int(values.argmax())
+    return Peak(float(values[low]), float(times[low]), float(values[high]), float(times[high]))

@@ -1,0 +1,256 @@
+"""Runs an admitted job, in slices that each return to Python within a quarter of a second."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import time
+from collections.abc import Iterator
+
+import numpy as np
+from jointplay.solver.admission import Admission, section_offset
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.failures import (
+    contacts_of,
+    failure_of,
+    out_of_time,
+    peaks_of,
+    statistics_of,
+)
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Setting, Status
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.certificate.survey import Survey
+from jointplay.solver.runs.ideal.run import IdealRun
+from jointplay.solver.runs.results import Floats, Slice, Summary
+from jointplay.solver.runs.stiff_method import (
+    IMPLICIT,
+    attempts_left,
+    is_open,
+    joined,
+    reason_for,
+    stiff,
+    tightened,
+    withheld,
+)
+from jointplay.solver.scene.document import Scene
+
+SLICE_SECONDS = 0.1
+"""Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
+FIRST_BUDGET = 2000
+LARGEST_BUDGET = 200_000
+"""Attempted steps a call."""
+LANE = 0
+"""The lane of the trajectory; its bits do not depend on what the seven others do."""
+
+
+class Simulation:
+    """One trajectory: `slices` computes it, `checkpoint` between slices restarts it bit for bit."""
+
+    def __init__(self, admission: Admission, checkpoint: bytes | None = None) -> None:
+        """Compile or load the kernel and set the start, or the checkpoint.
+
+        Raises
+        ------
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
+        self.admission = admission
+        scene = Scene.model_validate(admission.scene)
+        self._run: _Run = (
+            IdealRun(admission, scene)
+            if assemble(scene).freedom_with_play == 0
+            else DynamicRun(admission, scene)
+        )
+        if checkpoint is not None:
+            self._run.restore(checkpoint)
+
+    def slices(self, most_seconds: float = math.inf) -> Iterator[Slice]:
+        """Yield what each slice computed, until the run is over.
+
+        Parameters
+        ----------
+        most_seconds
+            Of computing, those before a checkpoint included: then the run fails, between slices.
+
+        Raises
+        ------
+        SimulationFailed
+            After everything that was computed has been yielded.
+        """
+        for piece in self._run.slices():
+            yield piece
+            if self._run.seconds > most_seconds and piece.fraction < 1.0:
+                raise out_of_time(most_seconds, piece.time)
+
+    def checkpoint(self) -> bytes:
+        """Return a restart point; valid between slices."""
+        return self._run.checkpoint()
+
+    def summary(self) -> Summary:
+        """Return extremes and statistics of what has been computed so far."""
+        return self._run.summary()
+
+    def certificate(self) -> Certificate | None:
+        """Return how far what has been computed can be believed; none if the job wants none."""
+        return self._run.certificate()
+
+
+class DynamicRun:
+    """A run of a scene that moves freely somewhere: lane 0 of a bundle, companions beside it."""
+
+    def __init__(self, admission: Admission, scene: Scene) -> None:
+        self.admission = admission
+        job = admission.job
+        offset = 0.0
+        if admission.period is not None:
+            angle = job["section"]["crank_angle"]
+            offset = section_offset(scene, admission.period, angle)
+        self.problem = LaneProblem(
+            scene,
+            job["duration"],
+            admission.tolerance,
+            job["output_step"],
+            admission.samples,
+            admission.sections,
+            offset,
+            step=job["step"],
+        )
+        self.seconds = 0.0
+        self.open = is_open(admission)
+        """Whether the method is still to be chosen."""
+        self._start(admission.method, reason_for(admission))
+
+    def _start(self, method: str, reason: str) -> None:
+        """Begin with a method."""
+        formulation, problem = self.admission.job["formulation"], self.problem
+        if method != self.admission.method:
+            problem = tightened(problem)
+        self.reason = reason
+        self.kernel = ready_kernel(problem.scene, formulation, method)
+        self.bundle = Bundle(self.kernel, [problem])
+        certified = self.admission.job["certificate"]
+        self.survey = Survey(self.bundle, problem, formulation) if certified else None
+        rows, channels = self.kernel.rows, self.admission.channels
+        self.columns = np.array([rows.index(c.name) for c in channels], dtype=np.int64)
+        self.samples_done = 0
+        self.sections_done = 0
+
+    def slices(self) -> Iterator[Slice]:
+        """See `Simulation.slices`."""
+        budget = FIRST_BUDGET
+        held: list[Slice] = []
+        while self._runs():
+            begun = time.perf_counter()
+            allowed = min(budget, attempts_left(self.bundle)) if self.open else budget
+            (self.survey or self.bundle).advance(allowed)
+            found = self._slice()
+            spent = time.perf_counter() - begun
+            self.seconds += spent
+            budget = int(min(max(budget * SLICE_SECONDS / spent, 100), LARGEST_BUDGET, 4 * budget))
+            if self.open:
+                held.append(found)
+                if attempts_left(self.bundle):
+                    yield withheld(found)
+                    continue
+                found = joined(held) if self._goes_on() else withheld(found)
+            yield found
+        status = Status(self.bundle.counters[Counter.STATUS, LANE])
+        if status != Status.DONE:
+            raise failure_of(self.bundle, LANE, self.admission.tolerance)
+
+    def _goes_on(self) -> bool:
+        """Choose the method: whether the run goes on, or begins again with the implicit one."""
+        begun = time.perf_counter()
+        self.open = False
+        reason = stiff(self.bundle, self.problem, self.admission.job["formulation"])
+        if reason:
+            self._start(IMPLICIT, reason)
+        self.seconds += time.perf_counter() - begun
+        return not reason
+
+    def checkpoint(self) -> bytes:
+        """See `Simulation.checkpoint`."""
+        facts = {
+            "method": self.kernel.tableau.name,
+            "reason": self.reason,
+            "open": self.open,
+            "solver_seconds": self.seconds,
+            "samples": self.samples_done,
+            "sections": self.sections_done,
+        }
+        arrays = self.survey.checkpoint() if self.survey and not self.open else {}
+        arrays["state"] = np.frombuffer(self.bundle.state(), dtype=np.uint8)
+        arrays["facts"] = np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8)
+        buffer = io.BytesIO()
+        np.savez(buffer, allow_pickle=False, **arrays)
+        return buffer.getvalue()
+
+    def restore(self, checkpoint: bytes) -> None:
+        """Continue from a checkpoint."""
+        with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
+            facts = json.loads(saved["facts"].tobytes())
+            self.seconds, self.open = facts["solver_seconds"], facts["open"]
+            if self.open:  # nothing was handed out: from the start
+                return
+            if facts["method"] != self.kernel.tableau.name:
+                self._start(facts["method"], facts["reason"])
+            self.bundle.restore(saved["state"].tobytes())
+            if self.survey:
+                self.survey.restore(saved)
+        self.samples_done, self.sections_done = facts["samples"], facts["sections"]
+
+    def summary(self) -> Summary:
+        """See `Simulation.summary`."""
+        names = [channel.name for channel in self.admission.channels]
+        statistics = statistics_of(self.bundle, LANE) | {
+            "method": self.kernel.tableau.name,
+            "method_reason": self.reason,
+            "solver_seconds": self.seconds,
+        }
+        return Summary(peaks_of(self.bundle, LANE, names), statistics)
+
+    def certificate(self) -> Certificate | None:
+        """See `Simulation.certificate`."""
+        if self.survey is None:
+            return None
+        return self.survey.certificate(self.admission.channels)
+
+    def _runs(self) -> bool:
+        if self.survey is not None:
+            return self.survey.goes_on
+        return bool(self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING)
+
+    def _slice(self) -> Slice:
+        samples, sample_time = self._observe(self.bundle.sample_rows, Counter.SAMPLE_ROWS)
+        sections, section_time = self._observe(self.bundle.section_rows, Counter.SECTION_ROWS)
+        first_sample, first_section = self.samples_done, self.sections_done
+        self.samples_done += len(samples)
+        self.sections_done += len(sections)
+        reached = self.bundle.time(LANE)
+        duration = self.admission.job["duration"]
+        if self.samples_done == self.admission.samples:
+            sample_time[-1:] = reached = duration
+        slowest = min(reached, self.survey.time) if self.survey else reached
+        return Slice(
+            reached,
+            min(slowest / duration, 1.0),
+            first_sample,
+            sample_time,
+            samples,
+            first_section,
+            section_time,
+            sections,
+            contacts_of(self.bundle, LANE),
+        )
+
+    def _observe(self, buffer: Floats, counter: Counter) -> tuple[Floats, Floats]:
+        rows = buffer[LANE, : self.bundle.counters[counter, LANE]]
+        out = self.bundle.observe(LANE, rows, self.columns)
+        return out, rows[:, 0] * self.bundle.settings[Setting.PERIOD, LANE] + rows[:, 1]
+
+
+_Run = DynamicRun | IdealRun

@@ -1,0 +1,113 @@
+"""Indicators of one point, from the states of the whole system at its sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jointplay.solver.nonlinear.estimate import UNKNOWN
+from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
+from jointplay.solver.nonlinear.recurrence import recurrence_period
+from jointplay.solver.nonlinear.rotation import rotation_number
+from jointplay.solver.nonlinear.verdict import decide
+from jointplay.solver.nonlinear.zero_one import zero_one_test
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+RECURS = 1e-3
+"""Sections closer than this share of the clearance are the same: far above the solver's error."""
+MOST_SECTIONS = 5000
+"""That indicators look at: the first ones of the record."""
+FEWEST_FOR_SPECTRUM = 16
+LATE = 0.1
+"""Of a period: growth is noted with the first step beyond its end, a hundredth of it at most."""
+
+
+def indicators_of(
+    chosen: Sequence[str],
+    states: Floats,
+    scales: Floats,
+    angles: NDArray[np.bool_],
+    log_growth: Floats,
+    period: float,
+) -> dict[str, float]:
+    """Return the chosen indicators, each with its error, and the verdict that they allow.
+
+    Parameters
+    ----------
+    chosen
+        Of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``.
+    states : (sections, states)
+        Generalised coordinates and speeds.
+    scales : (states,)
+        What counts as one in each: the finest clearance, as length, turn, or rate of either.
+    angles : (states,)
+        Which are angles; whole turns do not count.
+    log_growth : (periods,)
+        Logarithm of the tangent vector's growth in each period of the record.
+    period
+        s.
+    """
+    states = unwound(states[:MOST_SECTIONS], angles) / scales
+    found: dict[str, float] = {}
+    lyapunov = zero_one = rotation = None
+    recurrence: int | None = None
+    if "lyapunov" in chosen and len(log_growth):
+        known = not (np.isnan(log_growth) | (log_growth == np.inf)).any()
+        lyapunov = exponent_from_growth(log_growth, period) if known else UNKNOWN
+        found |= {"lyapunov": lyapunov.value, "lyapunov_error": lyapunov.error}
+    if len(states) and "zero_one" in chosen:
+        zero_one = zero_one_test(states, resolution=RECURS)
+        found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
+    if len(states) and "recurrence" in chosen:
+        recurrence = recurrence_period(states, np.ones(len(scales)), RECURS)
+        found["period"] = float(recurrence)
+    if len(states) > 2 and "rotation" in chosen:
+        rotation = rotation_number(principal_plane(states))
+        found["rotation"] = rotation.value if rotation else float("nan")
+        found["rotation_error"] = rotation.error if rotation else float("nan")
+    if len(states) >= FEWEST_FOR_SPECTRUM and "spectrum" in chosen:
+        # scipy.signal takes a second to import, which only this indicator needs
+        from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
+
+        spectrum = power_spectrum(principal_plane(states)[:, 0], period)
+        frequency, share = strongest_line(spectrum)
+        found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
+    verdict = decide(lyapunov, zero_one, recurrence, rotation)
+    return found | {"verdict": float(verdict.code)}
+
+
+def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:
+    """Return how much the tangent grew in each recorded period, (periods,) logarithms.
+
+    rows : (k, 2) ends of the times in which it grew, s since the start, and logarithms. They end
+    with the first step beyond a period and with the run, which may be in the midst of one: that
+    one is left out.
+    """
+    turns = rows[:, 0] / period - settled
+    index = np.round(turns).astype(np.int64) - 1
+    whole = (index >= 0) & (np.abs(turns - (index + 1)) <= LATE)
+    if not whole.any():
+        return np.zeros(0)
+    grown = np.zeros(int(index[whole].max()) + 1)
+    np.add.at(grown, index[whole], rows[whole, 1])
+    return grown
+
+
+def unwound(states: Floats, angles: NDArray[np.bool_]) -> Floats:
+    """Return states without the whole turns that angles have made since the first."""
+    if not len(states):
+        return states
+    turns = np.round((states - states[0]) / (2.0 * np.pi))
+    return np.asarray(states - 2.0 * np.pi * turns * angles, np.float64)
+
+
+def principal_plane(states: Floats) -> Floats:
+    """Return the states seen along the two directions in which they spread most, (n, 2)."""
+    centred = states - states.mean(axis=0)
+    _, _, directions = np.linalg.svd(centred, full_matrices=False)
+    plane = centred @ directions[:2].T
+    if plane.shape[1] == 2:
+        return np.asarray(plane, np.float64)
+    return np.column_stack([plane, np.zeros(len(plane))])

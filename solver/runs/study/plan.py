@@ -1,0 +1,88 @@
+"""A study: a job of many points, filled in, with what each point is and how they are cut up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jointplay.solver.integrators import method_for
+from jointplay.solver.runs.study.scenes import PointScenes
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A job of any kind but simulate that can run.
+
+    `solver.admission.admit` makes it; two studies are the same if their digests are.
+    """
+
+    kind: str
+    job: dict[str, Any]
+    """The job document with every default and every scene parameter present."""
+    digest: str
+    """SHA-256 of the filled-in job without its label."""
+    scene: dict[str, Any]
+    """The scene document at the first point."""
+    parameters: tuple[str, ...]
+    """Names of what varies from point to point; none in a poincare or an ensemble."""
+    parameter_units: tuple[str, ...]
+    values: Floats
+    """(points, parameters), in the unit of each."""
+    observables: tuple[Channel, ...]
+    """Columns of the sections; none in a sweep."""
+    record: int
+    """Sections recorded per point; 0 in a sweep."""
+    channels: tuple[Channel, ...]
+    """Channels whose peaks are kept per point; may be none."""
+    indicators: tuple[str, ...]
+    blocks: tuple[tuple[int, int], ...]
+    """(first, count) of contiguous points. Without continuation whole octets, 64 points at most,
+    the last one shorter; with it up to eight whole chains of one direction, of any length."""
+    chain_of: Integers
+    """(points,) index of each point's chain; a point without continuation is its own chain."""
+    chain_order: tuple[tuple[int, ...], ...]
+    """Points of each chain in the order of computing."""
+    structure: Integers
+    """(points,) points with the same number have the same kernel; numbered by first appearance."""
+    period: Floats
+    """(points,) s: the drivers' least common period; in its absence the scene's own time scale."""
+    offset: Floats
+    """(points,) s: of a crank section within the period; 0 for other sections and a sweep."""
+    settle: Floats
+    """(points,) s: what is left out before; with "auto" the most that may be."""
+    duration: Floats
+    """(points,) s: the most that a point may take, settling included."""
+    stored_bytes: int
+    """Estimate of what the results take, before compression."""
+    scenes: PointScenes
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return len(self.values)
+
+    @property
+    def tolerance(self) -> float:
+        """Local error tolerance."""
+        return float(self.job["tolerance"])
+
+    @property
+    def statistics(self) -> tuple[str, ...]:
+        """Names of the statistics of channels and contacts that a sweep keeps per point."""
+        return tuple(self.job.get("statistics", ()))
+
+    @property
+    def method(self) -> str:
+        """Name of the integration method, of `solver.integrators.METHODS`."""
+        return method_for(self.job["method"], self.tolerance)
+
+    def point_scene(self, point: int) -> Scene:
+        """Return the scene of a point with its parameters set, as checked on admission."""
+        return self.scenes.scene(point)

@@ -1,0 +1,125 @@
+"""The scenes of a study's points: one checked scene, copied with a few numbers changed.
+
+A copy shares everything that does not change with the scene it came from, so that a point costs
+tens of microseconds; it equals what reading the whole document with the point's values would give.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+Floats = NDArray[np.float64]
+Branches = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """A number of the scene that changes from point to point."""
+
+    path: str
+    """JSON pointer into the scene."""
+    column: int
+    """Of the points' values."""
+    factor: float
+
+
+@dataclass(frozen=True, eq=False)
+class PointScenes:
+    """Makes the scene of any point.
+
+    Attributes
+    ----------
+    base : Scene
+        Checked in full; every leaf is present in it.
+    leaves : tuple of Leaf
+        What changes; no path twice.
+    values : (points, parameters) float
+        In the unit of each parameter.
+    """
+
+    base: Scene
+    leaves: tuple[Leaf, ...]
+    values: Floats
+
+    def column(self, leaf: Leaf) -> Floats:
+        """Return what stands at a leaf, (points,)."""
+        return np.asarray(self.values[:, leaf.column] * leaf.factor, np.float64)
+
+    def numbers(self, path: str) -> Floats:
+        """Return the number that stands at a path, varied or not, (points,)."""
+        for leaf in self.leaves:
+            if leaf.path == path:
+                return self.column(leaf)
+        return np.full(len(self.values), float(value_at(self.base, path)))
+
+    def at_rows(self, rows: NDArray[np.int64]) -> PointScenes:
+        """Return the scenes of other points: rows of the values, in that order."""
+        return PointScenes(self.base, self.leaves, self.values[rows])
+
+    def scene(self, point: int) -> Scene:
+        """Return the scene of a point; whether its numbers are admissible is not checked."""
+        if not self.leaves:
+            return self.base
+        row = self.values[point].tolist()
+        branches: Branches = {}
+        for leaf in self.leaves:
+            *parents, last = leaf.path.strip("/").split("/")
+            at = branches
+            for key in parents:
+                at = at.setdefault(key, {})
+            at[last] = row[leaf.column] * leaf.factor
+        changed: Scene = _changed(self.base, branches)
+        return changed
+
+
+def leaves_of(
+    scene: Scene, parameters: Sequence[str], echo: Mapping[str, float | str | None]
+) -> tuple[Leaf, ...]:
+    """Return the places that varied parameters reach, a later declaration overriding an earlier.
+
+    `echo` has the values of the parameters that do not vary; one that is none overrides nothing.
+    """
+    found: dict[str, Leaf] = {}
+    for name, parameter in scene.parameters.items():
+        for target in parameter.targets:
+            if name in parameters:
+                found[target.path] = Leaf(target.path, parameters.index(name), target.factor)
+            elif echo.get(name) is not None:
+                found.pop(target.path, None)
+    return tuple(found.values())
+
+
+def value_at(node: Any, path: str) -> Any:
+    """Return what stands at a JSON pointer of a parsed document; None where nothing does."""
+    for key in path.strip("/").split("/"):
+        if isinstance(node, BaseModel):
+            node = getattr(node, key, None)
+        elif isinstance(node, Mapping):
+            node = node.get(key)
+        elif isinstance(node, list) and key.isdigit() and int(key) < len(node):
+            node = node[int(key)]
+        else:
+            return None
+    return node
+
+
+def _changed(node: Any, change: Any) -> Any:
+    if not isinstance(change, dict):
+        return change
+    if isinstance(node, BaseModel):
+        return node.model_copy(
+            update={key: _changed(getattr(node, key), inner) for key, inner in change.items()}
+        )
+    if isinstance(node, Mapping):
+        return {**node, **{key: _changed(node.get(key), inner) for key, inner in change.items()}}
+    copied = list(node)
+    for key, inner in change.items():
+        copied[int(key)] = _changed(copied[int(key)], inner)
+    return copied

@@ -1,0 +1,89 @@
+"""The stretch of time of a point that its statistics are about, and their tallies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
+from jointplay.solver.statistics.of_channels import Grid
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from jointplay.solver.runs.study.point_run import PointRun
+
+Floats = NDArray[np.float64]
+SAME = 1e-5
+"""Of a step: a sample so close to an end of the stretch lies on it."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """What comes after settling, and the samples in it: at whole multiples of the step.
+
+    The first may lie at the start; none lies at the end, which repeats the start of whole periods.
+    """
+
+    start: float
+    """s, as the other times."""
+    end: float
+    step: float
+    first: int
+    """Index of the first sample."""
+    grid: Grid
+
+
+def window_of(study: Study, point: int) -> Window:
+    """Return the stretch of a point's statistics."""
+    start, end = float(study.settle[point]), float(study.duration[point])
+    per_period = int(study.job["samples_per_period"])
+    step = float(study.period[point]) / per_period
+    first, stop = (math.ceil(time / step - SAME) for time in (start, end))
+    return Window(start, end, step, first, Grid(stop - first, per_period))
+
+
+def begin_tallies(study: Study, run: PointRun, joints: int) -> None:
+    """Give a point the tallies of its statistics: of channels, of contacts, as the job has them."""
+    grid, channels = window_of(study, run.point).grid, len(study.channels)
+    run.tallies = [
+        OF_CHANNELS[name].begin(grid, channels) if name in OF_CHANNELS else np.zeros(joints)
+        for name in study.statistics
+    ]
+
+
+def take_samples(study: Study, run: PointRun, values: Floats) -> None:
+    """Take (samples, channels) values that follow those before; one at the end is left out."""
+    grid = window_of(study, run.point).grid
+    values = values[: grid.samples - run.sampled]
+    if not len(values):
+        return
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CHANNELS:
+            OF_CHANNELS[name].add(tally, values, run.sampled, grid)
+    run.sampled += len(values)
+
+
+def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void]) -> None:
+    """Take contacts that ended."""
+    window = window_of(study, run.point)
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CONTACTS:
+            OF_CONTACTS[name].add(tally, contacts, window.start, window.end)
+
+
+def statistics_in(study: Study, run: PointRun, joints: tuple[str, ...]) -> dict[str, float]:
+    """Return the statistics of a point that has ended; `solver.statistics` says how named."""
+    window = window_of(study, run.point)
+    found: dict[str, float] = {}
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CHANNELS:
+            owners = tuple(channel.name for channel in study.channels)
+            values = OF_CHANNELS[name].value(tally, run.sampled)
+        else:
+            owners = joints
+            values = OF_CONTACTS[name].value(tally, window.start, window.end)
+        found |= {f"{owner}.{name}": float(x) for owner, x in zip(owners, values, strict=True)}
+    return found

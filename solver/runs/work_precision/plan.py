@@ -1,0 +1,92 @@
+"""The runs of an accuracy-study: two references, then every method at every tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.runs.study.plan import Study
+
+KIND = "accuracy-study"
+REFERENCES = ("tsitouras", "dormand-prince-853")
+"""Methods of the two reference runs: those of highest order."""
+REFERENCE = 1e-13
+"""Their tolerance."""
+DEFAULT = ("tsitouras", 1e-6)
+"""Always among the runs: the recommendation is relative to it."""
+WITHOUT_PERIOD = 1.0
+"""s that stand for the period of a scene without turning drivers."""
+GRID = 1e-4
+"""Longest fixed step, of a period: the 0.2 ms grid on a press that turns in 2 s."""
+FINER = (1, 2, 4, 10, 20, 40)
+
+MEANINGS = {
+    "error": (
+        "1",
+        "root mean square error of coordinates and speeds over the window, relative to the scales"
+        " that tolerances are relative to; of the second reference, how far the two are apart",
+    ),
+    "window": ("s", "time from the start in which the reference is known"),
+    "astray": ("1", "energy lost track of, as a share of what contacts and friction took"),
+    "evaluations": ("1", "evaluations of the equations of motion, in attempted steps"),
+    "seconds": ("s", "computing time of one core; not the same when it is measured again"),
+}
+"""Unit and long name of what each run has beside its accepted steps."""
+
+_EVALUATIONS = {
+    "bogacki-shampine": (55.0, 3.2),
+    "tsitouras": (52.0, 4.8),
+    "dormand-prince-853": (83.0, 6.3),
+    "rodas": (241.0, 4.2),
+}
+"""Thousands in a period at tolerance 1e-6, and the root by which they grow: docs/accuracy.md."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A method at a tolerance, or with a fixed step, s."""
+
+    method: str
+    tolerance: float | None
+    step: float | None = None
+    reference: bool = False
+
+    @property
+    def admitted(self) -> bool:
+        """Whether jobs may ask for it."""
+        return self.tolerance is None or self.tolerance <= METHODS[self.method].largest_tolerance
+
+    def evaluations(self, period: float) -> float:
+        """Return about how many thousand a period takes, to weigh runs against each other."""
+        if self.tolerance is None:
+            return 4e-3 * period / (self.step or period)
+        usual, root = _EVALUATIONS[self.method]
+        if self.reference:  # near rounding some steps are refused: up to four times as many
+            usual *= 1.5
+        return usual * float(max(1e-6 / self.tolerance, 0.1) ** (1.0 / root))
+
+    def document(self) -> dict[str, Any]:
+        """Return the run as a store keeps it."""
+        return asdict(self) | {"admitted": self.admitted}
+
+
+def runs_of(job: Mapping[str, Any], period: float) -> tuple[Run, ...]:
+    """Return the runs of a filled-in job in the order of computing.
+
+    `period` : of the drivers, s.
+    """
+    found = [Run(method, REFERENCE, reference=True) for method in REFERENCES]
+    for name in job["methods"]:
+        if METHODS[name].error:
+            found += [Run(name, tolerance) for tolerance in job["tolerances"]]
+        else:
+            found += [Run(name, None, GRID * period / finer) for finer in FINER]
+    default = Run(*DEFAULT)
+    return tuple(found if default in found else [*found, default])
+
+
+def runs_in(study: Study) -> tuple[Run, ...]:
+    """Return the runs that an accuracy-study's points stand for."""
+    return runs_of(study.job, float(study.period[0]))

@@ -1,0 +1,160 @@
+"""Every run of an accuracy-study, one after the other, each compared with the reference."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator
+
+import numpy as np
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.results import PointEnd, StudySlice
+from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, runs_in
+from jointplay.solver.runs.work_precision.timed_run import Passage
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+KNOWN = 1e-8
+"""Runs are compared as long as the references differ by less, relative to the scene's scales."""
+MOST_REFERENCES = 20.0
+FEWEST = 1e7
+"""A run is given up after as many evaluations as that many references take, or as these."""
+NO_PEAKS = np.empty((0, 4))
+
+
+class TradeRun:
+    """The block of an accuracy-study; `slices` computes it, `checkpoint` keeps the runs that ended.
+
+    But for their seconds, runs give the same whenever and wherever they are computed: a run is
+    given up after so many evaluations, not after so much time. One that was interrupted begins
+    anew, so that its seconds are those of one machine.
+    """
+
+    def __init__(self, study: Study, block: int, checkpoint: bytes | None = None) -> None:
+        """Begin the block, or take up after the last run that ended; see `StudyRun`."""
+        self.study = study
+        self.runs = runs_in(study)
+        self.seconds = 0.0
+        """Spent computing since this object was made."""
+        self.steps = 0
+        """Accepted since then."""
+        self._next = 0
+        self._most = np.inf
+        self._given_up: list[str] = []
+        self._time = self._scales = np.empty(0)
+        self._reference = np.empty((0, 0))
+        self._weights = np.array([run.evaluations(float(study.period[0])) for run in self.runs])
+        if checkpoint is not None:
+            with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
+                facts = json.loads(saved["facts"].tobytes())
+                self._time, self._scales = saved["time"], saved["scales"]
+                self._reference = saved["reference"]
+            self._next, self._most, self._given_up = facts["next"], facts["most"], facts["given_up"]
+
+    def slices(self) -> Iterator[StudySlice]:
+        """Yield what each slice computed, until every run has ended.
+
+        Raises
+        ------
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
+        study = self.study
+        scene, kernels = study.point_scene(0), dict[str, Kernel]()
+        while self._next < len(self.runs):
+            point, run = self._next, self.runs[self._next]
+            if run.method in self._given_up:
+                self._next += 1
+                yield self._slice(0.0, ended=(self._end(point, _given_up(run), {}),))
+                continue
+            if run.method not in kernels:
+                kernels[run.method] = ready_kernel(scene, study.job["formulation"], run.method)
+            passage = Passage(scene, kernels[run.method], run, self._until)
+            yield self._slice(0.0, started=(point,))
+            while True:
+                before = passage.seconds, passage.steps
+                going = passage.advance()
+                self.seconds += passage.seconds - before[0]
+                self.steps += passage.steps - before[1]
+                if not going or passage.evaluations > self._most:
+                    break
+                yield self._slice(passage.fraction)
+            end = self._ended(point, run, passage, going=going)
+            self._next += 1
+            yield self._slice(0.0, ended=(end,))
+
+    def checkpoint(self) -> bytes:
+        """Return a restart point; valid between slices."""
+        facts = {"next": self._next, "most": self._most, "given_up": self._given_up}
+        buffer = io.BytesIO()
+        np.savez(
+            buffer,
+            allow_pickle=False,
+            facts=np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8),
+            time=self._time,
+            scales=self._scales,
+            reference=self._reference,
+        )
+        return buffer.getvalue()
+
+    def _slice(
+        self, under_way: float, started: tuple[int, ...] = (), ended: tuple[PointEnd, ...] = ()
+    ) -> StudySlice:
+        """`under_way` : 0..1 of the next run."""
+        done = float(self._weights[: self._next].sum())
+        if self._next < len(self.runs):
+            done += under_way * float(self._weights[self._next])
+        return StudySlice(min(done / float(self._weights.sum()), 1.0), started, (), ended)
+
+    def _ended(self, point: int, run: Run, passage: Passage, *, going: bool) -> PointEnd:
+        """Return how a run ended; a reference is kept, and the window cut to what both know."""
+        found = passage.cost()
+        time, states = passage.samples()
+        if going:
+            failure: SimulationFailed | None = _given_up(run, passage)
+            if run.admitted:  # what jobs may not ask for says nothing of tighter tolerances
+                self._given_up.append(run.method)
+        else:
+            failure = passage.failure()
+        if point == 0:
+            self._most = max(MOST_REFERENCES * passage.evaluations, FEWEST)
+            self._time, self._reference, self._scales = time, states, passage.scales()
+        elif point < len(REFERENCES):
+            known = min(len(states), len(self._reference))
+            apart = np.abs(states[:known] - self._reference[:known]) / self._scales
+            unknown = np.flatnonzero(~(apart.max(axis=1) <= KNOWN))
+            known = int(unknown[0]) if len(unknown) else known
+            self._time, self._reference = self._time[:known], self._reference[:known]
+        if point > 0 and (failure is None or run.reference):
+            known = len(self._reference)
+            error = (states[:known] - self._reference) / self._scales
+            found["error"] = float(np.sqrt(np.mean(error**2)))
+            found["window"] = float(self._time[-1])
+        return self._end(point, failure, found)
+
+    def _end(
+        self, point: int, failure: SimulationFailed | None, found: dict[str, float]
+    ) -> PointEnd:
+        told = (failure.code, failure.detail, failure.time) if failure else ("", "", self._until)
+        return PointEnd(point, *told, NO_PEAKS, found, {})
+
+    @property
+    def _until(self) -> float:
+        return float(self.study.job["duration"])
+
+
+def _given_up(run: Run, passage: Passage | None = None) -> SimulationFailed:
+    if passage is None:
+        sentence = f"Left out: '{run.method}' was given up at a looser tolerance or a longer step."
+        return SimulationFailed("left-out", sentence, 0.0)
+    at = passage.bundle.time(0)
+    return SimulationFailed(
+        "given-up",
+        f"Given up at t = {at:.9g} s after {passage.evaluations} evaluations, many times what the"
+        " reference takes. Another method is better here.",
+        at,
+    )

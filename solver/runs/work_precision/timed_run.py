@@ -1,0 +1,98 @@
+"""One run of an accuracy-study: what it costs, and the states that it passes."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from jointplay.records.failure import SimulationFailed
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.failures import failure_of, statistics_of
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.runs.work_precision.plan import Run
+from jointplay.solver.scene.document import Scene
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SAMPLES = 2000
+"""Instants at which runs are compared."""
+BUDGET = 20_000
+"""Attempted steps between returns."""
+
+
+class Passage:
+    """Runs a scene with the kernel of a method, also as jobs may not ask for it."""
+
+    def __init__(self, scene: Scene, kernel: Kernel, run: Run, duration: float) -> None:
+        self.tolerance = run.tolerance or 1.0
+        self.duration = duration
+        problem = LaneProblem(
+            scene, duration, self.tolerance, duration / SAMPLES, SAMPLES + 1, 0, 0.0, step=run.step
+        )
+        self.bundle = Bundle(kernel, [problem])
+        self.seconds = 0.0
+        """Spent computing, without compiling."""
+        self._each = kernel.tableau.evaluations(kernel.states)
+        self._times: list[Floats] = []
+        self._states: list[Floats] = []
+
+    @property
+    def evaluations(self) -> int:
+        """Of the equations of motion so far, in attempted steps."""
+        return self.bundle.attempts * self._each
+
+    @property
+    def steps(self) -> int:
+        """Accepted so far."""
+        return int(self.bundle.table("steps")[0, 0])
+
+    @property
+    def fraction(self) -> float:
+        """How far it is, 0..1."""
+        return min(self.bundle.time(0) / self.duration, 1.0)
+
+    def advance(self) -> bool:
+        """Make some steps; return whether more are to be made."""
+        bundle = self.bundle
+        begun = time.perf_counter()
+        running = bundle.advance(BUDGET)
+        self.seconds += time.perf_counter() - begun
+        rows = bundle.sample_rows[0, : bundle.counters[Counter.SAMPLE_ROWS, 0]]
+        first = 2 + 2 * len(bundle.kernel.drivers)
+        self._times.append(rows[:, 0] * float(bundle.settings[0, 0]) + rows[:, 1])
+        self._states.append(rows[:, first : first + bundle.kernel.states].copy())
+        return bool(running)
+
+    def samples(self) -> tuple[Floats, Floats]:
+        """Return (samples,) times, s, and (samples, states), as far as it came."""
+        return np.concatenate(self._times), np.concatenate(self._states)
+
+    def scales(self) -> Floats:
+        """Return (states,) the scene's own scales, which tolerances are relative to."""
+        weights = self.bundle.table("weight0", self.bundle.kernel.states)[:, 0]
+        return np.asarray(1.0 / (self.tolerance * weights))
+
+    def failure(self) -> SimulationFailed | None:
+        """Return why it did not come to its end."""
+        if self.bundle.counters[Counter.STATUS, 0] != Status.DONE:
+            return failure_of(self.bundle, 0, self.tolerance)
+        states = self.samples()[1]
+        if len(states) == SAMPLES + 1 and np.isfinite(states).all():
+            return None
+        sentence = "Its motion grew beyond all numbers. Choose another method or a smaller step."
+        return SimulationFailed("not-finite", sentence, self.bundle.time(0))
+
+    def cost(self) -> dict[str, float]:
+        """Return what it cost, and the energy that it lost track of."""
+        found = statistics_of(self.bundle, 0)
+        energy = found["energy"]
+        taken = energy["contact_loss"] + energy["friction_loss"]
+        return {
+            "steps": float(found["steps"]),
+            "evaluations": float(self.evaluations),
+            "seconds": self.seconds,
+            "astray": abs(energy["residual"]) / taken if taken > 0.0 else np.nan,
+        }

@@ -1,0 +1,114 @@
+"""Channels: the named signals that a scene offers, with their units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.structure import per_structure
+
+BODY = (
+    ("x", "m", "position x of the centre of mass"),
+    ("y", "m", "position y of the centre of mass"),
+    ("theta", "rad", "angle"),
+    ("vx", "m/s", "velocity x of the centre of mass"),
+    ("vy", "m/s", "velocity y of the centre of mass"),
+    ("omega", "rad/s", "angular velocity"),
+    ("ax", "m/s^2", "acceleration x of the centre of mass"),
+    ("ay", "m/s^2", "acceleration y of the centre of mass"),
+    ("alpha", "rad/s^2", "angular acceleration"),
+)
+JOINT = (
+    ("force_x", "N", "force x on the joint's second body (journal, slider, part)"),
+    ("force_y", "N", "force y on the joint's second body (journal, slider, part)"),
+)
+PLAY = (
+    ("eccentricity_x", "m", "journal centre less bearing centre, x"),
+    ("eccentricity_y", "m", "journal centre less bearing centre, y"),
+    ("eccentricity_rate_x", "m/s", "rate of the eccentricity, x"),
+    ("eccentricity_rate_y", "m/s", "rate of the eccentricity, y"),
+    ("penetration", "m", "eccentricity less radial clearance; negative apart"),
+    ("normal_force", "N", "normal contact force"),
+    ("friction_force", "N", "friction force on the journal along the tangent"),
+    ("slip_velocity", "m/s", "slip velocity of the journal against the bearing"),
+)
+ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A named signal, its SI unit and what it is."""
+
+    name: str
+    unit: str
+    long_name: str
+
+
+@per_structure
+def channels(scene: Scene) -> tuple[Channel, ...]:
+    """Return every channel of a scene: bodies, joints, drivers, energy, declared outputs.
+
+    Raises
+    ------
+    InvalidInput
+        A declared output of an unknown channel.
+    """
+    rows: list[Channel] = []
+
+    def add(owner: str, kind: str, table: tuple[tuple[str, str, str], ...]) -> None:
+        for quantity, unit, text in table:
+            rows.append(Channel(f"{owner}.{quantity}", unit, f"{text} ({kind} {owner})"))
+
+    for body in scene.bodies:
+        add(body, "body", BODY)
+    for name, joint in scene.joints.items():
+        add(name, "joint", JOINT)
+        if has_play(joint):
+            add(name, "joint", PLAY)
+    for name, driver in scene.drivers.items():
+        turning = isinstance(scene.joints[driver.joint], Revolute)
+        rows.append(
+            Channel(f"{name}.torque", "N m", f"torque of driver {name}")
+            if turning
+            else Channel(f"{name}.torque", "N", f"force of driver {name}")
+        )
+        rows.append(Channel(f"{name}.power", "W", f"power of driver {name}"))
+    rows += [Channel(f"energy.{quantity}", unit, text) for quantity, unit, text in ENERGY]
+    units = {row.name: row.unit for row in rows}
+    problems = []
+    for index, output in enumerate(scene.outputs):
+        if output.channel not in units:
+            sentence = unknown("channel", output.channel, units)
+            problems.append(Problem(f"/outputs/{index}/channel", sentence))
+            continue
+        text = output.help or f"{output.factor:g} * {output.channel} + {output.offset:g}"
+        rows.append(Channel(output.name, units[output.channel], text))
+    if problems:
+        raise InvalidInput(problems)
+    return tuple(rows)
+
+
+def select(offered: tuple[Channel, ...], patterns: list[str], pointer: str) -> tuple[Channel, ...]:
+    """Return the channels that names or globs choose, in the order of the scene.
+
+    Raises
+    ------
+    InvalidInput
+        A pattern that chooses nothing.
+    """
+    names = [channel.name for channel in offered]
+    chosen: set[str] = set()
+    problems = []
+    for index, pattern in enumerate(patterns):
+        matched = names if pattern == "*" else [n for n in names if fnmatchcase(n, pattern)]
+        chosen.update(matched)
+        if not matched:
+            sentence = unknown("channel", pattern, names)
+            problems.append(Problem(f"{pointer}/{index}", sentence))
+    if problems:
+        raise InvalidInput(problems)
+    return tuple(channel for channel in offered if channel.name in chosen)

@@ -1,0 +1,77 @@
+"""Job documents by name, against the schemas of the solver."""
+
+import inspect
+import json
+
+import numpy as np
+import pytest
+from jointplay.solver.admission import admit
+from jointplay.solver.jobs import KINDS
+from jointplay.solver.scene import presets
+
+from jointplay import jobs
+from jointplay.client import Client
+from jointplay.scene_choice import NotAScene
+
+MADE = {
+    "simulate": jobs.simulate("slider-crank", duration=1, clearance=1e-4, label="one"),
+    "bifurcation": jobs.bifurcation(
+        "slider-crank", "clearance", np.linspace(1e-4, 5e-4, 3), settle="auto", indicators="all"
+    ),
+    "sweep": jobs.sweep(
+        "slider-crank",
+        {"clearance": {"from": 1e-4, "to": 5e-4, "count": 3}, "friction": (0, np.float64(0.1))},
+        periods=2,
+        channels="P.*",
+    ),
+    "poincare": jobs.poincare("slider-crank", record=7, section={"onset": "P"}),
+    "accuracy-study": jobs.accuracy_study(
+        "slider-crank", duration=0.1, methods="rodas", tolerances=(1e-4, np.float64(1e-6))
+    ),
+    "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
+}
+
+
+def named(owner, kind):
+    return getattr(owner, kind.replace("-", "_"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_field_of_every_kind_can_be_given_and_is_no_parameter(kind):
+    given = set(inspect.signature(named(jobs, kind)).parameters) - {"scene", "given"}
+    fields = set(KINDS[kind].model_fields) - {"kind", "scene"}
+    assert given <= fields
+    assert fields | {"cache", "expires"} <= given | jobs.COMMON
+    for name in presets.names():
+        assert not (given | jobs.COMMON) & set(presets.document(name).get("parameters", {}))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_made_is_admitted(kind):
+    document = MADE[kind]
+    assert document["kind"] == kind
+    admitted = admit(json.loads(json.dumps(document))).job
+    for name, value in document.items():
+        if name not in ("scene", "values", "grid", "channels", "indicators"):
+            assert admitted[name] == value
+
+
+def test_a_scene_may_be_a_name_a_document_or_a_file(tmp_path):
+    scene = presets.document("pendulum")
+    (tmp_path / "mine.json").write_text(json.dumps(scene))
+    assert jobs.simulate("pendulum", duration=1)["scene"] == {"preset": "pendulum"}
+    whole = jobs.simulate(scene, duration=1, mass=2.5)["scene"]
+    assert jobs.simulate(tmp_path / "mine.json", duration=1, mass=2.5)["scene"] == whole
+    assert whole["parameters"]["mass"]["default"] == 2.5
+    assert scene["parameters"]["mass"]["default"] != 2.5
+    with pytest.raises(NotAScene, match="weight: the scene declares no such parameter"):
+        jobs.simulate(scene, duration=1, weight=2.5)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_client_has_a_method_of_each_kind_with_the_same_signature(kind):
+    described, method = named(jobs, kind), named(Client, kind)
+    assert method.__doc__ == described.__doc__
+    own, *shared = inspect.signature(method).parameters.values()
+    assert own.name == "self"
+    assert shared == list(inspect.signature(described).parameters.values())

@@ -1,0 +1,157 @@
+"""`jointplay serve` keeps its processes running and leaves none behind."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+import pytest
+from jointplay.service.processes import StartFailed, WrongSetting, running_service, serve
+
+from tests.waiting import until
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+PATIENCE = 30.0  # s
+SERVE = "from pathlib import Path; from jointplay.service.processes import serve; {call}"
+
+
+def descendants(pid: int) -> dict[int, str]:
+    """Process ids and command lines of everything a process has started."""
+    parents, commands = {}, {}
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            stat = (entry / "stat").read_text().rsplit(")", 1)[1].split()
+            commands[int(entry.name)] = (entry / "cmdline").read_text().replace("\0", " ")
+        except OSError:
+            continue
+        if stat[0] != "Z":
+            parents[int(entry.name)] = int(stat[1])
+    found, new = set(), {pid}
+    while new:
+        new = {child for child, parent in parents.items() if parent in new}
+        found |= new
+    return {child: commands[child] for child in found}
+
+
+def alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def healthy(url: str) -> bool:
+    try:
+        with urllib.request.urlopen(f"{url}/healthz", timeout=5) as answer:
+            return bool(json.load(answer)["status"] == "ok")
+    except OSError:
+        return False
+
+
+@contextmanager
+def served(data: Path, *, as_json: bool = False) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    call = f"serve('127.0.0.1', 0, Path({str(data)!r}), 1, as_json={as_json})"
+    with subprocess.Popen(
+        [sys.executable, "-c", SERVE.format(call=call)], stdout=subprocess.PIPE, text=True
+    ) as process:
+        try:
+            assert process.stdout is not None
+            line = process.stdout.readline()
+            assert "http" in line, (data / "logs" / "api.log").read_text()
+            url = json.loads(line)["url"] if as_json else line.split(" at ")[1].split()[0]
+            yield process, url
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_it_ends_cleanly_when_asked(tmp_path: Path, number: signal.Signals) -> None:
+    with served(tmp_path / "data", as_json=number == signal.SIGINT) as (process, url):
+        assert healthy(url)
+        started = descendants(process.pid)
+        assert len(started) >= 4  # broker, API, relay, worker
+        process.send_signal(number)
+        assert process.wait(30) == 0
+        assert not [pid for pid in started if alive(pid)]
+    assert not list((tmp_path / "data" / "broker").glob("*.sock"))
+
+
+def test_nothing_outlives_a_killed_supervisor(tmp_path: Path) -> None:
+    with served(tmp_path / "data") as (process, _):
+        started = descendants(process.pid)
+        process.kill()
+        until(lambda: not any(alive(pid) for pid in started), PATIENCE)
+
+
+def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
+    with served(tmp_path / "data") as (process, url):
+
+        def find(words: str) -> int | None:
+            found = [pid for pid, command in descendants(process.pid).items() if words in command]
+            return min(found, default=None)
+
+        def find_new(words: str, before: int) -> bool:
+            return find(words) not in (None, before)
+
+        for words in ("serving.api", "jointplay.worker.relay", "broker/redis.sock"):
+            before = find(words)
+            assert before is not None
+            os.kill(before, signal.SIGKILL)
+            until(partial(find_new, words, before), PATIENCE)
+        until(lambda: healthy(url), PATIENCE)
+        process.terminate()
+        assert process.wait(30) == 0
+
+
+def test_a_folder_has_one_service(tmp_path: Path) -> None:
+    with running_service(tmp_path / "data") as url:
+        assert healthy(url)
+        with pytest.raises(WrongSetting, match="--data") as caught:
+            serve("127.0.0.1", 0, tmp_path / "data", 1)
+        assert url in str(caught.value)
+    assert not healthy(url)
+
+
+def test_a_background_service_ends_with_its_parent(tmp_path: Path) -> None:
+    script = (
+        "import time; from pathlib import Path\n"
+        "from jointplay.service.processes import running_service\n"
+        f"with running_service(Path({str(tmp_path / 'data')!r})) as url:\n"
+        "    print(url, flush=True); time.sleep(600)"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
+    ) as parent:
+        try:
+            assert parent.stdout is not None
+            assert healthy(parent.stdout.readline().strip())
+            started = descendants(parent.pid)
+            assert len(started) >= 5
+        finally:
+            parent.kill()
+    until(lambda: not any(alive(pid) for pid in started), PATIENCE)
+
+
+def test_a_taken_port_is_said(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(WrongSetting, match=f"port {port}"):
+            serve("127.0.0.1", port, tmp_path / "data", 1)
+
+
+def test_a_redis_that_does_not_answer_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("JOINTPLAY_REDIS_URL", "redis://127.0.0.1:1/0")
+    with (
+        pytest.raises(StartFailed, match="no Redis answers at JOINTPLAY_REDIS_URL"),
+        running_service(tmp_path / "data"),
+    ):
+        pass

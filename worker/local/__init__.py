@@ -1,0 +1,1 @@
+"""Computing in this process, without a service."""
