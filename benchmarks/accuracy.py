@@ -1,10 +1,9 @@
 """What every method and tolerance costs and buys, on every preset that integrates anything."""
 
-from jointplay.solver.scene import presets
-
 import jointplay
 from jointplay.client import Refused
 from jointplay.command_line.accuracy import print_accuracy
+from jointplay.solver.scene import presets
 
 
 def main() -> None:

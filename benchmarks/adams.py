@@ -16,14 +16,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
+from benchmarks.adams_lanes import Adams, adams_of
+from benchmarks.peers import CHECK_TIME, REVOLUTION, errors, problem
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.failures import ledger_of
 from jointplay.solver.kernels.loop.state import Counter
-
-from benchmarks.adams_lanes import Adams, adams_of
-from benchmarks.peers import CHECK_TIME, REVOLUTION, errors, problem
 
 OURS = "Tsitouras 5"
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numba import float64, int64, types, void
+
+from benchmarks.adams_step import AdamsRecorder
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
 from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.bundle import ENERGIES, Bundle, aligned_zeros
-from numba import float64, int64, types, void
-
-from benchmarks.adams_step import AdamsRecorder
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 STORED = ENERGIES.index("stored")

@@ -21,9 +21,9 @@ from typing import Any
 import httpx
 import numpy as np
 import zarr
-from jointplay.storage.settings import Settings
 
 from benchmarks.results_http import FEW, service, stored
+from jointplay.storage.settings import Settings
 
 SAMPLES = 10_000_001
 POINTS = 2000

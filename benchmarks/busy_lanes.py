@@ -4,6 +4,7 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
+
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem

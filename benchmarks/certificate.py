@@ -10,10 +10,9 @@ import statistics
 import time
 from typing import Any
 
+from benchmarks.press import CASE
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
-
-from benchmarks.press import CASE
 
 PRESSES: dict[str, dict[str, float]] = {
     "as shipped": {},

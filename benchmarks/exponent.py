@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
-from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
-from jointplay.solver.kernels.loop.bundle import Bundle
 from numba import float64, int64, njit, types, void
 
 from benchmarks.press import compiled, problem
+from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
+from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
+from jointplay.solver.kernels.loop.bundle import Bundle
 
 REVOLUTIONS = 10
 STAGES = 6

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+
 from jointplay.service.processes import running_service
 
 JOB = {

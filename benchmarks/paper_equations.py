@@ -6,12 +6,13 @@ The impact rate is latched inside the right-hand side, as is usual, though it do
 import time
 
 import numpy as np
+from scipy.integrate import solve_ivp
+
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import common_period
-from scipy.integrate import solve_ivp
 
 SIMULATED = 0.02
 """Simulated time that SciPy gets, s; the rest is scaled."""

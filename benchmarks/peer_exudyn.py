@@ -16,6 +16,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+
 from jointplay.solver.laws.contact.lankarani_nikravesh import contact_stiffness
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene

@@ -20,18 +20,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jointplay.solver.admission import Admission, admit
-from jointplay.solver.kernels.emit.kernel import Kernel
-from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.scene.document import Scene
 from scipy.integrate import solve_ivp
 
 from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from benchmarks.paper_equations import seconds_a_period
 from benchmarks.peer_diffrax import measure_diffrax
 from benchmarks.peer_exudyn import measure_exudyn
+from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.scene.document import Scene
 
 CASE = {
     "bearing_radius": 0.01,

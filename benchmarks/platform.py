@@ -21,6 +21,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from redis import Redis
+from sqlalchemy import Engine, event
+
+from benchmarks.sweep import RECORD, SETTLE, VALUES, document
 from jointplay.service.processes import running_service
 from jointplay.solver.admission import Study, admit
 from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
@@ -32,10 +36,6 @@ from jointplay.storage.studies import StudyBlock, create
 from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.study_block import layout_of
-from redis import Redis
-from sqlalchemy import Engine, event
-
-from benchmarks.sweep import RECORD, SETTLE, VALUES, document
 
 SECONDS = 3.0
 """For which each capacity is driven."""

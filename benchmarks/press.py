@@ -11,6 +11,8 @@ import time
 from dataclasses import replace
 
 import numpy as np
+
+from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from jointplay.solver.admission import admit
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
@@ -19,8 +21,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
-
-from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 
 CASE = {
     "stiffness": 5e9,

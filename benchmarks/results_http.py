@@ -18,13 +18,14 @@ import numpy as np
 import uvicorn
 import xarray
 import zarr
+from obstore.store import HTTPStore
+from zarr.storage import ObjectStore
+
 from jointplay.service.app import create_app
 from jointplay.solver.admission import admit
 from jointplay.storage.catalogue import BlockState, Catalogue
 from jointplay.storage.results import IMPACT, ArraySpec, ResultLayout, ResultWriter
 from jointplay.storage.settings import Settings
-from obstore.store import HTTPStore
-from zarr.storage import ObjectStore
 
 REPEATS = 15
 STEP = 2e-7  # s; ten million samples of 2 s

@@ -14,6 +14,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+
 from jointplay.storage.results import (
     IMPACT,
     ArraySpec,

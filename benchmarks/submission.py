@@ -22,6 +22,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import httpx
+
 from jointplay.service.processes import running_service
 
 SECONDS = 10.0

@@ -16,14 +16,13 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from benchmarks.paper_equations import SIMULATED, seconds_a_period
+from benchmarks.press import CASE
+from jointplay.client import Client
 from jointplay.service.processes import running_service
 from jointplay.solver.admission import Study, admit
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.runs.study.run import StudyRun
-
-from benchmarks.paper_equations import SIMULATED, seconds_a_period
-from benchmarks.press import CASE
-from jointplay.client import Client
 
 VALUES, SETTLE, RECORD = 200, 100, 50
 PERIODS = VALUES * (SETTLE + RECORD)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from jointplay.figures import marks, page, study_facts
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection, StudyFigure

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from jointplay.figures import horizon, page, scene_facts
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import RunFigure, Selection

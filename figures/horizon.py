@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Final
 from jointplay.figures import page
 
 if TYPE_CHECKING:
-    from jointplay.records.run import Source
     from matplotlib.axes import Axes
+
+    from jointplay.records.run import Source
 
 LABEL: Final = "not converged"
 

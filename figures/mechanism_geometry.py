@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
 from jointplay.records.run import Floats
 
 Point = tuple[float, float]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
 from jointplay.figures import page
 from jointplay.figures.mechanism_geometry import Geometry, JointMark, Point, distance, outline
 from jointplay.figures.mechanism_marks import BLOCK_SIZE

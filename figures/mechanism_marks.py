@@ -7,6 +7,7 @@ from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
 from jointplay.figures import page
 from jointplay.figures.mechanism_geometry import (
     Geometry,

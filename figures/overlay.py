@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.figures import page
 from jointplay.figures.quantity import scale
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

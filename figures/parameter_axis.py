@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.figures import page
 from jointplay.figures.quantity import Scale, scale
 from jointplay.records.run import Floats
 from jointplay.records.study import FAILED, RUNNING, WAITING, StudySource
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -3,6 +3,7 @@
 from typing import Final
 
 import numpy as np
+
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection
 from jointplay.records.run import Columns, Floats, Source

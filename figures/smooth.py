@@ -3,10 +3,11 @@
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.figures.kind import Selection
 from jointplay.figures.sampling import MOST_PATH_SAMPLES, in_a_plane
 from jointplay.records.run import Columns, Floats, Source
-from numpy.typing import NDArray
 
 _MOST_ARCS: Final = 12
 """Pieces of an arc: no corner is seen between them."""

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.figures import page
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection
@@ -11,7 +13,6 @@ from jointplay.records.channel_choice import NoSuchChannel, no_such_channel
 from jointplay.records.run import ChannelLike
 from jointplay.records.run_in_memory import Channel
 from jointplay.records.study import StudySource
-from numpy.typing import NDArray
 
 _RATES = (
     ("eccentricity_x", "eccentricity_rate_x"),

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from jointplay.figures import page
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection, StudyFigure

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.paper import reported
 from jointplay.paper.size import Size
 from jointplay.paper.variants import Variant

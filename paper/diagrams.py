@@ -5,6 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, small
 from jointplay.paper.motions import UNKNOWN, in_words, mean_exponent, tally
@@ -12,7 +14,6 @@ from jointplay.paper.variants import Variant
 from jointplay.records.run import Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
 from jointplay.storage.studies import StudyReader
-from numpy.typing import NDArray
 
 _QUANTILES = (0.1, 0.5, 0.9)
 _NEAR = 5

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, signed, small
 from jointplay.paper.variants import Variant
 from jointplay.records.run import Floats
 from jointplay.solver.nonlinear.estimate import Estimate
 from jointplay.storage.studies import StudyReader
-from numpy.typing import NDArray
 
 UNKNOWN = "exponent not computed"
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+
 from jointplay.paper import cases, ranges, reported
 from jointplay.paper.peaks import Extreme, extreme
 from jointplay.paper.variants import Variant

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, milliseconds
 from jointplay.paper.variants import Variant

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from jointplay import figures
 from jointplay.figures import page
 from jointplay.paper import cases, reported
 from jointplay.paper.drawings import forces, portraits, responses, tracks
@@ -13,8 +14,6 @@ from jointplay.paper.processes import Advance, Call
 from jointplay.paper.size import Size
 from jointplay.paper.variants import CONSTANT, Variant
 from jointplay.storage.studies import StudyReader
-
-from jointplay import figures
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-from jointplay.records.run import CertificateLike, Floats, Source
 from numpy.typing import NDArray
+
+from jointplay.records.run import CertificateLike, Floats, Source
 
 COST: Final = ("steps", "rejections", "onsets", "smallest_step", "solver_seconds")
 EXTREMES: Final = ("lowest_minimum", "highest_minimum", "lowest_maximum", "highest_maximum")

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
-from jointplay.records.run import CertificateLike, Columns, Floats
 from numpy.typing import NDArray
+
+from jointplay.records.run import CertificateLike, Columns, Floats
 
 IMPACT = np.dtype(
     [

@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final, Protocol
 
 import numpy as np
-from jointplay.records.run import ChannelLike, Floats
 from numpy.typing import NDArray
+
+from jointplay.records.run import ChannelLike, Floats
 
 WAITING: Final = 0
 RUNNING: Final = 1

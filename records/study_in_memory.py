@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.run import Floats
 from jointplay.records.run_in_memory import Channel
 from jointplay.records.study import DONE, FAILED
-from numpy.typing import NDArray
 
 
 class Failure(NamedTuple):

@@ -4,6 +4,8 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
 
+from fastapi import FastAPI
+
 import jointplay.service.batches.endpoints
 import jointplay.service.estimates.endpoints
 import jointplay.service.events.endpoints
@@ -15,7 +17,6 @@ import jointplay.service.results.figures
 import jointplay.service.scenes.endpoints
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from fastapi import FastAPI
 from jointplay.service import problems
 from jointplay.service.estimates.prober import Prober
 from jointplay.service.events.watcher import Watcher

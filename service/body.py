@@ -5,6 +5,7 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 from fastapi.concurrency import run_in_threadpool
+
 from jointplay.records.strict_json import parse
 from jointplay.service.problems import RequestRefused, kinds
 

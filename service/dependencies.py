@@ -5,6 +5,7 @@ from typing import Annotated
 
 from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
+
 from jointplay.records.job_id import is_job_id
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.service.problems.document import clipped

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from typing import Annotated
 
 from fastapi import Depends, Header, Request
+
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.storage.catalogue import SubmissionKey
 

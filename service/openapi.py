@@ -5,12 +5,13 @@ from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
+from pydantic import TypeAdapter
+
 from jointplay.service.batches.schemas import BatchDocument
 from jointplay.service.jobs.request import FIELDS
 from jointplay.service.problems.document import ProblemDocument, problems
 from jointplay.service.problems.kinds import INVALID_REQUEST
 from jointplay.solver.jobs import KINDS, AnyJob
-from pydantic import TypeAdapter
 
 _REFERENCE = "#/components/schemas/{model}"
 _UNMENTIONED: dict[str, Any] = {

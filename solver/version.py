@@ -7,8 +7,8 @@ from pathlib import Path
 
 
 @cache
-def _source_digest() -> str:
-    folder = Path(__file__).parent
+def source_digest(folder: Path) -> str:
+    """Return the first 48 bits of the SHA-256 of all Python sources in a folder, as hexadecimal."""
     digest = hashlib.sha256()
     for path in sorted(folder.rglob("*.py")):
         digest.update(path.relative_to(folder).as_posix().encode())
@@ -16,4 +16,4 @@ def _source_digest() -> str:
     return digest.hexdigest()[:12]
 
 
-SOLVER_VERSION = f"{metadata.version('jointplay')}+{_source_digest()}"
+SOLVER_VERSION = f"{metadata.version('jointplay')}+{source_digest(Path(__file__).parent)}"

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 import uvicorn
 from fastapi import FastAPI
+from numpy.typing import NDArray
+
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.admission import Admission, Study, admit
@@ -22,7 +24,6 @@ from jointplay.storage.results import IMPACT, ArraySpec, Peak, ResultLayout, Res
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyBlock, create, seal
 from jointplay.worker.study_block import layout_of
-from numpy.typing import NDArray
 
 LEDGER = (
     "driver_work",

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from jointplay.service.processes import running_service
 
 ROOT = Path(__file__).resolve().parent.parent

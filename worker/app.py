@@ -7,8 +7,9 @@ stop listening for good after Redis was silent; `socket_timeout` is safe only wi
 """
 
 from celery import Celery
-from jointplay.storage.settings import Settings
 from kombu.entity import Exchange, Queue
+
+from jointplay.storage.settings import Settings
 
 RUN_BLOCK = "worker.run_block"
 QUEUES = ("recovered", "jobs")  # in the order in which workers look at them

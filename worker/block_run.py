@@ -5,6 +5,8 @@ import threading
 import time
 from collections.abc import Callable
 
+from sqlalchemy.exc import SQLAlchemyError
+
 from jointplay.records.failure import InvalidInput
 from jointplay.storage.catalogue import (
     BlockState,
@@ -20,7 +22,6 @@ from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome
 from jointplay.worker.lease import Lease
 from jointplay.worker.work import AnyProgress, Kept, Work, work_of
-from sqlalchemy.exc import SQLAlchemyError
 
 _log = logging.getLogger(__name__)
 _BLOCK_STATES = {

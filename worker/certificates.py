@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.storage.results import Appendix, SmallArray
 

@@ -7,9 +7,10 @@ import threading
 import time
 from typing import Self
 
+from sqlalchemy.exc import SQLAlchemyError
+
 from jointplay.storage.catalogue import Catalogue, Claim, Fenced, Verdict
 from jointplay.storage.settings import Settings
-from sqlalchemy.exc import SQLAlchemyError
 
 _log = logging.getLogger(__name__)
 

@@ -11,14 +11,15 @@ import socket
 import threading
 import time
 
+from kombu.exceptions import OperationalError
+from redis.exceptions import RedisError
+from sqlalchemy.exc import SQLAlchemyError
+
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.removal import remove_expired
 from jointplay.worker.wake_up import Doorman
-from kombu.exceptions import OperationalError
-from redis.exceptions import RedisError
-from sqlalchemy.exc import SQLAlchemyError
 
 _DUTY = "relay"
 _DUTY_SECONDS = 5.0

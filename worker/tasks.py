@@ -10,6 +10,7 @@ from typing import Any
 
 from billiard.process import active_children
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
+
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app

@@ -8,6 +8,8 @@ import argparse
 import sys
 import time
 
+from numba.core.event import install_recorder
+
 from jointplay.solver.admission import admit_simulate
 from jointplay.solver.jobs import SimulateJob
 from jointplay.solver.kernels.emit.tangents import compile_tangents
@@ -15,7 +17,6 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from numba.core.event import install_recorder
 
 
 def warm(name: str) -> float:

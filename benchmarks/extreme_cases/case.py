@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.runs.simulate import Simulation

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from jointplay.solver.scene import presets
-
 from benchmarks.extreme_cases.case import CRANK, JOURNAL, PRESS, THROWN, Case
+from jointplay.solver.scene import presets
 
 
 def cases() -> Iterator[Case]:

@@ -6,13 +6,14 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.certificate import converged
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.worker.certificates import appendix_of
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

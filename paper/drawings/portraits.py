@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+
 from jointplay.figures import marks, page
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+
 from jointplay.figures import page
 from jointplay.paper.drawings.curves import Compared
 from jointplay.storage.results import ResultReader

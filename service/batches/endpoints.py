@@ -3,6 +3,7 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Path, Query, Response
+
 from jointplay.records.job_id import is_job_id
 from jointplay.service.batches.admission import admit_batch
 from jointplay.service.batches.schemas import AcceptedBatch, BatchResource, address

@@ -3,8 +3,9 @@
 from datetime import UTC, datetime
 from typing import Any, Self
 
-from jointplay.storage.catalogue import Batch, JobState
 from pydantic import BaseModel, ConfigDict, Field
+
+from jointplay.storage.catalogue import Batch, JobState
 
 MOST_JOBS = 10_000
 LONGEST_LABEL = 200

@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request
+
 from jointplay.service.body import JsonDocument
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
 from jointplay.service.estimates.prober import Prober

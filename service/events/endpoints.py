@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import StreamingResponse
+
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.events.schemas import JobEvent, JobProgress
 from jointplay.service.events.waiting import WatcherDependency

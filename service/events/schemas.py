@@ -2,9 +2,10 @@
 
 from typing import Any, Self
 
+from pydantic import BaseModel, Field
+
 from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.storage.catalogue import Event, Glance, JobState
-from pydantic import BaseModel, Field
 
 
 class JobEvent(BaseModel):

@@ -5,10 +5,11 @@ from typing import Annotated
 
 from fastapi import Depends, Header, Request, Response
 from fastapi.concurrency import run_in_threadpool
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.service.dependencies import CatalogueDependency
 from jointplay.service.events.watcher import Watcher
 from jointplay.storage.catalogue import Catalogue, Job
-from pydantic import BaseModel, ConfigDict, Field
 
 LONGEST_WAIT = 60  # s; a client that wants to wait longer asks again
 _PREFERRED = re.compile(r"""(?:^|[,;])\s*wait\s*=\s*"?(\d{1,9})"?\s*(?=[,;]|$)""", re.IGNORECASE)

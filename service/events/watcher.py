@@ -7,8 +7,9 @@ from collections.abc import AsyncIterator, Iterator
 from contextlib import contextmanager
 
 from fastapi.concurrency import run_in_threadpool
-from jointplay.storage.catalogue import Catalogue, Glance
 from sqlalchemy.exc import SQLAlchemyError
+
+from jointplay.storage.catalogue import Catalogue, Glance
 
 _PERIOD = 0.01
 """Seconds between two looks when somebody begins to wait; growing to ..."""

@@ -5,10 +5,11 @@ import os
 from typing import Literal
 
 from fastapi import APIRouter
-from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
-from jointplay.service.problems import RequestRefused, kinds, problems
 from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
+
+from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.service.problems import RequestRefused, kinds, problems
 
 router = APIRouter(tags=["health"])
 _log = logging.getLogger(__name__)

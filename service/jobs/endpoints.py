@@ -4,6 +4,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Response
 from fastapi.concurrency import run_in_threadpool
+
 from jointplay.service.body import JsonDocument
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
 from jointplay.service.events.waiting import PatienceDependency, WaitQuery

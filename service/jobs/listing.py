@@ -4,11 +4,12 @@ import re
 from datetime import UTC, datetime
 from typing import Annotated, Any
 
+from pydantic import AwareDatetime, BeforeValidator, Field
+
 from jointplay.service.jobs.paging import PageQuery
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.solver.jobs import KINDS
 from jointplay.storage.catalogue import JobState
-from pydantic import AwareDatetime, BeforeValidator, Field
 
 
 def _written(moment: object) -> object:

@@ -1,8 +1,9 @@
 """Which page of a list of jobs."""
 
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.records.job_id import is_job_id
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
-from pydantic import BaseModel, ConfigDict, Field
 
 
 class PageQuery(BaseModel):

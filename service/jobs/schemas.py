@@ -3,9 +3,10 @@
 from datetime import UTC, datetime
 from typing import Any, Literal, Self
 
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.service.jobs.results_of_kinds import RESULTS
 from jointplay.storage.catalogue import Job, JobState
-from pydantic import BaseModel, ConfigDict, Field
 
 SECONDS: dict[str, Any] = {"unit": "s"}
 

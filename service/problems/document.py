@@ -3,8 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from jointplay.service.problems.kinds import Kind
 from pydantic import BaseModel, ConfigDict, Field
+
+from jointplay.service.problems.kinds import Kind
 
 MEDIA_TYPE = "application/problem+json"
 _LONGEST_SENTENCE = 1000  # a client's own text may be quoted in it

@@ -1,9 +1,10 @@
 """``GET /problems/{name}``: what the ``type`` of a problem document points to."""
 
 from fastapi import APIRouter
+from pydantic import BaseModel, Field
+
 from jointplay.service.problems import kinds
 from jointplay.service.problems.document import RequestRefused, problems
-from pydantic import BaseModel, Field
 
 router = APIRouter(prefix="/problems", tags=["problems"])
 

@@ -6,6 +6,10 @@ from functools import singledispatch
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+from starlette.routing import compile_path
+
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.records.strict_json import MalformedJson
 from jointplay.service.problems import kinds
@@ -17,9 +21,6 @@ from jointplay.service.problems.document import (
     clipped,
 )
 from jointplay.storage.catalogue import JobNotFinished, KeyReused
-from sqlalchemy.exc import OperationalError
-from starlette.exceptions import HTTPException
-from starlette.routing import compile_path
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail

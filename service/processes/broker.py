@@ -6,9 +6,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from jointplay.service.processes.child import Child, StartFailed
 from redis import Redis
 from redis.exceptions import RedisError
+
+from jointplay.service.processes.child import Child, StartFailed
 
 _LONGEST_SOCKET_PATH = 100  # bytes; the kernel's limit is 107 on Linux and 103 on macOS
 _START_PATIENCE = 15.0  # seconds; reading back a large log takes some

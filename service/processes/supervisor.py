@@ -13,11 +13,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import FrameType
 
+from pydantic import ValidationError
+
 from jointplay.service.processes.broker import Broker, answers
 from jointplay.service.processes.child import Child, StartFailed, WrongSetting
 from jointplay.service.processes.folder_lock import FolderLock
 from jointplay.storage.settings import Settings
-from pydantic import ValidationError
 
 _START_PATIENCE = 60.0  # seconds until the API answers; a cold disk is slow
 _STOP_PATIENCE = 20.0  # seconds a worker has to store a restart point and give its block back

@@ -2,8 +2,9 @@
 
 from typing import Any
 
-from jointplay.service.results.schemas import Series, Values
 from pydantic import BaseModel, Field
+
+from jointplay.service.results.schemas import Series, Values
 
 Span = tuple[float, float]
 

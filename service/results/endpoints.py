@@ -5,6 +5,8 @@ from typing import Annotated, Any
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
+from numpy.typing import NDArray
+
 from jointplay.records.certificate import certificate_document
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
@@ -34,7 +36,6 @@ from jointplay.service.studies.queries import PoincareQuery
 from jointplay.service.studies.schemas import Sections
 from jointplay.storage.catalogue import Job
 from jointplay.storage.results import ResultReader
-from numpy.typing import NDArray
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",

@@ -3,6 +3,9 @@
 from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Path, Query, Response
+from pydantic import Field
+
+from jointplay import figures
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
@@ -21,9 +24,6 @@ from jointplay.storage.catalogue import Catalogue, Job
 from jointplay.storage.results import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
-from pydantic import Field
-
-from jointplay import figures
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}/figures",

@@ -5,6 +5,7 @@ from importlib.util import find_spec
 from typing import Annotated
 
 from fastapi import Depends, Request
+
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.problems.document import clipped
 

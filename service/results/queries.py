@@ -1,8 +1,9 @@
 """What a client can ask of results: channels and a window of time, within bounds."""
 
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
-from pydantic import BaseModel, ConfigDict, Field
 
 MOST_POINTS = 100_000  # of an overview: more than any screen is wide
 MOST_VALUES = 1_000_000  # in one answer: about 20 MB of JSON

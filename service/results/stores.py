@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated
 
 from fastapi import Depends, Request
+
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
 from jointplay.service.jobs.results_of_kinds import insist
 from jointplay.service.problems import RequestRefused, kinds

@@ -7,8 +7,9 @@ from typing import Any, Final, cast
 
 import numpy as np
 from fastapi import Response
-from jointplay.service.results.negotiation import ARROW, CSV, FORMS, MATLAB, NPZ
 from numpy.typing import NDArray
+
+from jointplay.service.results.negotiation import ARROW, CSV, FORMS, MATLAB, NPZ
 
 _SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat", ARROW: "arrows"}
 _LONGEST_FIELD: Final = 63  # of a name in MATLAB

@@ -3,12 +3,13 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path
+from pydantic import BaseModel, Field
+
 from jointplay.records.failure import InvalidInput
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
 from jointplay.service.problems.document import clipped
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
-from pydantic import BaseModel, Field
 
 router = APIRouter(prefix="/v1/scenes", tags=["scenes"])
 

@@ -5,6 +5,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import (
@@ -19,7 +21,6 @@ from jointplay.service.studies.queries import (
 )
 from jointplay.solver.runs.study.outputs import MEANINGS
 from jointplay.storage.studies import StudyReader
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")

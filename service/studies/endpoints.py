@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
+
 from jointplay.service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
 from jointplay.service.jobs.results_of_kinds import insist
 from jointplay.service.problems import kinds, problems

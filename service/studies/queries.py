@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 from jointplay.service.results.queries import MOST_VALUES, Selection, chosen_channels
 from jointplay.storage.studies import StudyReader
-from pydantic import BaseModel, ConfigDict, Field
 
 
 class PointRange(BaseModel):

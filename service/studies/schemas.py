@@ -2,8 +2,9 @@
 
 from typing import Any, Literal
 
-from jointplay.service.results.schemas import Series, Values
 from pydantic import BaseModel, Field
+
+from jointplay.service.results.schemas import Series, Values
 
 Status = Literal["waiting", "running", "done", "failed"]
 SECONDS: dict[str, Any] = {"unit": "s"}

@@ -5,6 +5,7 @@ import json
 from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
+
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+
 from jointplay.records.failure import LimitExceeded, Problem
 from jointplay.solver.admission import documents
 from jointplay.solver.admission.limits import BYTES_PER_POINT, LONGEST_ACCURACY_STUDY

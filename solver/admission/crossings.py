@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+
 from jointplay.records.failure import Problem
 from jointplay.solver.admission.points import Points
 from jointplay.solver.admission.varied import CheckedPoints

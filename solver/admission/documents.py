@@ -7,6 +7,8 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic import ValidationError
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import did_you_mean
 from jointplay.solver.admission.mechanism import Echo
@@ -14,7 +16,6 @@ from jointplay.solver.admission.methods import chosen
 from jointplay.solver.jobs import KINDS, Job, MechanismJob, PresetScene
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.sentences import schema_problems
-from pydantic import ValidationError
 
 
 def parse(document: object) -> MechanismJob:

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
+from pydantic import ValidationError
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.jobs import MechanismJob, PresetScene
 from jointplay.solver.mechanics.assembly import ASSEMBLED, Assembly, assemble, shortest_link
@@ -16,7 +18,6 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
-from pydantic import ValidationError
 
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -6,12 +6,13 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.admission.varied import CheckedPoints
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.periods import characteristic_time, common_period
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 _SPEED = re.compile(r"/drivers/[^/]+/speed")

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.admission.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
 from jointplay.solver.admission.varied import CheckedPoints
 from jointplay.solver.jobs.sweep import SweepJob
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.statistics import OF_CONTACTS
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import LimitExceeded, Problem
 from jointplay.solver.admission import documents
 from jointplay.solver.admission.limits import (
@@ -27,7 +29,6 @@ from jointplay.solver.jobs import INDICATORS, CrankSection, MechanismJob, Sectio
 from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.channels import Channel
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

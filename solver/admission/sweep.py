@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.admission import documents
 from jointplay.solver.admission.methods import check_study

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.admission.limits import MOST_GEOMETRIES
 from jointplay.solver.admission.mechanism import Echo, check, declared, offered, with_parameters
@@ -31,7 +33,6 @@ from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import PLACE, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
-from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.calibration.measure import Measure
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.calibration.search import Found, Report, search
 from jointplay.solver.calibration.spread import CHAINS, EquallyGood, spread
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

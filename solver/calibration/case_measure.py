@@ -10,6 +10,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import Problem
 from jointplay.solver.calibration.problem import Calibration, CheckedCase
 from jointplay.solver.calibration.windows import Windows
@@ -26,7 +28,6 @@ from jointplay.solver.runs.results import Peak
 from jointplay.solver.runs.study.fields import geometry_columns, structure_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

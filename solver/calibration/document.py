@@ -2,10 +2,11 @@
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.jobs.job import Job
 from jointplay.solver.jobs.values import UNIT
 from jointplay.solver.quantities.units import Name, Strict
-from pydantic import Field
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
 SECONDS = {"unit": "s"}

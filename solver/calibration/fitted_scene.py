@@ -5,12 +5,13 @@ from __future__ import annotations
 import copy
 from typing import Any
 
+from pydantic import ValidationError
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.jobs import PresetScene
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
-from pydantic import ValidationError
 
 LONGEST_HELP = 300
 LONGEST_DESCRIPTION = 2000

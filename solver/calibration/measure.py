@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.calibration.case_measure import CaseMeasure
 from jointplay.solver.calibration.problem import Calibration
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Measure = Callable[[Floats], Floats]

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.calibration.search import Found
 from jointplay.solver.calibration.spread import EquallyGood
 from jointplay.solver.version import SOLVER_VERSION
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

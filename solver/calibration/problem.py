@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic import ValidationError
+
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.admission import Study, admit
@@ -20,7 +22,6 @@ from jointplay.solver.jobs import PresetScene
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
-from pydantic import ValidationError
 
 MOST_RUNS = 10_000_000
 """Of a calibration: some hours."""

@@ -11,10 +11,11 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.calibration.measure import Measure, Measurement
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
 from jointplay.solver.kernels.layout import LANES
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

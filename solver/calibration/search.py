@@ -11,9 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jointplay.solver.calibration.document import Search
 from numpy.typing import NDArray
 from scipy.optimize import Bounds, OptimizeResult, differential_evolution
+
+from jointplay.solver.calibration.document import Search
 
 Floats = NDArray[np.float64]
 Cost = Callable[[Floats], Floats]

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.calibration.document import FreeParameter
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -13,8 +13,9 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jointplay.solver.calibration.search import Cost, Found, Report
 from numpy.typing import NDArray
+
+from jointplay.solver.calibration.search import Cost, Found, Report
 
 Floats = NDArray[np.float64]
 

@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import Problem
 from jointplay.solver.calibration.document import CalibrationTarget
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -10,10 +10,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.calibration.document import CalibrationTarget, Statistic
 from jointplay.solver.calibration.targets import grid_indices
 from jointplay.solver.runs.results import Peak
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -5,6 +5,8 @@ A member is a pydantic model; `solver.admission` has a module of the same name t
 
 from typing import Annotated
 
+from pydantic import Field
+
 from jointplay.solver.jobs.accuracy_study import AccuracyStudyJob
 from jointplay.solver.jobs.bifurcation import BifurcationJob
 from jointplay.solver.jobs.ensemble import EnsembleJob
@@ -14,7 +16,6 @@ from jointplay.solver.jobs.section import ChannelSection, CrankSection, OnsetSec
 from jointplay.solver.jobs.simulate import SimulateJob
 from jointplay.solver.jobs.study import INDICATORS, SectionStudyJob
 from jointplay.solver.jobs.sweep import SweepJob
-from pydantic import Field
 
 KINDS: dict[str, type[MechanismJob]] = {
     "simulate": SimulateJob,

@@ -2,8 +2,9 @@
 
 from typing import Annotated, Literal, get_args
 
-from jointplay.solver.jobs.job import MechanismJob
 from pydantic import Field
+
+from jointplay.solver.jobs.job import MechanismJob
 
 MethodName = Literal["bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
 METHOD_NAMES: tuple[MethodName, ...] = get_args(MethodName)

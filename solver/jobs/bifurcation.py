@@ -2,10 +2,11 @@
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.jobs.study import SectionStudyJob
 from jointplay.solver.jobs.values import Values
 from jointplay.solver.quantities.units import Name
-from pydantic import Field
 
 
 class BifurcationJob(SectionStudyJob):

@@ -2,8 +2,9 @@
 
 from typing import Annotated, Literal
 
-from jointplay.solver.jobs.study import SectionStudyJob
 from pydantic import Field
+
+from jointplay.solver.jobs.study import SectionStudyJob
 
 
 class EnsembleJob(SectionStudyJob):

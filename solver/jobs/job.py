@@ -2,10 +2,11 @@
 
 from typing import Annotated, Any, Literal
 
+from pydantic import Field
+
 from jointplay.solver.quantities.units import Name, Strict
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.unions import form, has, told_by
-from pydantic import Field
 
 Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
 Accuracy = Literal["draft", "standard", "fine", "reference"]

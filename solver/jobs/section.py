@@ -2,9 +2,10 @@
 
 from typing import Annotated, Any, Literal
 
+from pydantic import Field
+
 from jointplay.solver.quantities.units import Name, Strict
 from jointplay.solver.scene.unions import form, has, told_by
-from pydantic import Field
 
 
 class CrankSection(Strict):

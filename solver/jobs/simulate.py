@@ -2,9 +2,10 @@
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.jobs.job import ChannelChoice, Job
 from jointplay.solver.jobs.section import CrankSection
-from pydantic import Field
 
 
 class SimulateJob(Job):

@@ -2,10 +2,11 @@
 
 from typing import Annotated, Any, Literal, get_args
 
+from pydantic import Field
+
 from jointplay.solver.jobs.job import ChannelChoice, Job
 from jointplay.solver.jobs.section import CrankSection, Section
 from jointplay.solver.scene.unions import form, told_by
-from pydantic import Field
 
 Indicator = Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum"]
 INDICATORS: tuple[Indicator, ...] = get_args(Indicator)

@@ -2,10 +2,11 @@
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.jobs.job import ChannelChoice, Job
 from jointplay.solver.jobs.values import UNIT, Values
 from jointplay.solver.quantities.units import Name
-from pydantic import Field
 
 StatisticName = Literal[
     "mean",

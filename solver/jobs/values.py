@@ -3,10 +3,11 @@
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from jointplay.solver.quantities.units import Strict
-from jointplay.solver.scene.unions import form, told_by
 from numpy.typing import NDArray
 from pydantic import Field
+
+from jointplay.solver.quantities.units import Strict
+from jointplay.solver.scene.unions import form, told_by
 
 UNIT = {"unit": "the parameter's unit"}
 

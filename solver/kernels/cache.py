@@ -1,7 +1,8 @@
 """Where compiled code is kept, and how a generated module is loaded so that Numba finds it there.
 
 Numba keys its cache on a file's own text, so a change in a file that it calls would go unseen:
-the whole cache lives under a digest of all solver sources. Wiping it is always safe.
+the whole cache lives under a digest of all sources of this package: compiled code calls nothing
+outside of it, and a generated module is named by its text. Wiping it is always safe.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from pathlib import Path
 from types import ModuleType
 
 import numba
-from jointplay.solver.version import SOLVER_VERSION
+
+from jointplay.solver.version import source_digest
 
 
 @cache
 def cache_folder() -> Path:
-    """Return the folder of compiled code of this solver version, made on first use.
+    """Return the folder of code compiled by these sources, made on first use.
 
     ``JOINTPLAY_CACHE`` chooses its parent; the default is the user's cache folder, or a private
     temporary one where that cannot be written.
@@ -33,7 +35,7 @@ def cache_folder() -> Path:
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
         "jointplay",
     )
-    digest = SOLVER_VERSION.split("+")[-1]
+    digest = source_digest(Path(__file__).parent)
     for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
         folder = parent / f"kernels-{digest}"
         try:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 import numba
+
 from jointplay.solver.kernels.cache import cache_folder
 
 cache_folder()  # names Numba's cache before any kernel is declared

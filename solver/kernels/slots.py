@@ -5,8 +5,9 @@ from __future__ import annotations
 from enum import IntEnum
 
 import numpy as np
-from jointplay.solver.kernels.layout import Layout
 from numpy.typing import NDArray
+
+from jointplay.solver.kernels.layout import Layout
 
 
 class Slot(IntEnum):

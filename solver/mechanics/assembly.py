@@ -8,12 +8,13 @@ from itertools import combinations
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
 from jointplay.solver.scene.references import ends, has_play
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

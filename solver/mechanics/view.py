@@ -4,10 +4,11 @@ from collections.abc import Callable, Collection
 from types import SimpleNamespace
 from typing import Any
 
+from pydantic import BaseModel
+
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import targeted_paths
-from pydantic import BaseModel
 
 NumberOf = Callable[[str, float], Scalar]
 """Turns the number at a JSON pointer of the scene into a scalar."""

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
 from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
+
+from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
 
 Floats = NDArray[np.float64]
 

@@ -16,9 +16,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.nonlinear.batch_means import mean_estimate
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from jointplay.solver.nonlinear.flow import (

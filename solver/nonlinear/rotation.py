@@ -7,8 +7,9 @@ lift by continuity).
 from __future__ import annotations
 
 import numpy as np
-from jointplay.solver.nonlinear.estimate import Estimate
 from numpy.typing import NDArray
+
+from jointplay.solver.nonlinear.estimate import Estimate
 
 Floats = NDArray[np.float64]
 

@@ -6,9 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
 from jointplay.solver.nonlinear.steadiness import change_between
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

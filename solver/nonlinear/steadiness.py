@@ -7,9 +7,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.nonlinear.batch_means import standard_error
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

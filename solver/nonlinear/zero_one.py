@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from numpy.typing import NDArray
 from scipy import fft
+
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 
 Floats = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 
 import numpy as np
+
 from jointplay.solver.admission import Admission, section_offset
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle

@@ -6,6 +6,8 @@ points together; a reference ``body.point`` names one, ``ground.point`` a point 
 
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.quantities.units import (
@@ -24,7 +26,6 @@ from jointplay.solver.quantities.units import (
     Strict,
     Velocity,
 )
-from pydantic import Field
 
 
 class Body(Strict):

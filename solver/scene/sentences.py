@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Any
 
+from pydantic import BaseModel, ValidationError
+
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean
 from jointplay.solver.scene.unions import is_form
-from pydantic import BaseModel, ValidationError
 
 JOINTS = frozenset({"revolute", "prismatic", "fixed"})
 TYPES = frozenset({"float", "str", "none"})

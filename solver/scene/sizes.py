@@ -13,10 +13,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from jointplay.records.failure import Problem
-from jointplay.solver.scene.document import Joint, Prismatic, Revolute, Scene
 from numpy.typing import NDArray
 from pydantic import BaseModel
+
+from jointplay.records.failure import Problem
+from jointplay.solver.scene.document import Joint, Prismatic, Revolute, Scene
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from sqlalchemy import Connection, and_, func, insert, select, update
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import (
@@ -19,7 +21,6 @@ from jointplay.storage.catalogue.submission import (
     remember_key,
     request_cancel,
 )
-from sqlalchemy import Connection, and_, func, insert, select, update
 
 LARGEST_BATCH = 10_000
 _job = tables.job

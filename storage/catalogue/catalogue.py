@@ -7,6 +7,9 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from sqlalchemy import text
+from sqlalchemy.exc import OperationalError
+
 from jointplay.storage.catalogue import (
     batches,
     holding,
@@ -42,8 +45,6 @@ from jointplay.storage.catalogue.records import (
     WakeUp,
 )
 from jointplay.storage.catalogue.rows import find_job
-from sqlalchemy import text
-from sqlalchemy.exc import OperationalError
 
 
 class Catalogue:

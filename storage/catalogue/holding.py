@@ -6,12 +6,13 @@ thought dead and comes back finds its attempt fenced: nothing it does counts any
 
 from typing import Any
 
+from sqlalchemy import Connection, delete, func, insert, select, update
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import BlockState, Claim, JobError, JobState, Verdict
 from jointplay.storage.catalogue.rows import block_record, lock_job, record_event, step_job
 from jointplay.storage.catalogue.submission import drop_queued_blocks
-from sqlalchemy import Connection, delete, func, insert, select, update
 
 RECOVERED_QUEUE = "recovered"
 _block = tables.block

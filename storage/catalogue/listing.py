@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+from sqlalchemy import Connection, and_, func, not_, select
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.identifiers import earliest
 from jointplay.storage.catalogue.records import (
@@ -14,7 +16,6 @@ from jointplay.storage.catalogue.records import (
     JobState,
 )
 from jointplay.storage.catalogue.rows import attempt_record, block_record, event_record, job_record
-from sqlalchemy import Connection, and_, func, not_, select
 
 LARGEST_PAGE = 1000
 _TERMINAL = [state.value for state in JobState if state.terminal]

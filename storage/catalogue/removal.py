@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 
+from sqlalchemy import Connection, select, update
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.catalogue.rows import find_job, lock_job
-from sqlalchemy import Connection, select, update
 
 _job = tables.job
 _TERMINAL = [state.value for state in JobState if state.terminal]

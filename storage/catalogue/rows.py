@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+from sqlalchemy import Connection, Row, func, insert, select, update
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import (
@@ -16,7 +18,6 @@ from jointplay.storage.catalogue.records import (
     JobError,
     JobState,
 )
-from sqlalchemy import Connection, Row, func, insert, select, update
 
 job_table, block_table = tables.job, tables.block
 

@@ -4,17 +4,6 @@ from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from jointplay.storage.catalogue import tables
-from jointplay.storage.catalogue.errors import KeyReused
-from jointplay.storage.catalogue.records import (
-    BlockState,
-    Job,
-    JobState,
-    NewJob,
-    SubmissionKey,
-    Submitted,
-)
-from jointplay.storage.catalogue.rows import find_job, job_record, lock_job, step_job
 from sqlalchemy import (
     ColumnElement,
     Connection,
@@ -28,6 +17,18 @@ from sqlalchemy import (
     select,
     update,
 )
+
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.records import (
+    BlockState,
+    Job,
+    JobState,
+    NewJob,
+    SubmissionKey,
+    Submitted,
+)
+from jointplay.storage.catalogue.rows import find_job, job_record, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
 _LONGEST_NAME = 200  # of a scene, as it is looked for

@@ -1,10 +1,11 @@
 """What relay and reaper need: blocks nobody was told of, leases that ran out, duties."""
 
+from sqlalchemy import Connection, case, delete, func, select, update
+
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.holding import RECOVERED_QUEUE, lose
 from jointplay.storage.catalogue.records import BlockState, Reaped, WakeUp
 from jointplay.storage.catalogue.submission import FRESH_QUEUE
-from sqlalchemy import Connection, case, delete, func, select, update
 
 _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most so many times `republish_after`

@@ -1,6 +1,7 @@
 """Alembic's entry: migrates the connection that `storage.catalogue.schema` hands over."""
 
 from alembic import context
+
 from jointplay.storage.catalogue.tables import metadata
 
 context.configure(

@@ -6,9 +6,10 @@ from typing import Any, Final
 
 import numpy as np
 import zarr
+from numpy.typing import NDArray
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import Document, array, group
-from numpy.typing import NDArray
 
 CERTIFICATE: Final = "certificate"
 """The one group of this kind that there is."""

@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.results.pyramid import FOLDER
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Column = Callable[[int, int], Floats]

@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.durable import DurableFolder
 from jointplay.storage.results.errors import CheckpointMismatch, InvalidAppend
 from jointplay.storage.results.tables import Table
-from numpy.typing import NDArray
 
 Columns = Sequence[NDArray[Any]]
 

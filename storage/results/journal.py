@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.storage.results.durable import sync
 from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.results.growing_table import GrowingTable

@@ -7,6 +7,7 @@ from hashlib import sha256
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+
 from jointplay.storage.results.errors import InvalidLayout
 from jointplay.storage.results.partition import Partition
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.errors import NotAStore
 from jointplay.storage.results.layout import IMPACT, TIME

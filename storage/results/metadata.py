@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR, fill
 from jointplay.storage.results.tables import Column, Table, tables

@@ -11,12 +11,13 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import metadata, shards
 from jointplay.storage.results.durable import DurableFolder
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.layout import TIME, ResultLayout
 from jointplay.storage.results.tables import Column, Table
-from numpy.typing import NDArray
 
 FOLDER: Final = "pyramid"
 FACTOR: Final = 16

@@ -8,6 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 import zarr
+from numpy.typing import NDArray
+
 from jointplay.storage.results import manifest
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
 from jointplay.storage.results.envelope import Envelope
@@ -16,7 +18,6 @@ from jointplay.storage.results.layout import IMPACT, MANIFEST, SCHEMA_VERSION, T
 from jointplay.storage.results.live import columns_of, committed, rows_in_shards, shape_of
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.results.waiting import Waiting
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -10,9 +10,10 @@ from typing import Any, Final
 
 import google_crc32c
 import numpy as np
-from jointplay.storage.results.errors import CorruptStore
 from numcodecs import blosc
 from numpy.typing import NDArray
+
+from jointplay.storage.results.errors import CorruptStore
 
 COMPRESSOR: Final = "zstd"
 COMPRESSION_LEVEL: Final = 3

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
 from jointplay.storage.results.shards import fill
 

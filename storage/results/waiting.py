@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jointplay.storage.results.journal import FOLDER, ROWS
 from numpy.typing import NDArray
+
+from jointplay.storage.results.journal import FOLDER, ROWS
 
 
 @dataclass(frozen=True)

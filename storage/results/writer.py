@@ -5,6 +5,8 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import manifest, metadata
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
@@ -14,7 +16,6 @@ from jointplay.storage.results.journal import Checkpoint, Journal
 from jointplay.storage.results.layout import IMPACT, Peak, ResultLayout
 from jointplay.storage.results.pyramid import Pyramid
 from jointplay.storage.results.tables import tables
-from numpy.typing import NDArray
 
 _NO_PEAK: Final = Peak(*[float("nan")] * 4)
 

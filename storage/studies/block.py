@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Self
 
 import numpy as np
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import CorruptStore, InvalidAppend, ResultsError

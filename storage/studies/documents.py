@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
+
 from jointplay.storage.results import metadata
 from jointplay.storage.results.layout import TIME, ArraySpec
 from jointplay.storage.results.metadata import FILE, Document

@@ -8,9 +8,10 @@ from hashlib import sha256
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results.errors import InvalidLayout
 from jointplay.storage.results.layout import TIME, ArraySpec, check_name
-from numpy.typing import NDArray
 
 STUDY_SCHEMA: Final = 1
 CHUNK_VALUES: Final = 16_384

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import TIME, ArraySpec
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.reader import StudyReader
-from numpy.typing import NDArray
 
 _NUMBERS: Final = ("statistics", "indicators")
 

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.studies.layout import StudyLayout
-from numpy.typing import NDArray
 
 FOLDER: Final = ".parts"
 _MAGIC: Final = b"jointplay part of a study 1\n"

@@ -5,8 +5,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jointplay.storage.studies.part import Failure, Floats, Part
 from numpy.typing import NDArray
+
+from jointplay.storage.studies.part import Failure, Floats, Part
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 import zarr
+from numpy.typing import NDArray
+
 from jointplay.storage.results import manifest
 from jointplay.storage.results.errors import NotAStore, UnknownChannel
 from jointplay.storage.results.layout import MANIFEST, TIME, ArraySpec
@@ -18,7 +20,6 @@ from jointplay.storage.studies.layout import STUDY_SCHEMA
 from jointplay.storage.studies.part import Failure, Floats, Part
 from jointplay.storage.studies.points import Points, together
 from jointplay.storage.studies.store import FAILURES
-from numpy.typing import NDArray
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 

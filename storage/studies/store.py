@@ -9,6 +9,8 @@ from shutil import rmtree
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import IncompleteStudy, StoreExists
@@ -18,7 +20,6 @@ from jointplay.storage.studies.block import chunk_files, require_chunks
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus
 from jointplay.storage.studies.points import Points, together
-from numpy.typing import NDArray
 
 FAILURES: Final = "failures.json"
 """Failed points with code, sentence and time reached: what no array can hold."""

@@ -5,11 +5,11 @@ import time
 from datetime import UTC, datetime, timedelta
 
 import pytest
+
+from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, events
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue import BlockState, Catalogue
 from jointplay.storage.settings import Settings
-
-from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, events
 from tests.service_in_thread import serving
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

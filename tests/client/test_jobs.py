@@ -5,13 +5,13 @@ import json
 
 import numpy as np
 import pytest
-from jointplay.solver.admission import admit
-from jointplay.solver.jobs import KINDS
-from jointplay.solver.scene import presets
 
 from jointplay import jobs
 from jointplay.client import Client
 from jointplay.scene_choice import NotAScene
+from jointplay.solver.admission import admit
+from jointplay.solver.jobs import KINDS
+from jointplay.solver.scene import presets
 
 MADE = {
     "simulate": jobs.simulate("slider-crank", duration=1, clearance=1e-4, label="one"),

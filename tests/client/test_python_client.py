@@ -5,7 +5,6 @@ import socket
 
 import numpy as np
 import pytest
-from jointplay.storage.catalogue import BlockState, JobError
 
 from jointplay.client import (
     Client,
@@ -19,6 +18,7 @@ from jointplay.client import (
     TimedOut,
     Unreachable,
 )
+from jointplay.storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
-from jointplay.storage.catalogue import BlockState
 
 from jointplay import figures
 from jointplay.client import Client, NotFound, Refused, ResultsNotReady
+from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
+from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

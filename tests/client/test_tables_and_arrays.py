@@ -5,9 +5,9 @@ import sys
 
 import numpy as np
 import pytest
-from jointplay.storage.catalogue import BlockState, JobError
 
 from jointplay.client import Client, NotFound, Refused
+from jointplay.storage.catalogue import BlockState, JobError
 from tests.service_in_thread import BIFURCATION, known_section
 
 

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+
 from jointplay.service.processes.folder_lock import FolderLock
 from jointplay.solver.scene import presets
 

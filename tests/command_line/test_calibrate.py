@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+
 from jointplay.solver.admission import admit
 
 FORCE = "bearing.normal_force@0:0.018"

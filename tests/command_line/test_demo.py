@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from jointplay.solver.scene import presets
 
 from jointplay.client import Peak
 from jointplay.command_line.comparison import cases_of, table
+from jointplay.solver.scene import presets
 
 README = (Path(__file__).parents[2] / "README.md").read_text()
 DEMO = [sys.executable, "-m", "jointplay", "demo", "seven-bar-press", "-o"]

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from jointplay.storage.results import ResultReader
 
 from jointplay.command_line.application import run
 from jointplay.command_line.exits import Exit
+from jointplay.storage.results import ResultReader
 from tests.waiting import until
 
 PRESS = ["run", "seven-bar-press", "--duration", "0.05", "--output-step", "1e-3"]

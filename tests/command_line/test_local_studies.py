@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import zarr
-from jointplay.storage.studies import StudyReader
 
 from jointplay.command_line.application import run
+from jointplay.storage.studies import StudyReader
 
 CRANK = ["run", "slider-crank"]
 DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:17", "--settle", "2", "--record", "4"]

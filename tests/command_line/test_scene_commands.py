@@ -3,8 +3,8 @@
 import json
 
 import pytest
-from jointplay.solver.scene import presets
 
+from jointplay.solver.scene import presets
 from tests.command_line.four_bar import four_bar
 
 

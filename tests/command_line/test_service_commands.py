@@ -6,9 +6,9 @@ import json
 import socket
 
 import pytest
-from jointplay.storage.catalogue import BlockState, JobError
 
 from jointplay.client import retrying
+from jointplay.storage.catalogue import BlockState, JobError
 
 
 @pytest.fixture

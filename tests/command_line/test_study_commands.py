@@ -5,6 +5,7 @@ import io
 import json
 
 import pytest
+
 from jointplay.storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

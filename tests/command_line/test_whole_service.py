@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+
+from jointplay import load
+from jointplay.client import Client, JobCancelled
 from jointplay.records.study import WAITING
 from jointplay.service.processes import running_service
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
-
-from jointplay import load
-from jointplay.client import Client, JobCancelled
 
 PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 import yaml
+
 from jointplay.storage.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 from jointplay.storage.settings import Settings
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "operating.md").read_text()

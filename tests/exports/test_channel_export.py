@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+
+from jointplay.exports.run import csv_lines, json_pieces
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.run_in_memory import Channel, Dataset
 from jointplay.storage.results import ArraySpec, ResultLayout, ResultReader, ResultWriter
 from jointplay.storage.results.layout import IMPACT
-
-from jointplay.exports.run import csv_lines, json_pieces
 
 CHANNELS = (Channel("slider7.x", "m", "position"), Channel("A.normal_force", "N", "normal force"))
 

@@ -2,6 +2,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 

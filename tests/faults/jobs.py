@@ -3,7 +3,6 @@
 from jointplay.solver.admission import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, Catalogue, Job, NewJob
-
 from tests.waiting import until
 
 IMPATIENT = {

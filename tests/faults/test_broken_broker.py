@@ -5,13 +5,13 @@ import signal
 from pathlib import Path
 
 from jobs import IMPATIENT, ended, in_mid_job, submit
+from redis import Redis
+
 from jointplay.service.processes import running_service
 from jointplay.service.processes.broker import answers
 from jointplay.solver.admission import admit
 from jointplay.storage.catalogue import Catalogue, JobState
 from jointplay.storage.settings import Settings
-from redis import Redis
-
 from tests.waiting import until
 
 LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 300.0}

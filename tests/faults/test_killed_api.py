@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import httpx
+
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from jobs import IMPATIENT, ended, pid_of
+
 from jointplay.service.processes import running_service
 from jointplay.solver.admission import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
@@ -17,7 +18,6 @@ from jointplay.storage.catalogue import Block, BlockState, Catalogue, Job, JobSt
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.study_block import run_block, seal_store
-
 from tests.waiting import until
 
 # two blocks of some two seconds of computing each; contacts at both joints all along

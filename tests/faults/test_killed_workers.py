@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit
+
 from jointplay.service.processes import running_service
 from jointplay.solver.admission import Admission, admit
 from jointplay.storage.catalogue import Catalogue, Job, JobState
 from jointplay.storage.results import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
-
 from tests.waiting import until
 
 # some 3 s of computing; more samples than one shard holds, contacts at both joints all along

@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 import numpy as np
+
 from jointplay.records.run_in_memory import IMPACT, Channel, Dataset, Peak
 
 CLEARANCES = {"left": 5e-4, "right": 2e-4}

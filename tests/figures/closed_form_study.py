@@ -1,6 +1,7 @@
 """Studies that are known in closed form, to draw: the logistic map as a machine's sections."""
 
 import numpy as np
+
 from jointplay.records.run_in_memory import Channel
 from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
 from jointplay.records.study_in_memory import Extremes, Failure, StudyDataset

@@ -11,14 +11,14 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from closed_form_motion import CLEARANCES, POSE, SCENE, closed_form_motion
-from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
-from jointplay.figures.mechanism_marks import EDGE, TINTS
-from jointplay.records.run_in_memory import Peak
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 from PIL import Image
 
 from jointplay import figures
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+from jointplay.figures.mechanism_marks import EDGE, TINTS
+from jointplay.records.run_in_memory import Peak
 
 CHOICES = {"time-history": Selection(channels=("block.x", "left.normal_force"))}
 NAMES = [kind.name for kind in figures.ROSTER]

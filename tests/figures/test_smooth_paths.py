@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 from closed_form_motion import SCENE
+from test_every_figure import drawn_with
+
 from jointplay.figures import Selection
 from jointplay.records.run_in_memory import IMPACT, Channel, Dataset
-from test_every_figure import drawn_with
 
 
 def thrown(samples, contacts=()):

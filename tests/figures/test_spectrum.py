@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from jointplay.figures import Selection, page
-from jointplay.figures.quantity import per_hertz
-from jointplay.records.run_in_memory import Channel, Dataset
 from scipy import signal
 
 from jointplay import figures
+from jointplay.figures import Selection, page
+from jointplay.figures.quantity import per_hertz
+from jointplay.records.run_in_memory import Channel, Dataset
 
 PERIOD = 0.5  # s, of the drivers
 

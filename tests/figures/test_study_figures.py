@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from closed_form_study import accuracy_study, bifurcation, one_point, sweep
-from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
-from jointplay.records.run_in_memory import Channel
 from matplotlib.colors import to_hex
 from PIL import Image
 from test_every_figure import MILLIMETRES_AN_INCH, drawn_with, stand_apart, visible_texts
 
 from jointplay import figures
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+from jointplay.records.run_in_memory import Channel
 
 UNITS = {"", "m", "mm", "m/s", "mm/s", "N", "kN", "1/s"}
 CASES = {

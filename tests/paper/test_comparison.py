@@ -1,6 +1,7 @@
 """Numbers of a row as readers see them."""
 
 import pytest
+
 from jointplay.paper.comparison import Cell, signed, small
 
 

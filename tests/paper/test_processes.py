@@ -6,8 +6,9 @@ import threading
 from concurrent.futures.process import BrokenProcessPool
 
 import pytest
-from jointplay.paper.processes import Call, Interrupted, processes
 from tests.reproduce.calls import doubled, endless, killed, refused
+
+from jointplay.paper.processes import Call, Interrupted, processes
 
 
 def test_results_come_in_the_order_of_the_calls_and_progress_ends_at_one():

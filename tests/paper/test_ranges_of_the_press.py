@@ -4,6 +4,7 @@ import math
 from typing import cast
 
 import pytest
+
 from jointplay.paper import reported
 from jointplay.paper.variants import CONSTANT, MATERIAL, Variant
 from jointplay.solver.admission import Study, admit

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.paper import cases, peaks, reported
 from jointplay.paper.reproduction import PAGE, RUNS
 from jointplay.paper.size import QUICK

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+
 from jointplay.paper import reported
 from jointplay.solver.scene import presets
 

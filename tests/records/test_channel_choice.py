@@ -1,6 +1,7 @@
 import time
 
 import pytest
+
 from jointplay.records.channel_choice import NoSuchChannel, choose
 
 NAMES = ["crank.x", "crank.y", "A.normal_force", "energy.kinetic"]

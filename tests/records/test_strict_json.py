@@ -3,6 +3,7 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.records import strict_json
 from jointplay.records.strict_json import MalformedJson
 

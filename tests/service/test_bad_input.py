@@ -7,6 +7,7 @@ from typing import Any
 
 import httpx
 import pytest
+
 from jointplay.service.body import LARGEST_BODY
 from jointplay.solver.scene import presets
 

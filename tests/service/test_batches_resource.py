@@ -4,10 +4,10 @@ from typing import Any
 
 import httpx
 import pytest
+
 from jointplay.service.batches.schemas import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
 from jointplay.storage.catalogue import BlockState, JobError
-
 from tests.service_in_thread import BIFURCATION
 
 PENDULUM: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

@@ -5,12 +5,12 @@ from typing import Any
 
 import httpx
 import pytest
+
+from jointplay.local.folder_results import FolderResults
 from jointplay.solver.admission import Admission, admit
 from jointplay.storage.catalogue import BlockState
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
-
-from jointplay.local.folder_results import FolderResults
 from tests.service_in_thread import Worker
 
 JOB: dict[str, Any] = {

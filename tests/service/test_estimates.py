@@ -1,6 +1,7 @@
 """What a job will cost, against what it costs."""
 
 import pytest
+
 from jointplay.service.estimates.prober import Prober
 from jointplay.solver.admission import Admission, Study, admit
 from jointplay.solver.runs.simulate import Simulation

@@ -9,9 +9,6 @@ import hypothesis.strategies as st
 import pytest
 import schemathesis
 from hypothesis import HealthCheck, Phase, given, settings
-from jointplay.service.app import create_app
-from jointplay.storage.catalogue import BlockState, Catalogue, JobError
-from jointplay.storage.settings import Settings
 from schemathesis import GenerationMode
 from schemathesis.checks import not_a_server_error
 from schemathesis.specs.openapi.checks import (
@@ -22,6 +19,9 @@ from schemathesis.specs.openapi.checks import (
     status_code_conformance,
 )
 
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue import BlockState, Catalogue, JobError
+from jointplay.storage.settings import Settings
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker, serving
 
 CHECKS = (

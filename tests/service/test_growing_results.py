@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import xarray
 import zarr
+
 from jointplay.solver.admission import Admission, admit
 from jointplay.storage.catalogue import BlockState, Claim, JobError
 from jointplay.storage.results import IMPACT, ArraySpec, Partition, ResultLayout, ResultWriter
-
 from tests.service_in_thread import BIFURCATION, SWEEP, known_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")

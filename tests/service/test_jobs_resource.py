@@ -2,6 +2,7 @@
 
 import httpx
 import pytest
+
 from jointplay.solver.version import SOLVER_VERSION
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

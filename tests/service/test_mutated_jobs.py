@@ -6,6 +6,7 @@ import random
 from typing import Any
 
 import pytest
+
 from jointplay.solver.scene import presets
 
 EXTREMES: list[Any] = [

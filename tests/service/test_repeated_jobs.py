@@ -5,10 +5,10 @@ from datetime import UTC, datetime, timedelta
 
 import httpx
 import pytest
+
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue import BlockState, Catalogue, JobError
 from jointplay.storage.settings import Settings
-
 from tests.service_in_thread import serving
 
 SCENE = {"preset": "slider-crank", "parameters": {"clearance": 1.25e-4}}

@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+
 from jointplay.service.results import schemas
 from jointplay.storage.catalogue import BlockState, JobError
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import httpx
 import pytest
+
 from jointplay.records.strict_json import DEEPEST
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
@@ -17,7 +18,6 @@ from jointplay.solver.admission.limits import MOST_PERIODS, MOST_POINTS
 from jointplay.solver.jobs import KINDS
 from jointplay.solver.scene import presets
 from jointplay.storage.settings import Settings
-
 from tests.service_in_thread import serving
 
 

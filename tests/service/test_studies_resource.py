@@ -6,9 +6,9 @@ import httpx
 import numpy as np
 import pytest
 import zarr
+
 from jointplay.service.studies import schemas
 from jointplay.storage.catalogue import BlockState, JobError
-
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
 
 OBSERVED = "A.eccentricity_x"

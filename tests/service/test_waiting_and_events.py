@@ -6,6 +6,7 @@ import time
 
 import httpx
 import pytest
+
 from jointplay.storage.catalogue import BlockState, JobError
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}

@@ -6,9 +6,10 @@ import httpx
 import numpy as np
 import pyarrow.ipc
 import pytest
+from scipy.io import loadmat
+
 from jointplay.service.results import schemas
 from jointplay.storage.results import ResultReader
-from scipy.io import loadmat
 
 
 @pytest.fixture(scope="module")

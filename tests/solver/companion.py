@@ -8,10 +8,11 @@ that end on its onsets.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
 from jointplay.solver.kernels.loop.state import Counter, Status
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

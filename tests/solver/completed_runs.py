@@ -8,10 +8,11 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.runs.results import IMPACT, Peak, Slice
 from jointplay.solver.runs.simulate import Simulation
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

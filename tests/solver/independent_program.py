@@ -10,12 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jointplay.solver.mechanics.motion import Motion
-from jointplay.solver.mechanics.tree import spanning_tree
-from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from jointplay.solver.mechanics.motion import Motion
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.document import Scene
 from tests.solver.readable_mechanics import Instant, at_start
 
 Floats = NDArray[np.float64]

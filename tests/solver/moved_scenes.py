@@ -9,7 +9,6 @@ from typing import Any
 
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import ends
-
 from tests.solver.readable_mechanics import Instant
 
 Vector = Sequence[float]

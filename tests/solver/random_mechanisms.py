@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import Any
 
 from hypothesis import strategies as st
+
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
-
 from tests.solver.readable_mechanics import Instant, at_start
 
 KINDS = ("revolute", "prismatic", "fixed")

@@ -11,10 +11,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from jointplay.solver.scene.document import Scene
 from tests.solver.readable_mechanics import scene_of
 
 Floats = NDArray[np.float64]

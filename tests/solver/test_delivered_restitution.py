@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from jointplay.solver.laws.contact import LAWS
 from scipy.optimize import brentq
 
+from jointplay.solver.laws.contact import LAWS
 from tests.solver.completed_runs import Run, run
 
 TABLE = {

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+
 from jointplay.solver.kernels.emit import lane_functions
 from jointplay.solver.kernels.emit.emit import reachable
 from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
@@ -19,7 +20,6 @@ from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities import scalars
-
 from tests.solver.random_mechanisms import instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 from tests.solver.test_recorder import evaluate, variables

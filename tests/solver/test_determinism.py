@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from jointplay.solver.admission import Admission, admit, sample_count
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
@@ -20,7 +21,6 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
-
 from tests.solver.completed_runs import CASE_3, Run, collect
 from tests.solver.readable_mechanics import preset
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.loop import extreme as nine
 from jointplay.solver.kernels.loop.extreme import POINTS
-from numpy.typing import NDArray
 
 
 def extreme(

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+from benchmarks.extreme_cases import ALL, Case, coverage_of, outcome_of
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
-
-from benchmarks.extreme_cases import ALL, Case, coverage_of, outcome_of
 from tests.solver.completed_runs import run
 
 TYPED = {

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-
 from tests.solver.moved_scenes import flip, mirrored, reordered, translated, turn, turned
 from tests.solver.random_mechanisms import instants, near_start, numbers, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.admission import admit
 from jointplay.solver.mechanics.assembly import assemble

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.admission import admit
 from jointplay.solver.scene import presets
-
 from tests.solver.completed_runs import Run, run
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import LOSSES, Kernel, compile_kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -21,7 +22,6 @@ from jointplay.solver.mechanics.observe import channel_values, ledger_rates
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
-
 from tests.solver.completed_runs import CASE_3
 from tests.solver.readable_mechanics import Instant, at_start, preset
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
 from jointplay.solver.kernels.layout import LANES, Layout

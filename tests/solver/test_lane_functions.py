@@ -7,6 +7,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.kernels.emit import lane_functions as lane
 from jointplay.solver.kernels.record import coarse_functions as coarse
 

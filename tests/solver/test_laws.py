@@ -11,11 +11,12 @@ from typing import Any
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.integrate import quad
+
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact.lankarani_nikravesh import contact_stiffness
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.quantities.units import Strict
-from scipy.integrate import quad
 
 contact_law = pytest.mark.parametrize("law", CONTACT_LAWS.values(), ids=list(CONTACT_LAWS))
 friction_law = pytest.mark.parametrize("law", FRICTION_LAWS.values(), ids=list(FRICTION_LAWS))

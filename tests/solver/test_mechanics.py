@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.scene.references import ends, has_play
-
 from tests.solver.random_mechanisms import instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset
 

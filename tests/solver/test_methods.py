@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.admission import admit_simulate
 from jointplay.solver.admission.documents import parse
@@ -18,7 +20,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 FLIGHT = 0.014
 """Seconds in which the press at 50 rad/s with room for 5 cm touches nothing: 0.7 rad."""

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numba import njit
+
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
@@ -14,8 +16,6 @@ from jointplay.solver.kernels.loop.bundle import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
 from jointplay.solver.kernels.slots import Slot
 from jointplay.solver.mechanics.tree import spanning_tree
-from numba import njit
-
 from tests.solver.readable_mechanics import preset
 
 depths = st.floats(1e-12, 1.0)

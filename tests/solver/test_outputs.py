@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from jointplay.solver.admission import sample_count
 
+from jointplay.solver.admission import sample_count
 from tests.solver.completed_runs import CASE_3, Run, run
 
 # samples

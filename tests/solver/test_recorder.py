@@ -7,6 +7,7 @@ import re
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
@@ -20,7 +21,6 @@ from jointplay.solver.quantities import scalars
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import RESERVED
-
 from tests.solver.random_mechanisms import chain, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 

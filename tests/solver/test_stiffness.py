@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from jointplay.solver.admission import admit
 from jointplay.solver.admission.simulate import Admission
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
-from numpy.typing import NDArray
 
 CHATTER = {"friction": 0.3, "static_velocity": 1e-7, "dynamic_velocity": 1e-6}
 

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numba import njit
+
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
 from jointplay.solver.kernels.emit.lane_functions import FOLD
@@ -19,7 +21,6 @@ from jointplay.solver.kernels.emit.straight_line import (
 )
 from jointplay.solver.kernels.layout import LANES, Layout
 from jointplay.solver.kernels.record.recorder import Recorder
-from numba import njit
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}

@@ -8,10 +8,11 @@ from functools import cache
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.integrators.dormand_prince853 import DORMAND_PRINCE853
 from jointplay.solver.integrators.tableau import Tableau
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

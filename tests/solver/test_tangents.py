@@ -7,6 +7,8 @@ from itertools import cycle
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
@@ -16,8 +18,6 @@ from jointplay.solver.kernels.loop.state import Counter
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
-
 from tests.solver.companion import companion_growth
 from tests.solver.completed_runs import CASE_3
 from tests.solver.readable_mechanics import preset, scene_of

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-import jointplay.solver.runs.work_precision.run
-import jointplay.solver.runs.work_precision.timed_run
 import numpy as np
 import pytest
+
+import jointplay.solver.runs.work_precision.run
+import jointplay.solver.runs.work_precision.timed_run
 from jointplay.solver.admission import Study, admit
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.runs.study.results import PointEnd

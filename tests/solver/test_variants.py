@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.admission import admit
 from jointplay.solver.runs.results import Slice
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
-
 from tests.solver.completed_runs import CASE_3, Run, run
 from tests.solver.moved_scenes import mirrored, translated
 from tests.solver.readable_mechanics import at_start, preset

@@ -1,8 +1,9 @@
 from pathlib import Path
 
 import pytest
-from jointplay.storage.settings import Settings
 from pydantic import ValidationError
+
+from jointplay.storage.settings import Settings
 
 
 def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

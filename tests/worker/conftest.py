@@ -2,10 +2,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from redis import Redis
+
 from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
-from redis import Redis
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 import zarr
+
 from jointplay.solver.admission import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import Trade
 from jointplay.storage.studies import StudyReader

@@ -3,9 +3,10 @@ import stat
 from pathlib import Path
 
 import pytest
+from redis import Redis
+
 from jointplay.service.processes import StartFailed
 from jointplay.service.processes.broker import Broker, answers, server_binary, socket_path
-from redis import Redis
 
 
 def test_it_keeps_its_queue_on_disk_and_refuses_to_drop_any(broker: Broker) -> None:

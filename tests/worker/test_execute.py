@@ -3,6 +3,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
 from jointplay.solver.admission import Admission, admit
 from jointplay.storage.results import ResultReader, StoreExists
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from jointplay.storage.catalogue import Catalogue, Fenced, NewJob, Verdict
 from jointplay.storage.settings import Settings
 from jointplay.worker.lease import Lease

@@ -5,12 +5,13 @@ import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from redis import Redis
+
 from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue import Catalogue, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.relay import Relay
 from jointplay.worker.wake_up import Bell, Doorman
-from redis import Redis
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"

@@ -9,6 +9,9 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+from numba.core.types.function_type import WrapperAddressProtocol
+from numpy.typing import NDArray
+
 from jointplay.solver.integrators import Method
 from jointplay.solver.integrators.rosenbrock import Rosenbrock
 from jointplay.solver.kernels.cache import load
@@ -29,8 +32,6 @@ from jointplay.solver.kernels.slots import slots_of
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
-from numba.core.types.function_type import WrapperAddressProtocol
-from numpy.typing import NDArray
 
 LOSSES = 2
 """Terms of the ledger before the drivers' works and the joints' impulses."""

@@ -9,9 +9,10 @@ sign of zero does not matter (nsz), a division may become a product (arcp).
 from collections.abc import Callable
 from typing import Any
 
-from jointplay.solver.kernels.layout import LANES
 from llvmlite import ir
 from numba.core import cgutils
+
+from jointplay.solver.kernels.layout import LANES
 
 DOUBLE, WORD = ir.DoubleType(), ir.IntType(64)
 NUMBERS, WORDS = ir.VectorType(DOUBLE, LANES), ir.VectorType(WORD, LANES)

@@ -28,6 +28,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from llvmlite import ir
+from numba import float64, int64, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
 from jointplay.solver.kernels.emit.lane_arithmetic import (
     MARKS,
     NUMBERS,
@@ -40,10 +45,6 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
     same,
 )
 from jointplay.solver.kernels.layout import LANES
-from llvmlite import ir
-from numba import float64, int64, types
-from numba.core import cgutils
-from numba.extending import intrinsic
 
 ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""

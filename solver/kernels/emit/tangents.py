@@ -16,6 +16,8 @@ from functools import cached_property, lru_cache
 from types import ModuleType
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import tangent_step
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
@@ -28,7 +30,6 @@ from jointplay.solver.kernels.record.kinks import Kinks
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.kernels.slots import Slot, slots_of
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)

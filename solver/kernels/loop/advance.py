@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numba import float64, int64, types, void
+
 from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.contacts import (
@@ -35,7 +37,6 @@ from jointplay.solver.kernels.loop.state import Counter, SectionKind, Setting, S
 from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
 from jointplay.solver.kernels.loop.unowned_view import borrowed
 from jointplay.solver.kernels.slots import Slot
-from numba import float64, int64, types, void
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 FLAG_FUNCTION = types.FunctionType(float64(float64[::1]))

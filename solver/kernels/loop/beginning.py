@@ -6,12 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.emit.kernel import LOSSES
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.tangent import start_tangent
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from jointplay.solver.kernels.loop.bundle import Bundle

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem

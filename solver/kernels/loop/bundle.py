@@ -7,6 +7,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import LANES
@@ -20,7 +22,6 @@ from jointplay.solver.kernels.loop.periods import look_ahead, plan
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.state import Counter, SectionKind, Setting, Status, row_width
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

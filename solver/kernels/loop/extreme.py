@@ -7,6 +7,7 @@ of a step share, a row for the values of one channel and rows for its divided di
 from __future__ import annotations
 
 import numpy as np
+
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.layout import LANES
 

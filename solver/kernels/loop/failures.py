@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import LOSSES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.prescribed import prescribed_peaks
 from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.runs.results import IMPACT, Peak
-from numpy.typing import NDArray
 
 
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import float64, int64, types, void
+
 from jointplay.solver.kernels.jit import LaneFunction, deferred
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.slots import Slot
-from numba import float64, int64, types, void
 
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.extreme import (

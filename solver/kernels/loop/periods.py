@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+
 from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.clock import product_difference

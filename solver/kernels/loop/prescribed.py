@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.state import Setting, row_width
 from jointplay.solver.quantities.extremes import Floats, refine_extreme

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.loop.state import SectionKind
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

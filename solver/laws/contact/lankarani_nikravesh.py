@@ -3,9 +3,10 @@
 from types import SimpleNamespace
 from typing import Annotated, Any, Literal
 
+from pydantic import Field
+
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power, sqrt
 from jointplay.solver.quantities.units import Strict
-from pydantic import Field
 
 
 class LankaraniNikravesh(Strict):

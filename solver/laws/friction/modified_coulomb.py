@@ -3,6 +3,8 @@
 from types import SimpleNamespace
 from typing import Annotated, Literal
 
+from pydantic import Field
+
 from jointplay.solver.quantities.scalars import (
     Scalar,
     absolute,
@@ -12,7 +14,6 @@ from jointplay.solver.quantities.scalars import (
     sign,
 )
 from jointplay.solver.quantities.units import Strict
-from pydantic import Field
 
 STEEPEST_RAMP = 1e300
 """Slope (s/m) that stands for the step at equal limit velocities; finite, so 0 * slope is 0."""

@@ -7,6 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.failures import ledger_of, peaks_of
 from jointplay.solver.kernels.loop.state import Counter, Status
@@ -24,7 +26,6 @@ from jointplay.solver.runs.certificate.spread import BINS, histogram
 from jointplay.solver.runs.study.starts import start_scales
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Revolute, Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.periods import SAMPLES, look_ahead, plan, stop
@@ -20,7 +22,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.runs.certificate.instants import Instants
 from jointplay.solver.runs.study.starts import perturbed_start, start_scales
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -13,6 +13,8 @@ import warnings
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.runs.certificate.companions import (
     LADDER,
     LOOSER,
@@ -20,7 +22,6 @@ from jointplay.solver.runs.certificate.companions import (
     TIGHTER,
     TIGHTEST,
 )
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -20,7 +22,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.kernels.loop.tangent import tangent_length
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -15,7 +17,6 @@ from jointplay.solver.runs.certificate.companions import RUN, Companions
 from jointplay.solver.runs.certificate.growth import Windows
 from jointplay.solver.runs.certificate.violation import Violation
 from jointplay.solver.scene.channels import Channel
-from numpy.typing import NDArray
 
 
 class Survey:

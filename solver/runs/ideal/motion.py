@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row

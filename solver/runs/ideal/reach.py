@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+
 from jointplay.solver.quantities.extremes import Floats
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.document import Revolute, Scene

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.admission import Admission, section_offset
 from jointplay.solver.mechanics.observe import channel_values

@@ -11,13 +11,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, get_args
 
 import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+from pydantic.fields import FieldInfo
+
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
 from jointplay.solver.runs.study.scenes import PointScenes, value_at
 from jointplay.solver.scene.document import Revolute, Scene
-from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
-from pydantic.fields import FieldInfo
 
 Floats = NDArray[np.float64]
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.nonlinear.estimate import UNKNOWN
 from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import decide
 from jointplay.solver.nonlinear.zero_one import zero_one_test
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.start import start_state
@@ -17,7 +19,6 @@ from jointplay.solver.runs.study.indicators import RECURS, unwound
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.starts import perturbed_start, start_scales
 from jointplay.solver.runs.study.window import begin_tallies, window_of
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

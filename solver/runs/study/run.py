@@ -15,6 +15,8 @@ from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
@@ -37,7 +39,6 @@ from jointplay.solver.runs.study.point_run import (
 )
 from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.solver.runs.study.window import statistics_in, take_contacts, take_samples
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

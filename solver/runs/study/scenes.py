@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jointplay.solver.scene.document import Scene
 from numpy.typing import NDArray
 from pydantic import BaseModel
+
+from jointplay.solver.scene.document import Scene
 
 Floats = NDArray[np.float64]
 Branches = dict[str, Any]

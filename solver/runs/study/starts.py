@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.references import has_play
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
 from jointplay.solver.statistics.of_channels import Grid
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from jointplay.solver.runs.study.point_run import PointRun

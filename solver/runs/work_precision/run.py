@@ -7,6 +7,8 @@ import json
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -14,7 +16,6 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.results import PointEnd, StudySlice
 from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, runs_in
 from jointplay.solver.runs.work_precision.timed_run import Passage
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

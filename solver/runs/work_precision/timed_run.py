@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -13,7 +15,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.runs.work_precision.plan import Run
 from jointplay.solver.scene.document import Scene
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

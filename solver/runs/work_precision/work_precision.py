@@ -8,9 +8,10 @@ from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
+
 from jointplay.solver.runs.work_precision.advice import advice
 from jointplay.solver.runs.work_precision.point import Point
-from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 

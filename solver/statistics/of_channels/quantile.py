@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+
 from jointplay.solver.statistics.of_channels.statistic import Floats, Grid
 
 MOST_KEPT = 2048

@@ -7,6 +7,7 @@ mean costs no digits (Chan, Golub and LeVeque 1983, "shifted data").
 from __future__ import annotations
 
 import numpy as np
+
 from jointplay.solver.statistics.of_channels.statistic import Floats, Grid
 from jointplay.solver.statistics.running import add_in_order
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+
 from jointplay.solver.statistics.of_contacts.statistic import Contacts, Floats
 
 

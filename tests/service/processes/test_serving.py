@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from jointplay.service.processes import StartFailed, WrongSetting, running_service, serve
 
+from jointplay.service.processes import StartFailed, WrongSetting, running_service, serve
 from tests.waiting import until
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")

@@ -6,10 +6,10 @@ import math
 from typing import Any, get_args
 
 import pytest
+
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.admission import admit
 from jointplay.solver.jobs.sweep import StatisticName
-
 from tests.solver.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.admission import admit
 from jointplay.solver.runs.ideal.reach import MotionReach
 from jointplay.solver.scene.document import Scene
-
 from tests.solver.completed_runs import CASE_3, run
 from tests.solver.study.jobs_of_studies import BIFURCATION, POINCARE, study
 

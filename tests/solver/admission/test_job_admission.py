@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.admission import LONGEST_RUN, MOST_SAMPLES, admit
 from jointplay.solver.scene import presets
-
 from tests.solver.random_mechanisms import chain
 
 JOB: dict[str, Any] = {

@@ -7,10 +7,10 @@ from typing import Any
 
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.admission import admit
 from jointplay.solver.runs.study.plan import Study
-
 from tests.solver.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,

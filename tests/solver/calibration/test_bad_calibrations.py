@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.calibration.processes import measures
 from jointplay.solver.scene import presets
-
 from tests.solver.calibration.calibrations import bounce
 
 FORCE = {"channel": "bearing.normal_force", "to": 0.018, "value": 1000.0}

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.solver.calibration.measure import Measurement
 from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.scene import presets
-
 from tests.solver.calibration.calibrations import bounce
 from tests.solver.completed_runs import run
 

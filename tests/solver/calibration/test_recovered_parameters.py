@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.admission import admit
 from jointplay.solver.calibration.calibrate import NothingFits, calibrate
@@ -14,7 +15,6 @@ from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.calibration.reported import reported_cases
 from jointplay.solver.scene import presets
-
 from tests.solver.calibration.calibrations import bounce, computed
 from tests.solver.completed_runs import run
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from jointplay.solver.calibration.document import Search
 from jointplay.solver.calibration.search import search
 from jointplay.solver.calibration.spread import spread

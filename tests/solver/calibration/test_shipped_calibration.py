@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from jointplay.solver.calibration.fitted_scene import fitted_scene
 from jointplay.solver.calibration.measure import Measurement
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
 from jointplay.solver.calibration.processes import cores
 from jointplay.solver.scene import presets
-
 from tests.solver.calibration.calibrations import computed
 
 SHIPPED = Path(__file__).resolve().parents[3] / "scenes" / "calibrations" / "seven_bar_press.json"

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.calibration.document import CalibrationTarget, FreeParameter
 from jointplay.solver.calibration.space import space_of
 from jointplay.solver.calibration.targets import goals_of, grid_indices

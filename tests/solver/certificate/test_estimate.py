@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from jointplay.solver.runs.certificate.companions import LADDER
 from jointplay.solver.runs.certificate.estimate import (
     CONVERGED,

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.runs.certificate.companions import LADDER, RUN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
-
 from tests.solver.test_determinism import PROBLEMS, bundle_of
 
 

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from pydantic import TypeAdapter
+
 from jointplay.solver.jobs import KINDS, AnyJob
 from jointplay.solver.scene.document import Scene
-from pydantic import TypeAdapter
 
 UNIT_ELSEWHERE = {
     "Target.factor": "its parameter's unit over the field's",

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from jointplay.solver.nonlinear.batch_means import mean_estimate, standard_error
 from jointplay.solver.nonlinear.estimate import Estimate
 

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from jointplay.solver.nonlinear.flow import Event, Flow, saltation_matrix
 
+from jointplay.solver.nonlinear.flow import Event, Flow, saltation_matrix
 from tests.solver.nonlinear.textbook import (
     LORENZ,
     UEDA,

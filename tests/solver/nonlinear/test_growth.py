@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 
 

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
+
 from jointplay.solver.nonlinear.lyapunov import (
     companion_exponent,
     exponent_from_growth,
     map_exponent,
     tangent_exponent,
 )
-
 from tests.solver.nonlinear.textbook import (
     CAT,
     HENON,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from jointplay.solver.nonlinear.recurrence import recurrence_period
 
+from jointplay.solver.nonlinear.recurrence import recurrence_period
 from tests.solver.nonlinear.textbook import (
     HENON,
     circle,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jointplay.solver.nonlinear.rotation import rotation_number
 
+from jointplay.solver.nonlinear.rotation import rotation_number
 from tests.solver.nonlinear.textbook import (
     CAT,
     HENON,

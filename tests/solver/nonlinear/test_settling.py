@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jointplay.solver.nonlinear.settling import SETTLINGS, Settled, Settling
 
+from jointplay.solver.nonlinear.settling import SETTLINGS, Settled, Settling
 from tests.solver.nonlinear.textbook import HENON, circle, delayed_logistic, logistic
 
 RECURRENCE, STATISTICS = SETTLINGS["recurrence"], SETTLINGS["statistics"]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 
+from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 from tests.solver.nonlinear.textbook import LOGISTIC_4, logistic
 
 

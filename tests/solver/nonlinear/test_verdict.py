@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 from jointplay.solver.nonlinear.lyapunov import map_exponent, tangent_exponent
 from jointplay.solver.nonlinear.recurrence import recurrence_period
@@ -22,7 +23,6 @@ from jointplay.solver.nonlinear.verdict import (
     decide,
 )
 from jointplay.solver.nonlinear.zero_one import zero_one_test
-
 from tests.solver.nonlinear.textbook import (
     HENON,
     UEDA,

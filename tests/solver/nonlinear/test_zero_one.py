@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jointplay.solver.nonlinear.zero_one import FREQUENCIES, zero_one_test
 
+from jointplay.solver.nonlinear.zero_one import FREQUENCIES, zero_one_test
 from tests.solver.nonlinear.textbook import (
     CAT,
     HENON,

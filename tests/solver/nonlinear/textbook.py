@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from jointplay.solver.nonlinear.flow import Event, Flow
 from numpy.typing import NDArray
+
+from jointplay.solver.nonlinear.flow import Event, Flow
 
 Floats = NDArray[np.float64]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+
 from jointplay.solver.statistics import OF_CHANNELS
 from jointplay.solver.statistics.of_channels import Grid
 from jointplay.solver.statistics.of_channels.quantile import MOST_KEPT, stride

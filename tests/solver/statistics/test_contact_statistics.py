@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from jointplay.solver.runs.results import IMPACT
 from jointplay.solver.statistics import OF_CONTACTS
 

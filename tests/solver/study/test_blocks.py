@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.solver.runs.study.blocks import (
     chained_blocks,
     chains_of,
     independent_blocks,
     segments,
 )
-
 from tests.solver.study.jobs_of_studies import BIFURCATION, study
 
 DIRECTIONS = st.sampled_from(["forward", "backward", "both"])

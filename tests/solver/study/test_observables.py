@@ -6,10 +6,10 @@ import copy
 from typing import Any
 
 import pytest
+
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.admission import admit
 from jointplay.solver.scene import presets
-
 from tests.solver.study.jobs_of_studies import BIFURCATION, SWEEP, study
 
 COORDINATES = [

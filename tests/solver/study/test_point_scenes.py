@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.admission import admit, readmit
 from jointplay.solver.admission.limits import MOST_GEOMETRIES
@@ -17,7 +18,6 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import set_parameters
-
 from tests.solver.study.jobs_of_studies import BIFURCATION, PRESS, STUDIES, study
 
 SCENES = {name: Scene.model_validate(presets.document(name)) for name in presets.names()}

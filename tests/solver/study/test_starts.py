@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+
 from jointplay.solver.runs.study.starts import perturbed_start, start_scales
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene

@@ -7,14 +7,14 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+
 from jointplay.solver.admission import Admission, admit
 from jointplay.solver.jobs.sweep import StatisticName
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
-from scipy.optimize import brentq
-
 from tests.solver.completed_runs import CASE_3
 from tests.solver.study.test_run import Computed
 

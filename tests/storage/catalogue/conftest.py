@@ -3,8 +3,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from jointplay.storage.catalogue import Catalogue
 from stepped_clock import Clock
+
+from jointplay.storage.catalogue import Catalogue
 
 
 @pytest.fixture

@@ -2,6 +2,9 @@ import sqlite3
 from dataclasses import replace
 
 import pytest
+from sqlalchemy.exc import IntegrityError
+from stepped_clock import Clock
+
 from jointplay.storage.catalogue import (
     BatchNotFound,
     BlockState,
@@ -12,8 +15,6 @@ from jointplay.storage.catalogue import (
     NewJob,
     SubmissionKey,
 )
-from sqlalchemy.exc import IntegrityError
-from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)

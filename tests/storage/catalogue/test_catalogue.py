@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from stepped_clock import Clock
+
 from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
@@ -20,7 +22,6 @@ from jointplay.storage.catalogue import (
     SubmissionKey,
 )
 from jointplay.storage.catalogue.identifiers import Identifiers
-from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

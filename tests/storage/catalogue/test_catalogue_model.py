@@ -20,6 +20,7 @@ from hypothesis.stateful import (
     precondition,
     rule,
 )
+
 from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,

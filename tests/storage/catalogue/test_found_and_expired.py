@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 import pytest
+from stepped_clock import Clock
+
 from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
@@ -11,7 +13,6 @@ from jointplay.storage.catalogue import (
     NewJob,
     SubmissionKey,
 )
-from stepped_clock import Clock
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

@@ -7,8 +7,9 @@ from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from jointplay.storage.catalogue import Catalogue, NewJob, schema, tables
 from sqlalchemy import create_engine
+
+from jointplay.storage.catalogue import Catalogue, NewJob, schema, tables
 
 
 def migrate(url: str) -> None:

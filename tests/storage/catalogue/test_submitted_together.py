@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from jointplay.storage.catalogue import Catalogue, KeyReused, NewJob, SubmissionKey, Submitted
 from sqlalchemy import Engine, event
+
+from jointplay.storage.catalogue import Catalogue, KeyReused, NewJob, SubmissionKey, Submitted
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 MANY = 20

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+
 from jointplay.storage.results import IMPACT, ArraySpec, Partition, Peak, ResultLayout, ResultWriter
 
 # many small stores: there fsync costs nothing, and it is their bytes that count

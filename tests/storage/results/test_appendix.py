@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 import zarr
+from made_up_runs import MadeUpRun, made_up_layout
+
 from jointplay.storage.results import (
     IMPACT,
     Appendix,
@@ -11,7 +13,6 @@ from jointplay.storage.results import (
     ResultWriter,
     SmallArray,
 )
-from made_up_runs import MadeUpRun, made_up_layout
 
 TABLE = np.array([[1.0, np.nan], [np.inf, -0.0], [3.0, 4.0]])
 APPENDIX = Appendix(

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+
 from jointplay.storage.results import ResultReader, ResultWriter
 from jointplay.storage.results.live import LiveStore
-
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
 

@@ -8,6 +8,8 @@ from itertools import count
 import numpy as np
 import pytest
 import zarr
+from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+
 from jointplay.storage.results import (
     ArraySpec,
     InvalidAppend,
@@ -19,7 +21,6 @@ from jointplay.storage.results import (
     StoreExists,
     StoreSealed,
 )
-from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
 
 @pytest.fixture

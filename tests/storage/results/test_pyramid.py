@@ -8,8 +8,8 @@ import pytest
 import zarr
 from hypothesis import given
 from hypothesis import strategies as st
-from jointplay.storage.results import Partition, ResultReader, ResultWriter
 
+from jointplay.storage.results import Partition, ResultReader, ResultWriter
 from tests.storage.results.made_up_runs import (
     MEMORY,
     MadeUpRun,

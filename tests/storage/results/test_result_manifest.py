@@ -3,8 +3,9 @@
 import json
 
 import pytest
-from jointplay.storage.results import CorruptStore, NotAStore, ResultReader, ResultWriter, manifest
 from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+
+from jointplay.storage.results import CorruptStore, NotAStore, ResultReader, ResultWriter, manifest
 
 
 @pytest.fixture

@@ -10,14 +10,6 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jointplay.storage.results import (
-    CheckpointMismatch,
-    CorruptStore,
-    Partition,
-    ResultReader,
-    ResultWriter,
-    StoreExists,
-)
 from made_up_runs import (
     MEMORY,
     PLAIN_FILES,
@@ -26,6 +18,15 @@ from made_up_runs import (
     files,
     made_up_impacts,
     made_up_layout,
+)
+
+from jointplay.storage.results import (
+    CheckpointMismatch,
+    CorruptStore,
+    Partition,
+    ResultReader,
+    ResultWriter,
+    StoreExists,
 )
 
 # where a part of the run ends, and what happens there: nothing, a checkpoint, or a checkpoint and

@@ -11,7 +11,6 @@ import zarr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-from jointplay.storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 from made_up_runs import (
     MEMORY,
     PLAIN_FILES,
@@ -20,6 +19,8 @@ from made_up_runs import (
     made_up_impacts,
     made_up_layout,
 )
+
+from jointplay.storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 
 json_documents = st.dictionaries(
     st.text(max_size=10),

@@ -4,8 +4,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from jointplay.storage.results import Partition, shards
 from numcodecs import blosc
+
+from jointplay.storage.results import Partition, shards
 
 LONG = 32 * 16_384  # a whole shard of the default partition
 

@@ -1,6 +1,7 @@
 """Studies to be stored: noise, because any bit may matter, in the order in which lanes compute."""
 
 import numpy as np
+
 from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.storage.results import ArraySpec
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal

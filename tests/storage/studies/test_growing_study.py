@@ -8,10 +8,11 @@ import tracemalloc
 import numpy as np
 import pytest
 import zarr
+from made_up_studies import MadeUpStudy, files, made_up_layout
+
 from jointplay.solver.runs.study.results import StudySlice
 from jointplay.storage.results.errors import IncompleteStudy
 from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
-from made_up_studies import MadeUpStudy, files, made_up_layout
 
 SHAPES = {
     "a chunk a block": made_up_layout(),

@@ -7,10 +7,11 @@ from itertools import count
 
 import numpy as np
 import pytest
+from made_up_studies import MadeUpStudy, files, made_up_layout
+
 from jointplay.solver.runs.study.results import StudySlice
 from jointplay.storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
 from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
-from made_up_studies import MadeUpStudy, files, made_up_layout
 
 SHAPES = {
     "a chunk a block": made_up_layout(),

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 import zarr
+from made_up_studies import MadeUpStudy, made_up_layout
+
 from jointplay.storage.results import CorruptStore, InvalidLayout, NotAStore, UnknownChannel
 from jointplay.storage.studies import Failure, StudyReader, create
 from jointplay.storage.studies.layout import StudyLayout
-from made_up_studies import MadeUpStudy, made_up_layout
 
 SHAPES = {
     "octets": {},

@@ -7,13 +7,13 @@ import sys
 from pathlib import Path
 
 import pytest
-from jointplay.solver.admission import admit
 
 import jointplay
 from jointplay import jobs
 from jointplay.command_line.drawing import draw_all
 from jointplay.local import second_drawer
 from jointplay.local.second_drawer import SecondDrawer
+from jointplay.solver.admission import admit
 from tests.waiting import until
 
 CRANK = {"clearance": 1e-4, "duration": 0.05}
