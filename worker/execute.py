@@ -100,7 +100,7 @@ def execute(
     OSError
         The store cannot be written, for example because the disk is full.
     """
-    layout = _layout(admission)
+    layout = layout_of(admission)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
     if restart is None:
@@ -175,7 +175,8 @@ def _advance(
         time, fraction = piece.time, piece.fraction
 
 
-def _layout(admission: Admission) -> ResultLayout:
+def layout_of(admission: Admission) -> ResultLayout:
+    """Return what a run's store holds."""
     return ResultLayout(
         channels=tuple(
             ArraySpec(channel.name, channel.unit, channel.long_name)

@@ -4,14 +4,11 @@ from collections import Counter
 from collections.abc import Iterator
 
 from jointplay.records.failure import Problem
+from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
-
-RESERVED = frozenset({"ground", "energy", "time", "poincare", "peaks", "impacts"})
-RESERVED_OUTPUTS = RESERVED | {"c"}
-"""In a store an output is a folder beside others, and ``c`` is where Zarr keeps chunks."""
 
 
 def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -102,10 +99,12 @@ def _names(scene: Scene) -> Iterator[Problem]:
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
-        if output.name in RESERVED_OUTPUTS or outputs[output.name] > 1:
-            yield Problem(
-                f"/outputs/{index}/name", f"The name '{output.name}' is taken; take another."
-            )
+        if output.name in RESERVED_OUTPUTS:
+            sentence = f"The name '{output.name}' is reserved; take another."
+            yield Problem(f"/outputs/{index}/name", sentence)
+        elif outputs[output.name] > 1:
+            sentence = f"The name '{output.name}' is taken; take another."
+            yield Problem(f"/outputs/{index}/name", sentence)
 
 
 def _joint(scene: Scene, name: str, joint: Joint) -> Iterator[Problem]:

@@ -1,24 +1,18 @@
 """What a results store holds: named columns with units, and how many rows of each."""
 
 import json
-import re
 from dataclasses import astuple, dataclass, field
 from hashlib import sha256
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from jointplay.records.names import STORED, is_storable
 from jointplay.storage.results.errors import InvalidLayout
 from jointplay.storage.results.partition import Partition
 
-TIME: Final = "time"
-GROUPS: Final = ("poincare", "peaks", "impacts", "pyramid", "certificate")
 MANIFEST: Final = "MANIFEST.json"
 SCHEMA_VERSION: Final = 1
-
-_RESERVED: Final = frozenset({TIME, "c", *GROUPS})
-# also what a key of the store may look like when it is served
-_NAME: Final = re.compile(r"(?!\.)[A-Za-z0-9_.-]{1,64}")
 
 IMPACT: Final = np.dtype(
     [
@@ -89,7 +83,7 @@ class ResultLayout:
         seen: set[str] = set()
         for channel in self.channels:
             check_name(channel.name)
-            if channel.name in _RESERVED:
+            if channel.name in STORED:
                 raise InvalidLayout(
                     f"{channel.name!r} cannot name a channel: the store uses that name itself"
                 )
@@ -119,7 +113,7 @@ class ResultLayout:
 
 def check_name(name: str) -> None:
     """Raise `InvalidLayout` if an array cannot have this name."""
-    if not _NAME.fullmatch(name) or name.endswith((".json", ".partial")):
+    if not is_storable(name):
         raise InvalidLayout(
             f"{name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
             "'.' and '-', not starting with '.' and not ending in .json or .partial"

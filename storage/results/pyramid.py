@@ -13,10 +13,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import metadata, shards
 from jointplay.storage.results.durable import DurableFolder
 from jointplay.storage.results.growing_table import GrowingTable
-from jointplay.storage.results.layout import TIME, ResultLayout
+from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.tables import Column, Table
 
 FOLDER: Final = "pyramid"

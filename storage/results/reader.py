@@ -10,11 +10,12 @@ import numpy as np
 import zarr
 from numpy.typing import NDArray
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import manifest
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
 from jointplay.storage.results.envelope import Envelope
 from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import IMPACT, MANIFEST, SCHEMA_VERSION, TIME, ArraySpec, Peak
+from jointplay.storage.results.layout import IMPACT, MANIFEST, SCHEMA_VERSION, ArraySpec, Peak
 from jointplay.storage.results.live import columns_of, committed, rows_in_shards, shape_of
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.results.waiting import Waiting

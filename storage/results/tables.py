@@ -9,7 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from jointplay.storage.results.layout import IMPACT, SCHEMA_VERSION, TIME, Peak, ResultLayout
+from jointplay.records.names import TIME
+from jointplay.storage.results.layout import IMPACT, SCHEMA_VERSION, Peak, ResultLayout
 from jointplay.storage.results.shards import fill
 
 _DOUBLE: Final = np.dtype("<f8")

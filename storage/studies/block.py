@@ -11,10 +11,10 @@ from typing import Self
 
 import numpy as np
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import shards
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import CorruptStore, InvalidAppend, ResultsError
-from jointplay.storage.results.layout import TIME
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus

@@ -9,8 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import metadata
-from jointplay.storage.results.layout import TIME, ArraySpec
+from jointplay.storage.results.layout import ArraySpec
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
 from jointplay.storage.studies.part import PointStatus

@@ -10,8 +10,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.names import TIME
 from jointplay.storage.results.errors import InvalidLayout
-from jointplay.storage.results.layout import TIME, ArraySpec, check_name
+from jointplay.storage.results.layout import ArraySpec, check_name
 
 STUDY_SCHEMA: Final = 1
 CHUNK_VALUES: Final = 16_384

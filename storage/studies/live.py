@@ -12,8 +12,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import shards
-from jointplay.storage.results.layout import TIME, ArraySpec
+from jointplay.storage.results.layout import ArraySpec
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
 from jointplay.storage.studies.layout import StudyLayout

@@ -11,9 +11,10 @@ import numpy as np
 import zarr
 from numpy.typing import NDArray
 
+from jointplay.records.names import TIME
 from jointplay.storage.results import manifest
 from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import MANIFEST, TIME, ArraySpec
+from jointplay.storage.results.layout import MANIFEST, ArraySpec
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import STUDY_SCHEMA

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from jointplay.records.failure import LimitExceeded
+from jointplay.records.names import RESERVED_OUTPUTS
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.lane_functions import FOLD
@@ -20,7 +21,6 @@ from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities import scalars
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import RESERVED
 from tests.solver.random_mechanisms import chain, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
 
@@ -151,7 +151,7 @@ def test_recorded_mechanics_equal_the_mechanics_on_floats(
 
 WORDS = ["import", "W", "l", "def", "exec", "lambda", "v0", "sqrt", "njit", "x", "time-1", "os_"]
 legal_names = st.from_regex(r"\A[A-Za-z][A-Za-z0-9_-]{0,31}\Z").filter(
-    lambda name: name not in RESERVED
+    lambda name: name not in RESERVED_OUTPUTS
 )
 
 
