@@ -13,7 +13,8 @@ from jointplay.solver.admission.points import one_point
 from jointplay.solver.admission.spans import periods
 from jointplay.solver.admission.studies import make_study
 from jointplay.solver.admission.varied import check_points
-from jointplay.solver.jobs.accuracy_study import METHOD_NAMES, AccuracyStudyJob
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.jobs.accuracy_study import AccuracyStudyJob
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, runs_of
 
@@ -31,7 +32,7 @@ def admit_accuracy_study(job: AccuracyStudyJob, *, thorough: bool = True) -> Stu
         The study is sound but too long; the sentence gives the limit.
     """
     chosen = {
-        "methods": [name for name in METHOD_NAMES if name in job.methods],
+        "methods": [name for name in METHODS if name in job.methods],
         "tolerances": sorted(set(job.tolerances), reverse=True),
     }
     points = one_point(len(runs_of(chosen, 1.0)))

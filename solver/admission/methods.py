@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.solver.integrators import METHODS, method_for
-from jointplay.solver.jobs.job import ACCURACIES, Job, Method
+from jointplay.solver.integrators import AUTO, METHODS, method_for
+from jointplay.solver.jobs.job import ACCURACIES, Job
+from jointplay.solver.quantities.roster import quoted
 
 
-def chosen(job: Job) -> tuple[Method, float | None]:
+def chosen(job: Job) -> tuple[str, float | None]:
     """Return the method and the tolerance, by number or by name; none with a fixed step.
 
     Raises
@@ -21,13 +22,13 @@ def chosen(job: Job) -> tuple[Method, float | None]:
                 raise InvalidInput(
                     [Problem("/accuracy", f"Give a {field} or a named accuracy, not both.")]
                 )
-    if job.method == "rk4":
+    if job.method != "auto" and METHODS[job.method].fixed_step:
         _check_fixed_step(job)
-        return "rk4", None
+        return job.method, None
     if job.step is not None:
-        raise InvalidInput(
-            [Problem("/step", "Only the method 'rk4' has a fixed step; drop it, or choose 'rk4'.")]
-        )
+        able = quoted([name for name, each in METHODS.items() if each.fixed_step])
+        sentence = f"Only the method {able} has a fixed step; drop it, or choose {able}."
+        raise InvalidInput([Problem("/step", sentence)])
     method, tolerance = ACCURACIES[job.accuracy or "standard"]
     method = method if job.accuracy else job.method
     tolerance = job.tolerance if job.tolerance is not None else tolerance
@@ -48,12 +49,14 @@ def check_study(job: Job, *, tangents: bool) -> None:
     method, tolerance = chosen(job)
     name = method_for(method, tolerance)
     where = "/accuracy" if job.accuracy else "/method" if job.method != "auto" else "/tolerance"
-    if not METHODS[name].error:
+    if METHODS[name].fixed_step:
         sentence = f"A study needs error control and located onsets, which '{name}' has not."
-    elif tangents and name != "tsitouras":
+    elif tangents and not METHODS[name].carries_tangents:
+        able = quoted([name for name, each in METHODS.items() if each.carries_tangents])
         sentence = (
-            f"Lyapunov exponents are computed along steps of 'tsitouras', not of '{name}'; choose"
-            " that or 'auto' and a tolerance of 3e-05 at most, or drop the indicator 'lyapunov'."
+            f"Lyapunov exponents are computed along steps of {able}, not of '{name}'; choose that"
+            f" or 'auto' and a tolerance of {AUTO.largest_tolerance:g} at most, or drop the"
+            " indicator 'lyapunov'."
         )
     else:
         return
@@ -62,22 +65,19 @@ def check_study(job: Job, *, tangents: bool) -> None:
 
 def _check_fixed_step(job: Job) -> None:
     if job.step is None:
-        raise InvalidInput([Problem("/step", "The method 'rk4' needs its fixed 'step', s.")])
+        sentence = f"The method '{job.method}' needs its fixed 'step', s."
+        raise InvalidInput([Problem("/step", sentence)])
     if job.tolerance is not None:
-        raise InvalidInput(
-            [
-                Problem(
-                    "/tolerance",
-                    "The method 'rk4' does not control its error; drop the tolerance, or choose"
-                    " another method.",
-                )
-            ]
+        sentence = (
+            f"The method '{job.method}' does not control its error; drop the tolerance, or choose"
+            " another method."
         )
+        raise InvalidInput([Problem("/tolerance", sentence)])
 
 
 def _too_large(method: str, tolerance: float, limit: float) -> str:
-    able = [f"'{name}'" for name, each in METHODS.items() if tolerance <= each.largest_tolerance]
-    remedy = f", or choose {' or '.join(able)}" if able else ""
+    able = [name for name, each in METHODS.items() if tolerance <= each.largest_tolerance]
+    remedy = f", or choose {quoted(able)}" if able else ""
     who = "any method" if method == "auto" else f"'{method}'"
     return (
         f"At tolerance {tolerance:g} the energy that {who} loses track of is a large part of what"

@@ -68,6 +68,8 @@ DORMAND_PRINCE853 = Tableau(
     error_order=8,
     dense_order=6,
     largest_tolerance=1e-3,
+    usual_evaluations=83e3,
+    cost_order=6.3,
     nodes=(
         0.0,
         0.05260015195876773,

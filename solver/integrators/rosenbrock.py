@@ -2,36 +2,28 @@
 
 from dataclasses import dataclass
 
+from jointplay.solver.integrators.method import Method
 
-@dataclass(frozen=True)
-class Rosenbrock:
+
+@dataclass(frozen=True, kw_only=True)
+class Rosenbrock(Method):
     """A Rosenbrock method in the variables V = U / h of Hairer and Wanner 1996, IV.7.
 
     Stage i solves (I - h γ J) V_i = γ (f(t + α_i h, y + h Σ a_ij V_j) + Σ c_ij V_j + γ_i h f_t).
 
     Attributes
     ----------
-    nodes, drifts : (stages,) α and γ_i
-    matrix, couplings : row i holds the i coefficients a, c of stage i
+    drifts : (stages,) γ_i
+    couplings : row i holds the i coefficients c of stage i
     weights : (stages,) of V in the step's increment over h
     error : (stages,) weights of V in the error estimate over h
-    dense : (1 + stages, degree) as in `Tableau`; the first row, of the slope at the start, is empty
+    dense : (1 + stages, degree); the first row, of the slope at the start, is empty
     """
 
-    name: str
-    order: int
-    error_order: int
-    dense_order: int
-    largest_tolerance: float
     gamma: float
-    nodes: tuple[float, ...]
     drifts: tuple[float, ...]
-    matrix: tuple[tuple[float, ...], ...]
     couplings: tuple[tuple[float, ...], ...]
     weights: tuple[float, ...]
-    error: tuple[float, ...]
-    dense: tuple[tuple[float, ...], ...]
-    coarse_error: tuple[float, ...] = ()
 
     @property
     def stages(self) -> int:

@@ -11,6 +11,9 @@ TSITOURAS5 = Tableau(
     error_order=5,
     dense_order=4,
     largest_tolerance=3e-5,
+    carries_tangents=True,
+    usual_evaluations=52e3,
+    cost_order=4.8,
     nodes=(0.0, 0.161, 0.327, 0.9, 0.9800255409045097, 1.0, 1.0),
     matrix=(
         (),

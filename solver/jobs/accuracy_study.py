@@ -1,13 +1,13 @@
 """The job of kind ``accuracy-study``: what every method and tolerance costs and buys."""
 
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jointplay.solver.integrators import METHODS
 from jointplay.solver.jobs.job import MechanismJob
+from jointplay.solver.quantities.roster import NameIn
 
-MethodName = Literal["bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
-METHOD_NAMES: tuple[MethodName, ...] = get_args(MethodName)
 TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 
 
@@ -25,14 +25,20 @@ class AccuracyStudyJob(MechanismJob):
         ),
     ] = None
     methods: Annotated[
-        list[MethodName],
-        Field(min_length=1, max_length=16, description="also where jobs may not ask for them"),
-    ] = list(METHOD_NAMES)
+        list[Annotated[str, NameIn(METHODS)]],
+        Field(
+            min_length=1,
+            max_length=16,
+            description="also where jobs may not ask for them",
+            default_factory=lambda: list(METHODS),
+            json_schema_extra=lambda schema: schema.update(default=list(METHODS)),
+        ),
+    ]
     tolerances: Annotated[
         list[Annotated[float, Field(ge=1e-12, le=1e-2, json_schema_extra={"unit": "1"})]],
         Field(
             min_length=1,
             max_length=64,
-            description="of the methods with error control; rk4 goes over fixed steps instead",
+            description="of the methods with error control; others go over fixed steps instead",
         ),
     ] = list(TOLERANCES)

@@ -4,15 +4,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from jointplay.solver.integrators import AUTO, COARSE, METHODS, STIFF
+from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.quantities.units import Name, Strict
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.unions import form, has, told_by
 
-Method = Literal["auto", "bogacki-shampine", "tsitouras", "dormand-prince-853", "rodas", "rk4"]
+Method = Annotated[str, NameIn(METHODS, "auto")]
 Accuracy = Literal["draft", "standard", "fine", "reference"]
 
-ACCURACIES: dict[Accuracy, tuple[Method, float]] = {
-    "draft": ("dormand-prince-853", 3e-4),
+ACCURACIES: dict[Accuracy, tuple[str, float]] = {
+    "draft": (COARSE.name, 3e-4),
     "standard": ("auto", 1e-6),
     "fine": ("auto", 1e-8),
     "reference": ("auto", 1e-11),
@@ -84,9 +86,9 @@ class Job(MechanismJob):
         Method,
         Field(
             description=(
-                "auto: tsitouras, or dormand-prince-853 at tolerances too large for it, or rodas"
-                " where the run turns out to be stiff; rodas: implicit; rk4: a fixed step, without"
-                " error control or located onsets"
+                f"auto: {AUTO.name}, or {COARSE.name} at tolerances too large for it, or"
+                f" {STIFF.name} where the run turns out to be stiff; rodas: implicit; rk4: a fixed"
+                " step, without error control or located onsets"
             )
         ),
     ] = "auto"

@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from jointplay.solver.integrators import METHODS
+from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.advance import advance
@@ -44,7 +44,7 @@ def compile_loop_aside() -> subprocess.Popen[bytes] | None:
     )
 
 
-def ready_kernel(scene: Scene, formulation: str, method: str = "tsitouras") -> Kernel:
+def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Kernel:
     """Return the kernel of a scene's structure, the loop ready, too; seconds when not cached.
 
     `method` : a name of `solver.integrators.METHODS`.

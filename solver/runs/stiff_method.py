@@ -15,13 +15,14 @@ from dataclasses import replace
 import numpy as np
 
 from jointplay.solver.admission import Admission
+from jointplay.solver.integrators import AUTO, STIFF
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.runs.results import Slice
 
-EXPLICIT, IMPLICIT = "tsitouras", "rodas"
+EXPLICIT, IMPLICIT = AUTO.name, STIFF.name
 ATTEMPTS = 1_000_000
 """A thousand times what the press takes for a tenth of a period at the standard tolerance: half a
 second, so that loading the implicit kernel and beginning again is soon won back."""

@@ -29,7 +29,7 @@ def advice(points: Sequence[Point], uncertainty: float) -> str:
     if best.evaluations == default.evaluations:
         best = default
     first = (
-        f"The default, tsitouras at 1e-06, makes an error of {default.error:.1e}"
+        f"The default, {default.name}, makes an error of {default.error:.1e}"
         f" in {default.evaluations} evaluations"
     )
     if best == default:

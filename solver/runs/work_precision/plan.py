@@ -6,15 +6,15 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from jointplay.solver.integrators import METHODS
+from jointplay.solver.integrators import AUTO, COARSE, METHODS
 from jointplay.solver.runs.study.plan import Study
 
 KIND = "accuracy-study"
-REFERENCES = ("tsitouras", "dormand-prince-853")
+REFERENCES = (AUTO.name, COARSE.name)
 """Methods of the two reference runs: those of highest order."""
 REFERENCE = 1e-13
 """Their tolerance."""
-DEFAULT = ("tsitouras", 1e-6)
+DEFAULT = (AUTO.name, 1e-6)
 """Always among the runs: the recommendation is relative to it."""
 WITHOUT_PERIOD = 1.0
 """s that stand for the period of a scene without turning drivers."""
@@ -35,14 +35,6 @@ MEANINGS = {
 }
 """Unit and long name of what each run has beside its accepted steps."""
 
-_EVALUATIONS = {
-    "bogacki-shampine": (55.0, 3.2),
-    "tsitouras": (52.0, 4.8),
-    "dormand-prince-853": (83.0, 6.3),
-    "rodas": (241.0, 4.2),
-}
-"""Thousands in a period at tolerance 1e-6, and the root by which they grow: docs/accuracy.md."""
-
 
 @dataclass(frozen=True)
 class Run:
@@ -59,13 +51,12 @@ class Run:
         return self.tolerance is None or self.tolerance <= METHODS[self.method].largest_tolerance
 
     def evaluations(self, period: float) -> float:
-        """Return about how many thousand a period takes, to weigh runs against each other."""
+        """Return about how many a period takes, to weigh runs against each other."""
+        method = METHODS[self.method]
         if self.tolerance is None:
-            return 4e-3 * period / (self.step or period)
-        usual, root = _EVALUATIONS[self.method]
-        if self.reference:  # near rounding some steps are refused: up to four times as many
-            usual *= 1.5
-        return usual * float(max(1e-6 / self.tolerance, 0.1) ** (1.0 / root))
+            return method.evaluations(0) * period / (self.step or period)
+        # near rounding some steps are refused: up to four times as many
+        return (1.5 if self.reference else 1.0) * method.evaluations_at(self.tolerance)
 
     def document(self) -> dict[str, Any]:
         """Return the run as a store keeps it."""
@@ -79,10 +70,10 @@ def runs_of(job: Mapping[str, Any], period: float) -> tuple[Run, ...]:
     """
     found = [Run(method, REFERENCE, reference=True) for method in REFERENCES]
     for name in job["methods"]:
-        if METHODS[name].error:
-            found += [Run(name, tolerance) for tolerance in job["tolerances"]]
-        else:
+        if METHODS[name].fixed_step:
             found += [Run(name, None, GRID * period / finer) for finer in FINER]
+        else:
+            found += [Run(name, tolerance) for tolerance in job["tolerances"]]
     default = Run(*DEFAULT)
     return tuple(found if default in found else [*found, default])
 
