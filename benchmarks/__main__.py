@@ -1,9 +1,10 @@
-"""Run all measurements: ``python -m benchmarks [NAME ...]``."""
+"""Run all measurements: ``python -m benchmarks [NAME ...]``, options behind the names."""
 
 import importlib
 import sys
 
 ALL = (
+    "digests",
     "press",
     "certificate",
     "peers",
@@ -24,14 +25,16 @@ ALL = (
 
 def main() -> int:
     """Run the named measurements, or all."""
-    names = sys.argv[1:] or ALL
+    given = sys.argv[1:]
+    first = next((i for i, word in enumerate(given) if word.startswith("-")), len(given))
+    names, options = given[:first] or ALL, given[first:]
     unknown = [name for name in names if name not in ALL]
     if unknown:
         print(f"there is no measurement {', '.join(unknown)}; there are {', '.join(ALL)}")
         return 2
     for name in names:
         print(f"\n== {name}")
-        sys.argv = [name]
+        sys.argv = [name, *options]
         importlib.import_module(f"benchmarks.{name}").main()
     return 0
 
