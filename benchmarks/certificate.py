@@ -11,7 +11,7 @@ import time
 from typing import Any
 
 from benchmarks.press import CASE
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 
 PRESSES: dict[str, dict[str, float]] = {

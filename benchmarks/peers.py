@@ -26,11 +26,11 @@ from benchmarks.busy_lanes import CLEARANCES, busy_lanes
 from benchmarks.paper_equations import seconds_a_period
 from benchmarks.peer_diffrax import measure_diffrax
 from benchmarks.peer_exudyn import measure_exudyn
-from jointplay.solver.admission import Admission, admit
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene.document import Scene
 
 CASE = {
@@ -75,7 +75,7 @@ def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
         }
     )
     assert isinstance(admission, Admission)
-    scene = Scene.model_validate(admission.scene)
+    scene = admission.scene
     return LaneProblem(scene, duration, tolerance, duration, 0, 0, 0.0)
 
 

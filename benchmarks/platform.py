@@ -26,7 +26,7 @@ from sqlalchemy import Engine, event
 
 from benchmarks.sweep import RECORD, SETTLE, VALUES, document
 from jointplay.service.processes import running_service
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob

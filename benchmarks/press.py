@@ -13,14 +13,13 @@ from dataclasses import replace
 import numpy as np
 
 from benchmarks.busy_lanes import CLEARANCES, busy_lanes
-from jointplay.solver.admission import admit
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter
+from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.tree import spanning_tree
-from jointplay.solver.scene.document import Scene
 
 CASE = {
     "stiffness": 5e9,
@@ -46,7 +45,7 @@ def problem(clearance: float, tolerance: float, duration: float) -> LaneProblem:
             "output_step": 0.01,
         }
     )
-    scene = Scene.model_validate(admission.scene)
+    scene = admission.scene
     return LaneProblem(scene, duration, tolerance, 0.01, admission.samples, admission.sections, 0.0)
 
 

@@ -11,14 +11,13 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from jointplay.solver.admission import Admission, admit
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.failures import ledger_of
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.stiff_method import EXPLICIT, IMPLICIT, TIGHTER
-from jointplay.solver.scene.document import Scene
 
 COLUMNS = ((EXPLICIT, 1.0), (IMPLICIT, 1.0), (IMPLICIT, TIGHTER))
 TOLERANCES = (1e-6, 1e-8)
@@ -48,7 +47,7 @@ def measured(name: str, parameters: dict[str, Any], method: str, asked: float, s
     scene = {"preset": name, "parameters": parameters}
     admission = admit({"kind": "simulate", "scene": scene, "duration": duration})
     assert isinstance(admission, Admission)
-    found = Scene.model_validate(admission.scene)
+    found = admission.scene
     kernel = ready_kernel(found, "reduced", method)
     problem = LaneProblem(found, duration, share * asked, duration, 0, 0, 0.0)
     bundle = Bundle(kernel, [problem], watch=False)

@@ -1,12 +1,13 @@
 """Computes the jobs of a reproduction, each into a store of its own."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Final, cast
 
 from jointplay.paper.cases import Run
 from jointplay.paper.processes import Advance, Call, Processes, Report
-from jointplay.solver.admission import Admission, Study, admit, readmit
+from jointplay.solver.kinds import Admission, Study, admit, parse
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.worker.execute import execute
 from jointplay.worker.study_block import create_store, run_block, seal_store
@@ -45,6 +46,7 @@ def compute(
             calls.append(Call(_simulate, (run, store), run.weight, run.name))
             continue
         study = cast("Study", admit(run.job))
+        run = replace(run, job=study.job)
         create_store(study, store)
         seals.append(Call(_seal, (run, store), 1.0))
         for block, (_, count) in enumerate(study.blocks):
@@ -78,7 +80,7 @@ def _simulate(run: Run, store: Path, advance: Advance) -> None:
 
 def _block(run: Run, block: int, store: Path, advance: Advance) -> None:
     run_block(
-        cast("Study", readmit(run.job)),
+        cast("Study", parse(run.job)),
         block,
         store,
         report=lambda done: "continue" if advance(done.fraction) else "cancel",
@@ -86,4 +88,4 @@ def _block(run: Run, block: int, store: Path, advance: Advance) -> None:
 
 
 def _seal(run: Run, store: Path, advance: Advance) -> None:
-    seal_store(cast("Study", readmit(run.job)), store)
+    seal_store(cast("Study", parse(run.job)), store)

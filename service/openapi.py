@@ -11,11 +11,11 @@ from jointplay.service.batches.schemas import BatchDocument
 from jointplay.service.jobs.request import FIELDS
 from jointplay.service.problems.document import ProblemDocument, problems
 from jointplay.service.problems.kinds import INVALID_REQUEST
-from jointplay.solver.jobs import KINDS, AnyJob
+from jointplay.solver.kinds import KINDS, any_job
 
 _REFERENCE = "#/components/schemas/{model}"
 _UNMENTIONED: dict[str, Any] = {
-    "JobDocument": AnyJob,
+    "JobDocument": any_job(),
     "BatchDocument": BatchDocument,
     "ProblemDocument": ProblemDocument,
 }
@@ -48,7 +48,7 @@ def _add_schemas(schemas: dict[str, Any]) -> None:
             schemas.setdefault(part, definition)
         schemas[name] = schema
     for kind in KINDS.values():
-        schemas[kind.__name__]["properties"] |= FIELDS
+        schemas[kind.document.__name__]["properties"] |= FIELDS
     # its model takes them as they are: admission checks one after the other
     schemas["BatchDocument"]["properties"]["jobs"]["items"] = {
         "$ref": _REFERENCE.format(model="JobDocument")

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
-from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.study.outputs import own_meanings
 from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.storage.catalogue import BlockState, Catalogue, Claim, JobError
@@ -175,7 +175,7 @@ class Worker:
         assert isinstance(admission, Admission)
         folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
         channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
-        attributes = {"job": admission.job, "scene": admission.scene, "section_note": ""}
+        attributes = {"job": admission.job, "scene": admission.scene_document(), "section_note": ""}
         layout = ResultLayout(
             channels, admission.samples, admission.sections, admission.joints, attributes
         )

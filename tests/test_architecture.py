@@ -71,10 +71,10 @@ def schemas() -> Iterator[tuple[str, dict[str, Any]]]:
     from jointplay.service.jobs.schemas import JobResource
     from jointplay.service.results.schemas import History, Impacts, Peaks
     from jointplay.service.studies.schemas import Bifurcation, Sections, Sweep
-    from jointplay.solver.jobs import KINDS
+    from jointplay.solver.kinds import KINDS
 
     for model in (
-        *KINDS.values(),
+        *(kind.document for kind in KINDS.values()),
         JobResource,
         History,
         Impacts,
@@ -135,7 +135,7 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
         ("jointplay.local.folder_results", ["numba", "celery", "httpx", "matplotlib"]),
         ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
         ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
-        ("jointplay.solver.admission", ["numba", "celery", "fastapi", "zarr"]),
+        ("jointplay.solver.kinds", ["numba", "celery", "fastapi", "zarr"]),
         ("jointplay.storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
         ("jointplay.storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
         (

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
-from jointplay.solver.admission import Admission
+from jointplay.solver.kinds import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
@@ -77,7 +77,7 @@ def execute(
     Parameters
     ----------
     admission
-        The job as `solver.admission.admit` filled it in.
+        The job as `solver.kinds.admit` filled it in.
     folder
         Where the store and `job.json` go; made here, and must not hold a store.
     report
@@ -187,7 +187,7 @@ def layout_of(admission: Admission) -> ResultLayout:
         joints=admission.joints,
         attributes={
             "job": admission.job,
-            "scene": admission.scene,
+            "scene": admission.scene_document(),
             "digest": admission.digest,
             "solver_version": SOLVER_VERSION,
             "period": admission.period,

@@ -15,9 +15,10 @@ import time
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
-from jointplay.solver.admission import Admission, Study, readmit
+from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.work_precision.run import TradeRun
 from jointplay.storage.results.certificate_group import CERTIFICATE
@@ -58,7 +59,7 @@ class Mark:
     steps: float
 
 
-def cost_of(document: object) -> Cost:
+def cost_of(document: dict[str, Any]) -> Cost:
     """Return what an admitted job takes on this machine, at its present load.
 
     Raises
@@ -66,7 +67,7 @@ def cost_of(document: object) -> Cost:
     InvalidInput
         The job cannot be computed after all.
     """
-    admitted = readmit(document)
+    admitted = parse(document)
     return _of_study(admitted) if isinstance(admitted, Study) else _of_simulation(admitted)
 
 

@@ -50,11 +50,11 @@ class StudyProgress:
 
 def layout_of(study: Study) -> StudyLayout:
     """Return what a study's store holds."""
-    declared, own = study.scene["parameters"], own_meanings(study)
+    declared, own = study.point_scene(0).parameters, own_meanings(study)
     runs = [run.document() for run in runs_in(study)] if study.kind == ACCURACY_STUDY else []
     return StudyLayout(
         parameters=tuple(
-            ArraySpec(name, unit, str(declared[name]["help"]))
+            ArraySpec(name, unit, declared[name].help)
             for name, unit in zip(study.parameters, study.parameter_units, strict=True)
         ),
         values=study.values,
@@ -64,7 +64,7 @@ def layout_of(study: Study) -> StudyLayout:
         blocks=study.blocks,
         attributes={
             "job": study.job,
-            "scene": study.scene,
+            "scene": study.scene_document(),
             "digest": study.digest,
             "solver_version": SOLVER_VERSION,
             "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
@@ -113,7 +113,7 @@ def run_block(
     Parameters
     ----------
     study
-        As `solver.admission.admit` returned it.
+        As `solver.kinds.admit` returned it.
     index
         Of the block in `study.blocks`.
     folder

@@ -7,29 +7,25 @@ by the processor they run on.
 import argparse
 import sys
 import time
+from typing import cast
 
 from numba.core.event import install_recorder
 
-from jointplay.solver.admission import admit_simulate
-from jointplay.solver.jobs import SimulateJob
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
-from jointplay.solver.scene.document import Scene
 
 
 def warm(name: str) -> float:
     """Compile or load a preset's kernels, those of exponents too; return the seconds."""
     began = time.perf_counter()
-    job = SimulateJob.model_validate(
-        {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
-    )
-    admission = admit_simulate(job)
+    job = {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
+    admission = cast("Admission", admit(job))
     for _ in Simulation(admission).slices():
         pass
-    scene = Scene.model_validate(admission.scene)
-    compile_tangents(ready_kernel(scene, admission.job["formulation"], admission.method))
+    compile_tangents(ready_kernel(admission.scene, admission.job["formulation"], admission.method))
     return time.perf_counter() - began
 
 

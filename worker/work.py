@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Protocol
 
-from jointplay.solver.admission import Admission, Study, readmit
+from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Claim
 from jointplay.storage.results.layout import MANIFEST
@@ -181,7 +181,7 @@ def work_of(claim: Claim, settings: Settings) -> Work:
     global _last_study
     job = claim.job
     if _last_study is None or _last_study[0] != job.id:
-        admitted = readmit(job.spec)
+        admitted = parse(job.spec)
         if isinstance(admitted, Admission):
             return SimulationWork(admitted, claim, settings)
         _last_study = job.id, admitted, layout_of(admitted)

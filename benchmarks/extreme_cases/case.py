@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 
 JOURNAL, CRANK, PRESS = "bouncing-journal", "slider-crank", "seven-bar-press"

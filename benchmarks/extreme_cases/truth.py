@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.certificate import converged
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.worker.certificates import appendix_of

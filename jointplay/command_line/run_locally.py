@@ -60,7 +60,7 @@ def run(
     from jointplay.local import load
     from jointplay.local.second_drawer import second_drawer
     from jointplay.progress import progress
-    from jointplay.solver.admission import Study, admit
+    from jointplay.solver.kinds import Study, admit
     from jointplay.worker.local.computing import compute
 
     document = job_document.job_document(

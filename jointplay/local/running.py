@@ -16,7 +16,7 @@ from jointplay.progress import progress as shown
 from jointplay.scene_choice import Scene
 
 if TYPE_CHECKING:
-    from jointplay.solver.admission import Admission, Study
+    from jointplay.solver.kinds import Admission, Study
 
 
 def run(
@@ -79,7 +79,7 @@ def _document(job: Scene, given: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
     from jointplay.records.failure import InvalidInput, LimitExceeded
-    from jointplay.solver.admission import admit
+    from jointplay.solver.kinds import admit
 
     try:
         return admit(dict(document))

@@ -18,7 +18,7 @@ from typing import IO, TYPE_CHECKING, cast
 from jointplay.worker.local.cores import cores
 
 if TYPE_CHECKING:
-    from jointplay.solver.admission import Admission, Study
+    from jointplay.solver.kinds import Admission, Study
 
 PROGRAM = "jointplay.local.drawing_process"
 _FEW = 3
@@ -117,11 +117,11 @@ def _figures(admission: "Admission | Study") -> int:
 
     from jointplay import figures
     from jointplay.records.run_in_memory import Channel, Dataset
-    from jointplay.solver.admission import Admission
+    from jointplay.solver.kinds import Admission
 
     if not isinstance(admission, Admission):
         return 0
     channels = [Channel(one.name, one.unit) for one in admission.channels]
-    planned = Dataset({"scene": admission.scene}, channels, np.zeros(1), {})
+    planned = Dataset({"scene": admission.scene_document()}, channels, np.zeros(1), {})
     kinds = {kind.name for kind in figures.ROSTER}
     return sum(listed.name in kinds for listed in figures.available(planned))

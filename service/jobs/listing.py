@@ -8,7 +8,7 @@ from pydantic import AwareDatetime, BeforeValidator, Field
 
 from jointplay.service.jobs.paging import PageQuery
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
-from jointplay.solver.jobs import KINDS
+from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import JobState
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from jointplay.records.failure import InvalidInput
 from jointplay.service.jobs import request
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
 from jointplay.storage.settings import Settings

@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jointplay.solver.jobs.job import Job
-from jointplay.solver.jobs.values import UNIT
+from jointplay.solver.kinds.job import Job
+from jointplay.solver.kinds.values import UNIT
 from jointplay.solver.quantities.units import Name, Strict
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]

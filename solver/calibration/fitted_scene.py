@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.calibration.outcome import Outcome
-from jointplay.solver.jobs import PresetScene
+from jointplay.solver.kinds.job import PresetScene
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
 

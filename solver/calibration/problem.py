@@ -10,15 +10,15 @@ from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.suggestions import unknown
-from jointplay.solver.admission import Study, admit
-from jointplay.solver.admission.documents import digest, filled
-from jointplay.solver.admission.limits import MOST_PERIODS
-from jointplay.solver.admission.mechanism import declared, resolve
-from jointplay.solver.admission.methods import check_study, chosen
 from jointplay.solver.calibration.document import CalibrationJob, CalibrationTarget
 from jointplay.solver.calibration.space import Space, space_of, space_problems
 from jointplay.solver.calibration.targets import Goals, goals_of, target_problems
-from jointplay.solver.jobs import PresetScene
+from jointplay.solver.kinds import Study, admit
+from jointplay.solver.kinds.documents import digest, filled
+from jointplay.solver.kinds.job import PresetScene
+from jointplay.solver.kinds.limits import MOST_PERIODS
+from jointplay.solver.kinds.mechanism import declared, resolve
+from jointplay.solver.kinds.methods import check_study, chosen
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems

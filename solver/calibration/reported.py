@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from jointplay.solver.admission.mechanism import with_parameters
+from jointplay.solver.kinds.mechanism import with_parameters
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.scene.document import Scene
 

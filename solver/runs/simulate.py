@@ -10,7 +10,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jointplay.solver.admission import Admission, section_offset
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.failures import (
@@ -23,6 +22,7 @@ from jointplay.solver.kernels.loop.failures import (
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.ideal.run import IdealRun
@@ -38,6 +38,7 @@ from jointplay.solver.runs.stiff_method import (
     withheld,
 )
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import section_offset
 
 SLICE_SECONDS = 0.1
 """Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
@@ -60,7 +61,7 @@ class Simulation:
             The scene's equations are too long to compile.
         """
         self.admission = admission
-        scene = Scene.model_validate(admission.scene)
+        scene = admission.scene
         self._run: _Run = (
             IdealRun(admission, scene)
             if assemble(scene).freedom_with_play == 0

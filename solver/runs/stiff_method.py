@@ -14,12 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from jointplay.solver.admission import Admission
 from jointplay.solver.integrators import AUTO, STIFF
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
+from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.results import Slice
 
 EXPLICIT, IMPLICIT = AUTO.name, STIFF.name

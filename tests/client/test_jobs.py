@@ -9,8 +9,7 @@ import pytest
 from jointplay import jobs
 from jointplay.client import Client
 from jointplay.scene_choice import NotAScene
-from jointplay.solver.admission import admit
-from jointplay.solver.jobs import KINDS
+from jointplay.solver.kinds import KINDS, admit
 from jointplay.solver.scene import presets
 
 MADE = {
@@ -39,7 +38,7 @@ def named(owner, kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_field_of_every_kind_can_be_given_and_is_no_parameter(kind):
     given = set(inspect.signature(named(jobs, kind)).parameters) - {"scene", "given"}
-    fields = set(KINDS[kind].model_fields) - {"kind", "scene"}
+    fields = set(KINDS[kind].document.model_fields) - {"kind", "scene"}
     assert given <= fields
     assert fields | {"cache", "expires"} <= given | jobs.COMMON
     for name in presets.names():

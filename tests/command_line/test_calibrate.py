@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 
 FORCE = "bearing.normal_force@0:0.018"
 BOUNCE = ["bouncing-journal", "--set", "friction=0", "--set", "restitution=1"]
@@ -98,7 +98,7 @@ def test_the_scene_that_is_written_has_what_was_found_as_its_defaults(
     shown = jointplay("scene", "check", scene)
     assert shown.code == 0, shown.err
     admitted = admit({"kind": "simulate", "scene": written, "duration": 0.01})
-    assert admitted.scene["bodies"]["journal"]["mass"] == best["mass"]
+    assert admitted.scene.bodies["journal"].mass == best["mass"]
 
 
 BAD = {

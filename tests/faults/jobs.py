@@ -1,6 +1,6 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
-from jointplay.solver.admission import Admission
+from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, Catalogue, Job, NewJob
 from tests.waiting import until

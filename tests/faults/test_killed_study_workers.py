@@ -12,7 +12,7 @@ import pytest
 from jobs import IMPATIENT, ended, pid_of
 
 from jointplay.service.processes import running_service
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
 from jointplay.storage.settings import Settings

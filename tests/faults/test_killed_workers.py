@@ -9,7 +9,7 @@ import pytest
 from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit
 
 from jointplay.service.processes import running_service
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue import Catalogue, Job, JobState
 from jointplay.storage.results import ResultReader
 from jointplay.storage.settings import Settings

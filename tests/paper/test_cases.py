@@ -7,7 +7,7 @@ import pytest
 from jointplay.paper import cases, reported
 from jointplay.paper.size import FULL, QUICK
 from jointplay.paper.variants import AS_PUBLISHED, MATERIAL
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 
 
 @pytest.mark.parametrize("size", [FULL, QUICK], ids=["full", "quick"])

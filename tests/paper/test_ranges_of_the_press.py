@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.paper import reported
 from jointplay.paper.variants import CONSTANT, MATERIAL, Variant
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.study.run import StudyRun
 
 SPEEDS = (math.pi, 2.5 * math.pi)

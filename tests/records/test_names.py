@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.names import GROUPS, RESERVED_OUTPUTS, STORED
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene import presets
 from jointplay.storage.results import Appendix, Partition, ResultWriter, SmallArray, pyramid
 from jointplay.worker.execute import layout_of

@@ -9,9 +9,9 @@ import pytest
 
 from jointplay.client import Refused
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.admission import admit
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.kinds import admit
 from tests.seams.conftest import Platform
 from tests.solver.integrators import test_tableaux as specification
 

@@ -7,7 +7,7 @@ import httpx
 import pytest
 
 from jointplay.local.folder_results import FolderResults
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue import BlockState
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute

@@ -3,7 +3,7 @@
 import pytest
 
 from jointplay.service.estimates.prober import Prober
-from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import TradeRun

@@ -7,7 +7,7 @@ import pytest
 import xarray
 import zarr
 
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue import BlockState, Claim, JobError
 from jointplay.storage.results import IMPACT, ArraySpec, Partition, ResultLayout, ResultWriter
 from tests.service_in_thread import BIFURCATION, SWEEP, known_section
@@ -61,7 +61,7 @@ class Running:
 
 def layout_of(admission):
     channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
-    attributes = {"job": admission.job, "scene": admission.scene, "section_note": ""}
+    attributes = {"job": admission.job, "scene": admission.scene_document(), "section_note": ""}
     counts = admission.samples, admission.sections
     return ResultLayout(channels, *counts, admission.joints, attributes, SMALL)
 

@@ -13,9 +13,14 @@ from jointplay.records.strict_json import DEEPEST
 from jointplay.service.app import create_app
 from jointplay.service.body import LARGEST_BATCH, LARGEST_BODY
 from jointplay.service.results.queries import MOST_VALUES
-from jointplay.solver.admission import LONGEST_RUN, MOST_BYTES, MOST_SAMPLES
-from jointplay.solver.admission.limits import MOST_PERIODS, MOST_POINTS
-from jointplay.solver.jobs import KINDS
+from jointplay.solver.kinds import KINDS
+from jointplay.solver.kinds.limits import (
+    LONGEST_RUN,
+    MOST_BYTES,
+    MOST_PERIODS,
+    MOST_POINTS,
+    MOST_SAMPLES,
+)
 from jointplay.solver.scene import presets
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving

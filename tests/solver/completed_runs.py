@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.results import IMPACT, Peak, Slice
 from jointplay.solver.runs.simulate import Simulation
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from jointplay.solver.admission import admit
 from jointplay.solver.kernels.loop.start import start_state
+from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.motion import Motion

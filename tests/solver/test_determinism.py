@@ -11,12 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.admission import Admission, admit, sample_count
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.kinds.simulate import sample_count
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.certificate.certificate import Certificate

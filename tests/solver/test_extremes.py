@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.extreme_cases import ALL, Case, coverage_of, outcome_of
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.simulate import Simulation
 from tests.solver.completed_runs import run
 

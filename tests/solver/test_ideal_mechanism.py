@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets

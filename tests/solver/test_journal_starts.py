@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
 from tests.solver.completed_runs import Run, run
 

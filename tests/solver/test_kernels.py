@@ -179,7 +179,7 @@ def test_a_process_keeps_the_kernel_of_a_structure() -> None:
 
 CACHE_STATISTICS = """
 import json
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.observation import observe_rows
 from jointplay.solver.runs.simulate import Simulation

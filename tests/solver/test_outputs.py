@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.admission import sample_count
+from jointplay.solver.kinds.simulate import sample_count
 from tests.solver.completed_runs import CASE_3, Run, run
 
 # samples

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from jointplay.solver.admission import admit
-from jointplay.solver.admission.simulate import Admission
+from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.simulate import Admission
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.runs.results import Slice
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets

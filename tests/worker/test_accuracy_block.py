@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import zarr
 
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import Trade
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.execute import Answer

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
 from jointplay.storage.results import ResultReader

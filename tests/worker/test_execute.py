@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.solver.admission import Admission, admit
+from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.results import ResultReader, StoreExists
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
 

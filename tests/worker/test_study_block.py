@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from jointplay.solver.admission import Study, admit
+from jointplay.solver.kinds import Study, admit
 from jointplay.storage.results import StoreExists
 from jointplay.storage.results.errors import IncompleteStudy
 from jointplay.storage.studies import StudyReader

@@ -10,7 +10,7 @@ from jointplay.worker.local.folder import JOB_FILE, STORE, write_outcome
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
-    from jointplay.solver.admission import Admission, Study
+    from jointplay.solver.kinds import Admission, Study
     from jointplay.worker.execute import Outcome
 
 Report = Callable[[float, str], None]
@@ -24,7 +24,7 @@ def compute(
     Parameters
     ----------
     admission
-        As `solver.admission.admit` returned it.
+        As `solver.kinds.admit` returned it.
     folder
         Where job, store and outcome go; it is there, and empty.
     processes
@@ -37,7 +37,7 @@ def compute(
     Outcome
         Whatever it is, what was computed is kept.
     """
-    from jointplay.solver.admission import Study
+    from jointplay.solver.kinds import Study
 
     begun = datetime.now(UTC)
     store = folder / STORE

@@ -14,7 +14,7 @@ from jointplay.worker.local.cores import cores
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
-    from jointplay.solver.admission import Study
+    from jointplay.solver.kinds import Study
 
 _POLL = 0.1  # s between two looks at the progress of other processes
 
@@ -149,10 +149,10 @@ def _begin(
     leave: Any,
 ) -> None:
     """Prepare a process of the pool; Ctrl-C is for the one that reports."""
-    from jointplay.solver.admission import admit
+    from jointplay.solver.kinds import parse
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _Process.study, _Process.folder = cast("Study", admit(job)), Path(folder)
+    _Process.study, _Process.folder = cast("Study", parse(job)), Path(folder)
     _Process.fractions, _Process.ended, _Process.leave = fractions, ended, leave
 
 

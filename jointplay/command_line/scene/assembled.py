@@ -10,7 +10,7 @@ from jointplay.command_line import job_document
 
 if TYPE_CHECKING:
     from jointplay.records.failure import InvalidInput
-    from jointplay.solver.admission import Admission
+    from jointplay.solver.kinds import Admission
     from jointplay.solver.mechanics.assembly import Assembly
 
 SCENE: Any = typer.Argument(
@@ -49,9 +49,8 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
         that was given: into the scene's own if ``source`` is the file of a scene.
     """
     from jointplay.records.failure import InvalidInput
-    from jointplay.solver.admission import admit
+    from jointplay.solver.kinds import admit
     from jointplay.solver.mechanics.assembly import assemble
-    from jointplay.solver.scene.document import Scene
 
     given = job_document.job_document(source, settings=settings, options={})
     job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
@@ -60,8 +59,7 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
         admission = cast("Admission", admit(job))
     except InvalidInput as error:
         return _refused(job, error, is_scene=job_document.is_scene_file(source))
-    scene = Scene.model_validate(admission.scene)
-    return AssembledScene(admission.scene, assemble(scene), admission, None)
+    return AssembledScene(admission.scene_document(), assemble(admission.scene), admission, None)
 
 
 def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) -> AssembledScene:
@@ -69,17 +67,16 @@ def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) ->
     from pydantic import ValidationError
 
     from jointplay.records.failure import InvalidInput, Problem
-    from jointplay.solver.admission import resolve
-    from jointplay.solver.jobs import SimulateJob
+    from jointplay.solver.kinds.mechanism import resolve
+    from jointplay.solver.kinds.simulate import SimulateJob
     from jointplay.solver.mechanics.assembly import assemble
-    from jointplay.solver.scene.document import Scene
 
     if is_scene:
         refusal = InvalidInput(
             Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
         )
     try:
-        _, document, _ = resolve(SimulateJob.model_validate(job))
+        scene, document, _ = resolve(SimulateJob.model_validate(job))
     except (ValidationError, InvalidInput):
         raise refusal from None
-    return AssembledScene(document, assemble(Scene.model_validate(document)), None, refusal)
+    return AssembledScene(document, assemble(scene), None, refusal)

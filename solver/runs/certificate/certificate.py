@@ -23,7 +23,7 @@ from jointplay.solver.runs.certificate.estimate import (
 )
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.spread import BINS, histogram
-from jointplay.solver.runs.study.starts import start_scales
+from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Revolute, Scene
 

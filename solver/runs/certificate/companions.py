@@ -21,7 +21,7 @@ from jointplay.solver.kernels.loop.periods import SAMPLES, look_ahead, plan, sto
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.runs.certificate.instants import Instants
-from jointplay.solver.runs.study.starts import perturbed_start, start_scales
+from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 
 Floats = NDArray[np.float64]
 
@@ -78,9 +78,10 @@ class Companions:
             bundle.load(lane, rung, like=RUN)
         half = len(start.state) // 2
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
+        perturbation = Perturbation(problem.tolerance, SEED)
         for member, lane in enumerate(PERTURBED, start=1):
             beside = perturbed_start(
-                start.state[:half], start.state[half:], scales, problem.tolerance, SEED, member
+                start.state[:half], start.state[half:], scales, perturbation, member
             )
             bundle.load(lane, replace(coarse, start=LaneStart(np.concatenate(beside))), like=RUN)
         loud = LOUD if problem.duration >= SHORT * period else LOUD_IN_SHORT

@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.admission import Admission, section_offset
 from jointplay.solver.mechanics.observe import channel_values
 from jointplay.solver.quantities.extremes import Floats, refine_extreme
+from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.results import IMPACT, Peak, Slice, Summary
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import section_offset
 
 SCAN_A_PERIOD = 2000
 """Instants at which extremes are first sought; parabolas and re-evaluation refine them."""

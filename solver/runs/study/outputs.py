@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.work_precision import plan as trade
+from jointplay.solver.scene.document import Revolute
 from jointplay.solver.statistics import Meaning, meanings
 
 STATISTICS = {
@@ -40,5 +41,9 @@ def own_meanings(study: Study) -> dict[str, Meaning]:
     """Return what numbers mean that not every study has: chosen statistics, costs and errors."""
     if study.kind == trade.KIND:
         return dict(trade.MEANINGS)
-    joints = tuple(name for name, joint in study.scene["joints"].items() if joint.get("clearance"))
+    joints = tuple(
+        name
+        for name, joint in study.point_scene(0).joints.items()
+        if isinstance(joint, Revolute) and joint.clearance is not None
+    )
     return meanings(study.statistics, study.channels, joints)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.integrators import method_for
+from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
@@ -21,7 +22,7 @@ Integers = NDArray[np.int64]
 class Study:
     """A job of any kind but simulate that can run.
 
-    `solver.admission.admit` makes it; two studies are the same if their digests are.
+    Two studies are the same if their digests are.
     """
 
     kind: str
@@ -29,13 +30,9 @@ class Study:
     """The job document with every default and every scene parameter present."""
     digest: str
     """SHA-256 of the filled-in job without its label."""
-    scene: dict[str, Any]
-    """The scene document at the first point."""
     parameters: tuple[str, ...]
     """Names of what varies from point to point; none in a poincare or an ensemble."""
     parameter_units: tuple[str, ...]
-    values: Floats
-    """(points, parameters), in the unit of each."""
     observables: tuple[Channel, ...]
     """Columns of the sections; none in a sweep."""
     record: int
@@ -43,6 +40,8 @@ class Study:
     channels: tuple[Channel, ...]
     """Channels whose peaks are kept per point; may be none."""
     indicators: tuple[str, ...]
+    perturbation: Perturbation | None
+    """Of the starts of points that differ in nothing else; none: the scene's start rule."""
     blocks: tuple[tuple[int, int], ...]
     """(first, count) of contiguous points. Without continuation whole octets, 64 points at most,
     the last one shorter; with it up to eight whole chains of one direction, of any length."""
@@ -67,7 +66,12 @@ class Study:
     @property
     def points(self) -> int:
         """Number of points."""
-        return len(self.values)
+        return len(self.scenes.values)
+
+    @property
+    def values(self) -> Floats:
+        """(points, parameters), in the unit of each."""
+        return self.scenes.values
 
     @property
     def tolerance(self) -> float:
@@ -83,6 +87,10 @@ class Study:
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.tolerance)
+
+    def scene_document(self) -> dict[str, Any]:
+        """Return the scene of the first point as stores keep it."""
+        return self.point_scene(0).model_dump(mode="json")
 
     def point_scene(self, point: int) -> Scene:
         """Return the scene of a point with its parameters set, as checked on admission."""

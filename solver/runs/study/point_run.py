@@ -15,9 +15,9 @@ from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.kernels.loop.state import SectionKind
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
+from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.runs.study.indicators import RECURS, unwound
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.starts import perturbed_start, start_scales
 from jointplay.solver.runs.study.window import begin_tallies, window_of
 
 Floats = NDArray[np.float64]
@@ -30,7 +30,7 @@ WINDOW = 16
 
 @dataclass
 class PointRun:
-    """A point that is being computed; `waits` says where it is before it gets a lane."""
+    """A point that is being computed, or waits for a lane."""
 
     point: int
     chain: int
@@ -74,8 +74,8 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
     point, period = run.point, float(study.period[run.point])
     scene = study.point_scene(point)
     start = run.start
-    if study.kind == "ensemble":
-        start = _perturbed(study, kernel, point)
+    if study.perturbation is not None:
+        start = _perturbed(study, kernel, point, study.perturbation)
     if study.record == 0:
         run.reached = 0
         settle = float(study.settle[point])
@@ -155,7 +155,7 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
     return Event(SectionKind.CROSSING, row, value, sense, not_before)
 
 
-def _perturbed(study: Study, kernel: Kernel, point: int) -> LaneStart:
+def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbation) -> LaneStart:
     """Return the start of a member of an ensemble."""
     scene = study.point_scene(point)
     assembly = assemble(scene)
@@ -164,8 +164,7 @@ def _perturbed(study: Study, kernel: Kernel, point: int) -> LaneStart:
         np.array(position),
         np.array(speed),
         start_scales(scene, kernel.coordinates, float(study.period[point])),
-        float(study.job["spread"]),
-        int(study.job["seed"]),
+        perturbation,
         point,
     )
     return LaneStart(np.concatenate(state))

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.admission import admit
 from jointplay.solver.calibration.calibrate import NothingFits, calibrate
 from jointplay.solver.calibration.fitted_scene import fitted_scene
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.calibration.reported import reported_cases
+from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
 from tests.solver.calibration.calibrations import bounce, computed
 from tests.solver.completed_runs import run
@@ -143,7 +143,7 @@ def test_the_fitted_scene_has_the_defaults_that_give_the_fitted_values(elastic):
     assert document["name"] == "fitted-journal"
     job = {"kind": "simulate", "scene": document, "duration": 0.018}
     assert (
-        admit(job).scene["joints"]["bearing"]["clearance"]["contact"]["stiffness"]
+        admit(job).scene_document()["joints"]["bearing"]["clearance"]["contact"]["stiffness"]
         == elastic.best[0]
     )
     repeated = run(

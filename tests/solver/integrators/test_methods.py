@@ -9,14 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
-from jointplay.solver.admission import admit_simulate
-from jointplay.solver.admission.documents import parse
-from jointplay.solver.admission.simulate import Admission
 from jointplay.solver.integrators import METHODS
-from jointplay.solver.jobs import SimulateJob
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene.document import Scene
@@ -27,17 +24,16 @@ FLIGHT = 0.014
 
 def press(duration: float, values: dict[str, float], **fields: Any) -> Admission:
     scene = {"preset": "seven-bar-press", "parameters": values}
-    job = parse(
-        fields | {"kind": "simulate", "scene": scene, "duration": duration, "certificate": False}
-    )
-    assert isinstance(job, SimulateJob)
-    return admit_simulate(job)
+    job = {"kind": "simulate", "scene": scene, "duration": duration, "certificate": False}
+    admission = admit(fields | job)
+    assert isinstance(admission, Admission)
+    return admission
 
 
 def flown(method: str, steps: int) -> NDArray[np.float64]:
     """Return the state of the press at the end of its flight, in that many equal steps."""
     values = {"speed": 50.0, "clearance": 0.05, "bearing_radius": 1.0}
-    scene = Scene.model_validate(press(FLIGHT, values).scene)
+    scene = press(FLIGHT, values).scene
     kernel = ready_kernel(scene, "reduced", method)
     step = FLIGHT / steps
     fixed = None if METHODS[method].error else step

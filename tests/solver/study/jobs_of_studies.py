@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.runs.study.plan import Study
 
 PRESS: dict[str, Any] = {"preset": "seven-bar-press", "parameters": {"stiffness": 5e9}}

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
 from tests.solver.study.jobs_of_studies import BIFURCATION, SWEEP, study
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from jointplay.solver.admission import Admission, Study, admit
+from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.results import PointEnd

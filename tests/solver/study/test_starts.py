@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from jointplay.solver.runs.study.starts import perturbed_start, start_scales
+from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
 
@@ -16,7 +16,7 @@ SCALES = np.array([1e-3, 2e-3]), np.array([3e-3, 4e-3])
 
 
 def start(spread: float, seed: int, member: int) -> np.ndarray:
-    return np.stack(perturbed_start(POSITION, SPEED, SCALES, spread, seed, member))
+    return np.stack(perturbed_start(POSITION, SPEED, SCALES, Perturbation(spread, seed), member))
 
 
 def test_the_first_member_starts_as_the_scene_does() -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from jointplay.solver.admission import Admission, admit
-from jointplay.solver.jobs.sweep import StatisticName
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.kinds.statistics import StatisticName
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun

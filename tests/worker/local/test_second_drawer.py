@@ -13,7 +13,7 @@ from jointplay import jobs
 from jointplay.command_line.drawing import draw_all
 from jointplay.local import second_drawer
 from jointplay.local.second_drawer import SecondDrawer
-from jointplay.solver.admission import admit
+from jointplay.solver.kinds import admit
 from tests.waiting import until
 
 CRANK = {"clearance": 1e-4, "duration": 0.05}

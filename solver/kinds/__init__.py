@@ -1,0 +1,71 @@
+"""The kinds of jobs: one file a kind, named by this roster.
+
+A job document is checked whole and filled in before anything is queued (`admit`); a worker makes
+the same plan of the stored, filled-in document (`parse`) without checking it again.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Union
+
+from pydantic import Field
+
+from jointplay.solver.kinds.accuracy_study import AccuracyStudy
+from jointplay.solver.kinds.bifurcation import Bifurcation
+from jointplay.solver.kinds.documents import job_of, kind_of
+from jointplay.solver.kinds.ensemble import Ensemble
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.poincare import Poincare
+from jointplay.solver.kinds.simulate import Simulate
+from jointplay.solver.kinds.sweep import Sweep
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.study.plan import Study
+
+__all__ = ["KINDS", "Admission", "Kind", "Study", "admit", "any_job", "parse"]
+
+KINDS: dict[str, Kind[Any]] = {
+    kind.name: kind
+    for kind in (Simulate(), Bifurcation(), Sweep(), Poincare(), Ensemble(), AccuracyStudy())
+}
+
+
+def admit(document: object) -> Admission | Study:
+    """Check a job document of any kind and fill in its defaults.
+
+    Parameters
+    ----------
+    document
+        A client's, parsed from JSON.
+
+    Returns
+    -------
+    Admission or Study
+        A trajectory for the kind ``simulate``, points for all others.
+
+    Raises
+    ------
+    InvalidInput
+        With every problem that was found, each pointing at its field.
+    LimitExceeded
+        The job is sound but too large; the sentence gives the estimate.
+    """
+    kind = kind_of(document, KINDS)
+    return kind.admit(job_of(document, kind))
+
+
+def parse(filled: dict[str, Any]) -> Admission | Study:
+    """Return what `admit` returned for a job from the document that it filled in.
+
+    Raises
+    ------
+    InvalidInput
+        The document is not one that this solver's `admit` fills in.
+    """
+    kind = kind_of(filled, KINDS)
+    return kind.plan(job_of(filled, kind), filled)
+
+
+def any_job() -> Any:
+    """Return the type of a job of any kind, for schemas."""
+    models = tuple(kind.document for kind in KINDS.values())
+    return Annotated[Union[models], Field(discriminator="kind")]  # noqa: UP007

@@ -1,0 +1,112 @@
+"""The kind ``accuracy-study``: what every method and tolerance costs and buys."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.checked_points import check_points
+from jointplay.solver.kinds.job import MechanismJob
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.limits import BYTES_PER_POINT, LONGEST_ACCURACY_STUDY
+from jointplay.solver.kinds.periods import Periods, periods
+from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
+from jointplay.solver.kinds.points import one_point
+from jointplay.solver.kinds.studies import make_study
+from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, runs_of
+
+TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
+
+
+class AccuracyStudyJob(MechanismJob):
+    """A work-precision study: each method at each tolerance, against a reference run."""
+
+    kind: Literal["accuracy-study"]
+    duration: Annotated[
+        float | None,
+        Field(
+            ge=1e-9,
+            le=1e12,
+            description="simulated time; default one period of the drivers, 1 s without drivers",
+            json_schema_extra={"unit": "s"},
+        ),
+    ] = None
+    methods: Annotated[
+        list[Annotated[str, NameIn(METHODS)]],
+        Field(
+            min_length=1,
+            max_length=16,
+            description="also where jobs may not ask for them",
+            default_factory=lambda: list(METHODS),
+            json_schema_extra=lambda schema: schema.update(default=list(METHODS)),
+        ),
+    ]
+    tolerances: Annotated[
+        list[Annotated[float, Field(ge=1e-12, le=1e-2, json_schema_extra={"unit": "1"})]],
+        Field(
+            min_length=1,
+            max_length=64,
+            description="of the methods with error control; others go over fixed steps instead",
+        ),
+    ] = list(TOLERANCES)
+
+
+class AccuracyStudy(Kind[AccuracyStudyJob]):
+    """A point for each run, all in one block.
+
+    One worker computes them one after the other, so that their seconds can be compared.
+    """
+
+    document = AccuracyStudyJob
+    results: ClassVar = ("accuracy", "figures", "zarr")
+
+    def admit(self, job: AccuracyStudyJob) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        chosen = {
+            "methods": [name for name in METHODS if name in job.methods],
+            "tolerances": sorted(set(job.tolerances), reverse=True),
+        }
+        checked = check_points(job, one_point(len(runs_of(chosen, 1.0))))
+        units = periods(checked.scenes)
+        unit = _unit(units)
+        duration = job.duration or unit
+        if duration > LONGEST_ACCURACY_STUDY * unit:
+            sentence = (
+                f"{duration:g} s are {duration / unit:.3g} periods of {unit:.3g} s; the limit of an"
+                f" accuracy-study is {LONGEST_ACCURACY_STUDY} ({LONGEST_ACCURACY_STUDY * unit:.3g}"
+                " s). Errors are compared only as long as the reference is known; ask for less."
+            )
+            raise LimitExceeded([Problem("/duration", sentence)])
+        found = {"duration": duration, **chosen}
+        filled = documents.filled(job, checked.document, checked.echo, **found)
+        return _study(filled, checked, units)
+
+    def plan(self, job: AccuracyStudyJob, filled: dict[str, Any]) -> Study:
+        """Return what `admit` returned; see `Kind.plan`."""
+        placed = place_points(job, one_point(len(runs_of(filled, 1.0))))
+        return _study(filled, placed, periods(placed.scenes))
+
+
+def _unit(units: Periods) -> float:
+    return WITHOUT_PERIOD if units.notes else float(units.seconds[0])
+
+
+def _study(filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+    count = placed.points.count
+    study = make_study(
+        filled,
+        placed,
+        period=np.full(count, _unit(units)),
+        offset=np.zeros(count),
+        settle=np.zeros(count),
+        duration=np.full(count, filled["duration"]),
+    )
+    return replace(study, blocks=((0, count),), stored_bytes=int(BYTES_PER_POINT * count))

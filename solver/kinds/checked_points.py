@@ -1,0 +1,229 @@
+"""Checks of all points of a study at once, at little more than the cost of checking one.
+
+Ranges, bounds and sizes that must fit are checked on columns of numbers; names, assembly and
+freedom once for each distinct structure and geometry. A point that fails is then checked alone,
+by what checks a single job, so that it is refused in the same words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.kinds.job import MechanismJob
+from jointplay.solver.kinds.limits import MOST_GEOMETRIES
+from jointplay.solver.kinds.mechanism import Echo, check, declared, offered, with_parameters
+from jointplay.solver.kinds.placed_points import PlacedPoints, structure_of
+from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
+from jointplay.solver.mechanics.assembly import Assembly
+from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.runs.study.fields import (
+    distinct,
+    geometry_columns,
+    inadmissible,
+    structure_columns,
+)
+from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
+from jointplay.solver.scene.channels import Channel
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import PLACE, set_parameters
+from jointplay.solver.scene.sizes import ill_sized
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """The first point of a structure."""
+
+    point: int
+    scene: Scene
+    tree: Tree
+    assembly: Assembly
+    channels: tuple[Channel, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedPoints(PlacedPoints):
+    """A study's points once all can be simulated."""
+
+    document: dict[str, Any]
+    """The scene document with the parameters that do not vary."""
+    echo: Echo
+    mechanisms: tuple[Mechanism, ...]
+    """By the number of the structure."""
+
+
+def check_points(job: MechanismJob, points: Points) -> CheckedPoints:
+    """Check every point.
+
+    Raises
+    ------
+    InvalidInput
+        At the value that is wrong, with its index; at the scene where it is wrong at every point.
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    document, scene, given = declared(job)
+    check_parameters(points, scene)
+    kept, echo = set_parameters(document, scene, given)
+    one = _One(points, document, scene, given)
+    base = one.first()
+    scenes = PointScenes(base, leaves_of(scene, points.parameters, echo), points.values())
+    _check_effect(points, scenes, scene, echo)
+    columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
+    one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
+    structure = structure_of(scenes)
+    mechanisms = _mechanisms(job, one, scenes, structure)
+    return CheckedPoints(points, scene, scenes, structure, kept, echo, mechanisms)
+
+
+@dataclass(frozen=True, eq=False)
+class _One:
+    """Checks one point alone, as the job of a single point would be."""
+
+    points: Points
+    document: Mapping[str, Any]
+    declared: Scene
+    given: Mapping[str, float | str | None]
+
+    def scene(self, point: int) -> Scene:
+        values = {**self.given, **self.points.at(point)}
+        return with_parameters(self.document, self.declared, values)[0]
+
+    def first(self) -> Scene:
+        """Return the scene of a point that is in order; usually that is the first."""
+        failed: dict[int, list[Problem]] = {}
+        for point in dict.fromkeys((0, self.points.count - 1, self.points.count // 2)):
+            try:
+                return self.scene(point)
+            except InvalidInput as error:
+                failed[point] = list(error.problems)
+        alike = len({tuple(problems) for problems in failed.values()}) == 1
+        if len(failed) > 1 and alike:
+            raise InvalidInput(failed[0])
+        raise InvalidInput(self.told(failed, len(failed)))
+
+    def refuse(self, suspects: NDArray[np.bool_]) -> None:
+        """Check the suspects one by one; refuse those that fail."""
+        failed: dict[int, list[Problem]] = {}
+        count = int(suspects.sum())
+        for point in np.flatnonzero(suspects):
+            try:
+                self.scene(int(point))
+            except InvalidInput as error:
+                failed[int(point)] = list(error.problems)
+            if len(failed) == MOST_NAMED:
+                break
+        if failed:
+            raise InvalidInput(self.told(failed, count))
+
+    def told(self, failed: Mapping[int, list[Problem]], count: int) -> list[Problem]:
+        """Return the problems of points at their values, one a place, of `count` like them."""
+        if not self.points.axes:
+            return failed[0]
+        found: dict[str, Problem] = {}
+        named: set[int] = set()
+        for point, problems in failed.items():
+            for problem in problems:
+                parent, _, name = problem.pointer.rpartition("/")
+                varies = parent == PLACE and name in self.points.parameters
+                place = self.points.place(point, name if varies else None)
+                if place not in found:
+                    named.add(point)
+                    sentence = self.points.name(point, self.declared) + problem.detail
+                    found[place] = Problem(place, sentence)
+        return with_rest(list(found.values()), count - len(named))
+
+
+def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo) -> None:
+    """Refuse a parameter that reaches nothing, because others go to the same places after it."""
+    reaching = {leaf.column for leaf in scenes.leaves}
+    problems = []
+    for k, axis in enumerate(points.axes):
+        if k in reaching:
+            continue
+        places = {target.path for target in scene.parameters[axis.parameter].targets}
+        others = [
+            f"'{name}'"
+            for name, parameter in scene.parameters.items()
+            if name != axis.parameter
+            and (name in points.parameters or echo.get(name) is not None)
+            and places & {target.path for target in parameter.targets}
+        ]
+        problems.append(
+            Problem(
+                axis.name_place,
+                f"'{axis.parameter}' changes nothing here: {', '.join(others)} override it."
+                " Leave those out, or vary one of them.",
+            )
+        )
+    if problems:
+        raise InvalidInput(problems)
+
+
+def _mechanisms(
+    job: MechanismJob, one: _One, scenes: PointScenes, structure: NDArray[np.int64]
+) -> tuple[Mechanism, ...]:
+    """Check each distinct structure and geometry; return the first of each structure."""
+    count = len(scenes.values)
+    shapes = list(geometry_columns(scenes))
+    group = distinct([structure.astype(np.float64), *shapes], count)
+    _, representatives = np.unique(group, return_index=True)
+    _check_geometries(one.points, len(representatives))
+    failed: dict[int, list[Problem]] = {}
+    found: dict[int, Mechanism] = {}
+    for point in sorted(representatives.tolist()):
+        try:
+            mechanism = _mechanism(job, one, point, new=int(structure[point]) not in found)
+            found.setdefault(int(structure[point]), mechanism)
+        except LimitExceeded:
+            raise
+        except InvalidInput as error:
+            failed[point] = list(error.problems)
+            if len(failed) == MOST_NAMED:
+                break
+    if failed:
+        alike = len({tuple(problems) for problems in failed.values()}) == 1
+        varies = bool(shapes) or any(True for _ in structure_columns(scenes))
+        everywhere = not found and alike and (len(failed) > 1 or not varies)
+        problems = next(iter(failed.values()))
+        raise InvalidInput(problems if everywhere else one.told(failed, len(failed)))
+    return tuple(found[index] for index in range(len(found)))
+
+
+def _mechanism(job: MechanismJob, one: _One, point: int, *, new: bool) -> Mechanism:
+    scene = one.scene(point)
+    tree, assembly = check(scene)
+    if assembly.freedom_with_play == 0:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene",
+                    "No joint has clearance and the drivers leave no freedom, so there is no motion"
+                    " to integrate. Give a joint a positive clearance; a job of kind 'simulate'"
+                    " runs the ideal mechanism.",
+                )
+            ]
+        )
+    if new:
+        check_length(scene, tree, job.formulation)
+    return Mechanism(point, scene, tree, assembly, offered(scene))
+
+
+def _check_geometries(points: Points, count: int) -> None:
+    if count > MOST_GEOMETRIES:
+        raise LimitExceeded(
+            [
+                Problem(
+                    points.axes[0].name_place,
+                    f"The {points.count} points have {count} geometries, each of which is put"
+                    f" together when the job is checked; the limit is {MOST_GEOMETRIES}. Ask for"
+                    " fewer values, or divide them among several jobs.",
+                )
+            ]
+        )

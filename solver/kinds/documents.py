@@ -1,0 +1,82 @@
+"""From a client's document to a parsed job, and from that to the filled-in document."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.suggestions import did_you_mean
+from jointplay.solver.kinds.job import Job, MechanismJob, PresetScene
+from jointplay.solver.kinds.kind import J, Kind
+from jointplay.solver.kinds.mechanism import Echo
+from jointplay.solver.kinds.methods import chosen
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.sentences import schema_problems
+
+
+def kind_of(document: object, kinds: Mapping[str, Kind[Any]]) -> Kind[Any]:
+    """Return the kind that a document names.
+
+    Raises
+    ------
+    InvalidInput
+        It names none.
+    """
+    if not isinstance(document, Mapping):
+        raise InvalidInput([Problem("", "A job is a JSON object with a kind and a scene.")])
+    names = ", ".join(f"'{name}'" for name in kinds)
+    if "kind" not in document:
+        raise InvalidInput([Problem("/kind", f"The field 'kind' is required: one of {names}.")])
+    name = document["kind"]
+    if isinstance(name, str) and name in kinds:
+        return kinds[name]
+    meant = did_you_mean(name, kinds) if isinstance(name, str) else ""
+    sentence = f"'kind' must be one of {names}" + (f"; {meant}" if meant else ".")
+    raise InvalidInput([Problem("/kind", sentence)])
+
+
+def job_of(document: Any, kind: Kind[J]) -> J:
+    """Return the parsed job.
+
+    Raises
+    ------
+    InvalidInput
+        With every field that is missing, unknown or out of its bounds.
+    """
+    model: Any = kind.document
+    try:
+        job: J = model.model_validate(dict(document))
+    except ValidationError as error:
+        raise InvalidInput(schema_problems(error, model)) from None
+    return job
+
+
+def filled(
+    job: MechanismJob, scene_document: Mapping[str, Any], echo: Echo, **found: Any
+) -> dict[str, Any]:
+    """Return the job's document with defaults filled in; `found` overrides its fields.
+
+    `scene_document` stands for a scene that was given whole, `echo` for a preset's parameters.
+    """
+    document = job.model_dump(mode="json", by_alias=True, exclude={"scene", "accuracy"})
+    if isinstance(job.scene, PresetScene):
+        document["scene"] = {"preset": job.scene.preset, "parameters": echo}
+    else:
+        document["scene"] = scene_document
+    if isinstance(job, Job):
+        document["method"], document["tolerance"] = chosen(job)
+    return document | found
+
+
+def digest(document: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a filled-in job without its label, and of the preset it names."""
+    spec = {key: value for key, value in document.items() if key != "label"}
+    if "preset" in document["scene"]:
+        spec["preset"] = presets.digest(document["scene"]["preset"])
+    canonical = json.dumps(spec, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(canonical.encode()).hexdigest()

@@ -1,0 +1,65 @@
+"""The kind ``ensemble``: one set of parameters from many perturbed starts."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.kinds.limits import check_count
+from jointplay.solver.kinds.points import Points, one_point
+from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
+from jointplay.solver.runs.starts import Perturbation
+
+
+class EnsembleJob(SectionStudyJob):
+    """The sections of many runs that differ in their start alone; the first is unperturbed."""
+
+    kind: Literal["ensemble"]
+    members: Annotated[
+        int, Field(ge=1, le=10**12, description="number of starts", json_schema_extra={"unit": "1"})
+    ]
+    spread: Annotated[
+        float,
+        Field(
+            ge=0.0,
+            le=1.0,
+            description=(
+                "standard deviation of the start's perturbation: positions relative to the finest"
+                " clearance, velocities to that per period/2pi"
+            ),
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = 1e-3
+    seed: Annotated[
+        int,
+        Field(
+            ge=0,
+            le=2**53 - 1,
+            description="of the perturbations; the same gives the same",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = 0
+
+
+class Ensemble(SectionStudy[EnsembleJob]):
+    """A point for each member."""
+
+    document = EnsembleJob
+    results: ClassVar = ("poincare", "figures", "zarr")
+
+    def points(self, job: EnsembleJob) -> Points:
+        """Return the members."""
+        check_count(job.members, "/members")
+        if job.formulation != "reduced":
+            sentence = (
+                "The starts of an ensemble differ in joint coordinates, which only the"
+                " formulation 'reduced' has; choose that."
+            )
+            raise InvalidInput([Problem("/formulation", sentence)])
+        return one_point(job.members)
+
+    def perturbation(self, job: EnsembleJob) -> Perturbation:
+        """Return how members start apart."""
+        return Perturbation(job.spread, job.seed)

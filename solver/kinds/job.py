@@ -1,0 +1,104 @@
+"""Fields that the documents of all kinds of jobs share."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from jointplay.solver.integrators import AUTO, COARSE, METHODS, STIFF
+from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.runs.admission import STANDARD_TOLERANCE
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.unions import form, has, told_by
+
+Method = Annotated[str, NameIn(METHODS, "auto")]
+Accuracy = Literal["draft", "standard", "fine", "reference"]
+
+ACCURACIES: dict[Accuracy, tuple[str, float]] = {
+    "draft": (COARSE.name, 3e-4),
+    "standard": ("auto", STANDARD_TOLERANCE),
+    "fine": ("auto", 1e-8),
+    "reference": ("auto", 1e-11),
+}
+"""Method and tolerance of the named accuracies, chosen from work-precision measurements."""
+
+ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
+ChannelChoice = Annotated[
+    list[ChannelPattern], Field(min_length=1, max_length=1024, description="names or globs")
+]
+
+
+class PresetScene(Strict):
+    """A preset mechanism with some of its declared parameters set."""
+
+    preset: Annotated[str, Field(max_length=64)]
+    parameters: Annotated[dict[Name, float | str | None], Field(max_length=64)] = {}
+
+
+def _form_of_scene(value: Any) -> str | None:
+    if has(value, "preset"):
+        return "preset"
+    if has(value, "bodies"):
+        return "scene"
+    return "preset" if isinstance(value, dict) else None
+
+
+SceneChoice = Annotated[
+    Annotated[PresetScene, form("preset")] | Annotated[Scene, form("scene")],
+    told_by(_form_of_scene, "'scene' must be a scene document, or an object with a 'preset'"),
+    Field(description="a preset with parameters set, or a whole scene document"),
+]
+
+
+class MechanismJob(Strict):
+    """What every kind of job says: the mechanism, and the form of its equations."""
+
+    kind: str
+    scene: SceneChoice
+    formulation: Annotated[
+        Literal["reduced", "lagrange"],
+        Field(
+            description=(
+                "reduced: joint coordinates over the spanning tree; lagrange: absolute coordinates,"
+                " multipliers and Baumgarte stabilisation"
+            )
+        ),
+    ] = "reduced"
+    label: Annotated[str, Field(max_length=200)] = ""
+
+
+class Job(MechanismJob):
+    """What all kinds say but one that tries every method: how the motion is computed."""
+
+    tolerance: Annotated[
+        float | None,
+        Field(
+            ge=1e-13,
+            le=1e-2,
+            description="local error per step, relative to the scene's own scales",
+            json_schema_extra={"unit": "1"},
+        ),
+    ] = None
+    accuracy: Annotated[
+        Accuracy | None,
+        Field(description="or a named method and tolerance; the default is standard, 1e-6"),
+    ] = None
+    method: Annotated[
+        Method,
+        Field(
+            description=(
+                f"auto: {AUTO.name}, or {COARSE.name} at tolerances too large for it, or"
+                f" {STIFF.name} where the run turns out to be stiff; rodas: implicit; rk4: a fixed"
+                " step, without error control or located onsets"
+            )
+        ),
+    ] = "auto"
+    step: Annotated[
+        float | None,
+        Field(
+            ge=1e-12,
+            le=1e3,
+            description="of the method rk4, its fixed step",
+            json_schema_extra={"unit": "s"},
+        ),
+    ] = None

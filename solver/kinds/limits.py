@@ -1,0 +1,94 @@
+"""How much a job may ask for."""
+
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.runs.study.plan import Study
+
+LONGEST_RUN = 1e6
+"""Longest duration of one run, in periods."""
+LONGEST_IDEAL_RUN = 100.0
+"""The same for an ideal mechanism that never repeats: every pose follows from the one before."""
+MOST_SAMPLES = 100_000_000
+MOST_BYTES = 10_000_000_000
+BYTES_PER_VALUE = 8.0
+DEFAULT_SAMPLES = 2000
+
+MOST_POINTS = 100_000
+"""Of a study."""
+MOST_GEOMETRIES = 2000
+"""Of a study, or structures: each takes about two milliseconds to put together."""
+MOST_PERIODS = 1e8
+"""Of all points of a study together."""
+LONGEST_SETTLING = 2000
+"""Periods after which "settle": "auto" stops waiting."""
+EVENT_PATIENCE = 20
+"""Periods per section that is not taken at a crank angle, before a run ends without it."""
+LONGEST_ACCURACY_STUDY = 100
+"""Periods: each of some fifty runs takes that long, and references at the tightest tolerance."""
+MOST_STATISTICS = 512
+"""Of channels and contacts, a point: each is an array of its own."""
+MOST_SAMPLES_OF_STATISTICS = 1e10
+"""Of all points of a study together: some hours of looking at them."""
+BYTES_PER_POINT = 512.0
+"""Of a study beside sections and peaks: status, statistics, indicators."""
+
+
+def check_count(count: int, pointer: str) -> None:
+    """Refuse more points than a study may have, before any is made.
+
+    Raises
+    ------
+    LimitExceeded
+        With the number.
+    """
+    if count > MOST_POINTS:
+        raise LimitExceeded(
+            [
+                Problem(
+                    pointer,
+                    f"These are {count:.6g} points; the limit of a study is {MOST_POINTS}. Ask for"
+                    " fewer, or divide them among several jobs.",
+                )
+            ]
+        )
+
+
+def stored_bytes(points: int, record: int, observables: int, channels: int, statistics: int) -> int:
+    """Return about how many bytes a study takes; all but the points are counts a point."""
+    numbers = record * (observables + 1) + 4 * channels + statistics
+    return int(points * (BYTES_PER_VALUE * numbers + BYTES_PER_POINT))
+
+
+def check_size(study: Study, run: float, place: str) -> None:
+    """Refuse what takes too long or too much space.
+
+    Parameters
+    ----------
+    run
+        Periods of the longest run of a point.
+    place
+        JSON pointer to where the job says so.
+
+    Raises
+    ------
+    LimitExceeded
+        With the estimate.
+    """
+    points, problems = study.points, []
+    if not run <= LONGEST_RUN:
+        problems.append(
+            f"A point runs for up to {run:.7g} periods; the limit is {LONGEST_RUN:g}. Ask for"
+            " fewer."
+        )
+    elif run * points > MOST_PERIODS:
+        problems.append(
+            f"{points} points of up to {run:.3g} periods are {run * points:.3g} periods; the"
+            f" limit of a study is {MOST_PERIODS:g}. Ask for fewer points or periods."
+        )
+    if study.stored_bytes > MOST_BYTES:
+        problems.append(
+            f"{points} points with {study.record} sections of {len(study.observables)} observables"
+            f" are about {study.stored_bytes / 1e9:.3g} GB; the limit is {MOST_BYTES / 1e9:g} GB."
+            " Record fewer sections, or fewer observables."
+        )
+    if problems:
+        raise LimitExceeded(Problem(place, sentence) for sentence in problems)

@@ -1,0 +1,222 @@
+"""Checks of the mechanism that every kind of job shares: its parameters, references, assembly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cache
+from typing import Any
+
+from pydantic import ValidationError
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.kinds.job import MechanismJob, PresetScene
+from jointplay.solver.mechanics.assembly import ASSEMBLED, Assembly, assemble, shortest_link
+from jointplay.solver.mechanics.tree import Tree, spanning_tree
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.channels import Channel, channels
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import parameter_of, set_parameters
+from jointplay.solver.scene.references import part_problems, reference_problems
+from jointplay.solver.scene.sentences import schema_problems
+
+Echo = dict[str, float | str | None]
+"""The value of every declared parameter; none where the document's own values stand."""
+
+
+Written = tuple[dict[str, Any], Scene, Mapping[str, float | str | None]]
+"""A scene as a job writes it: document, parsed, and the parameters that are given."""
+
+
+def written(job: MechanismJob) -> Written:
+    """Return a job's scene as it is written; whether its parts fit together is not checked.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown preset.
+    """
+    if isinstance(job.scene, PresetScene):
+        return *_preset(job.scene.preset), job.scene.parameters
+    return job.scene.model_dump(mode="json"), job.scene, {}
+
+
+def declared(job: MechanismJob) -> Written:
+    """Return a job's scene as it is written, once its parts fit together.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown preset; parts of the scene that do not fit together.
+    """
+    if not isinstance(job.scene, PresetScene):
+        problems = list(reference_problems(job.scene))
+        if problems:
+            raise InvalidInput(Problem(f"/scene{p.pointer}", p.detail) for p in problems)
+    return written(job)
+
+
+@cache
+def _preset(name: str) -> tuple[dict[str, Any], Scene]:
+    document = presets.document(name)
+    return document, Scene.model_validate(document)
+
+
+def resolve(job: MechanismJob) -> tuple[Scene, dict[str, Any], Echo]:
+    """Return a job's scene with parameters set, its document, and every parameter's value.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown preset or parameter, values that do not fit the scene.
+    """
+    return with_parameters(*declared(job))
+
+
+def scene_of(job: MechanismJob) -> Scene:
+    """Return the scene of a job that was admitted before, with its parameters set."""
+    document, scene, values = written(job)
+    return Scene.model_validate(set_parameters(document, scene, values)[0])
+
+
+def with_parameters(
+    document: Mapping[str, Any], scene: Scene, values: Mapping[str, float | str | None]
+) -> tuple[Scene, dict[str, Any], Echo]:
+    """Return a scene with parameters set, its document, and every parameter's value.
+
+    Raises
+    ------
+    InvalidInput
+        Unknown parameter, values that do not fit the scene; at the parameter where there is one.
+    """
+    filled, echo = set_parameters(document, scene, values)
+    try:
+        found = Scene.model_validate(filled)
+    except ValidationError as error:
+        raise InvalidInput(_located(schema_problems(error, Scene), scene, echo)) from None
+    problems = list(part_problems(found))  # its parameters are those of the scene as written
+    if problems:
+        raise InvalidInput(_located(problems, scene, echo))
+    return found, filled, echo
+
+
+def check(scene: Scene) -> tuple[Tree, Assembly]:
+    """Return a scene's spanning tree and assembly once it can be simulated.
+
+    Raises
+    ------
+    InvalidInput
+        Redundant constraints, an assembly that cannot close, loops that stay closed.
+    """
+    tree, assembly = spanning_tree(scene), assemble(scene)
+    coordinates = 3 * len(scene.bodies)
+    if assembly.constraints > coordinates:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"The mechanism is over-constrained: {assembly.constraints} constraint"
+                    f" equations hold {coordinates} coordinates; remove a joint or a driver.",
+                )
+            ]
+        )
+    if not _closes(scene):
+        raise InvalidInput(_open(scene))
+    held = {branch.parent for branch in tree.branches} | {
+        body
+        for name in tree.play
+        for body in (_body(scene.joints[name].bearing), _body(scene.joints[name].journal))  # type: ignore[union-attr]
+    }
+    adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
+    if adrift:
+        raise InvalidInput(
+            [
+                Problem(
+                    f"/scene/bodies/{body}",
+                    f"No joint holds body '{body}'; join it or drop it.",
+                )
+                for body in adrift
+            ]
+        )
+    if assembly.redundant_with_play or assembly.redundant:
+        count = max(assembly.redundant, assembly.redundant_with_play)
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"The mechanism is over-constrained: {count} of {assembly.constraints}"
+                    " constraint equations are redundant; remove a joint or driver, or give one"
+                    " joint clearance.",
+                )
+            ]
+        )
+    if tree.closing and assembly.freedom_with_play:
+        raise InvalidInput(
+            [
+                Problem(
+                    "/scene/joints",
+                    f"Ideal joints close a loop (at {', '.join(tree.closing)}) that can still move;"
+                    " such scenes are not supported yet. Give a joint of each loop a positive"
+                    " clearance, or drive the mechanism fully with every clearance zero.",
+                )
+            ]
+        )
+    return tree, assembly
+
+
+def _closes(scene: Scene) -> bool:
+    return assemble(scene).residual / shortest_link(scene) <= ASSEMBLED
+
+
+def _open(scene: Scene) -> list[Problem]:
+    """Return why a mechanism does not close: because of where its journals start, or anyway."""
+    centred = scene.start.model_copy(update={"joints": {}})
+    if scene.start.joints and _closes(scene.model_copy(update={"start": centred})):
+        return [
+            Problem(
+                f"/scene/start/joints/{name}/eccentricity",
+                "The mechanism closes with its journals centred, but does not reach this"
+                " eccentricity; give a smaller one, or another direction.",
+            )
+            for name in scene.start.joints
+        ]
+    return [
+        Problem(
+            "/scene/start/angles",
+            f"The mechanism does not close: {assemble(scene).residual:.3g} (m or rad) remain after"
+            " Newton's iteration. Check lengths and driver positions, or give start angles"
+            " nearer to the assembly you mean.",
+        )
+    ]
+
+
+def offered(scene: Scene) -> tuple[Channel, ...]:
+    """Return a scene's channels.
+
+    Raises
+    ------
+    InvalidInput
+        A declared output of an unknown channel.
+    """
+    try:
+        return channels(scene)
+    except InvalidInput as error:
+        raise InvalidInput(
+            Problem(f"/scene{p.pointer}", p.detail) for p in error.problems
+        ) from None
+
+
+def _located(
+    problems: Iterable[Problem], scene: Scene, echo: Mapping[str, float | str | None]
+) -> list[Problem]:
+    """Point at the parameter that put a value there, where there is one."""
+    located = []
+    for problem in problems:
+        name = parameter_of(scene, echo, problem.pointer)
+        pointer = f"/scene/parameters/{name}" if name else f"/scene{problem.pointer}"
+        if Problem(pointer, problem.detail) not in located:
+            located.append(Problem(pointer, problem.detail))
+    return located
+
+
+def _body(reference: str) -> str:
+    return reference.split(".")[0]

@@ -1,0 +1,85 @@
+"""The method and tolerance that a job asks for, if the one can give what the other promises."""
+
+from __future__ import annotations
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.integrators import AUTO, METHODS, method_for
+from jointplay.solver.kinds.job import ACCURACIES, Job
+from jointplay.solver.quantities.roster import quoted
+
+
+def chosen(job: Job) -> tuple[str, float | None]:
+    """Return the method and the tolerance, by number or by name; none with a fixed step.
+
+    Raises
+    ------
+    InvalidInput
+        Fields that exclude each other, or a tolerance too large for the method.
+    """
+    if job.accuracy is not None:
+        for field, given in (("tolerance", job.tolerance), ("method", job.method != "auto")):
+            if given:
+                raise InvalidInput(
+                    [Problem("/accuracy", f"Give a {field} or a named accuracy, not both.")]
+                )
+    if job.method != "auto" and METHODS[job.method].fixed_step:
+        _check_fixed_step(job)
+        return job.method, None
+    if job.step is not None:
+        able = quoted([name for name, each in METHODS.items() if each.fixed_step])
+        sentence = f"Only the method {able} has a fixed step; drop it, or choose {able}."
+        raise InvalidInput([Problem("/step", sentence)])
+    method, tolerance = ACCURACIES[job.accuracy or "standard"]
+    method = method if job.accuracy else job.method
+    tolerance = job.tolerance if job.tolerance is not None else tolerance
+    limit = METHODS[method_for(method, tolerance)].largest_tolerance
+    if tolerance > limit:
+        raise InvalidInput([Problem("/tolerance", _too_large(method, tolerance, limit))])
+    return method, tolerance
+
+
+def check_study(job: Job, *, tangents: bool) -> None:
+    """Refuse methods that studies do not offer.
+
+    Raises
+    ------
+    InvalidInput
+        At the field that asks for it.
+    """
+    method, tolerance = chosen(job)
+    name = method_for(method, tolerance)
+    where = "/accuracy" if job.accuracy else "/method" if job.method != "auto" else "/tolerance"
+    if METHODS[name].fixed_step:
+        sentence = f"A study needs error control and located onsets, which '{name}' has not."
+    elif tangents and not METHODS[name].carries_tangents:
+        able = quoted([name for name, each in METHODS.items() if each.carries_tangents])
+        sentence = (
+            f"Lyapunov exponents are computed along steps of {able}, not of '{name}'; choose that"
+            f" or 'auto' and a tolerance of {AUTO.largest_tolerance:g} at most, or drop the"
+            " indicator 'lyapunov'."
+        )
+    else:
+        return
+    raise InvalidInput([Problem(where, sentence)])
+
+
+def _check_fixed_step(job: Job) -> None:
+    if job.step is None:
+        sentence = f"The method '{job.method}' needs its fixed 'step', s."
+        raise InvalidInput([Problem("/step", sentence)])
+    if job.tolerance is not None:
+        sentence = (
+            f"The method '{job.method}' does not control its error; drop the tolerance, or choose"
+            " another method."
+        )
+        raise InvalidInput([Problem("/tolerance", sentence)])
+
+
+def _too_large(method: str, tolerance: float, limit: float) -> str:
+    able = [name for name, each in METHODS.items() if tolerance <= each.largest_tolerance]
+    remedy = f", or choose {quoted(able)}" if able else ""
+    who = "any method" if method == "auto" else f"'{method}'"
+    return (
+        f"At tolerance {tolerance:g} the energy that {who} loses track of is a large part of what"
+        f" contacts and friction take; ask for {limit:g} at most{remedy}."
+    )

@@ -1,0 +1,90 @@
+"""The unit of time of each point of a study: the period of its drivers."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.runs.study.fields import distinct, geometry_columns
+from jointplay.solver.runs.study.scenes import PointScenes
+from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.periods import characteristic_time, common_period
+
+Floats = NDArray[np.float64]
+_SPEED = re.compile(r"/drivers/[^/]+/speed")
+_GRAVITY = re.compile(r"/gravity/\d")
+
+
+@dataclass(frozen=True, eq=False)
+class Periods:
+    """The time units of all points.
+
+    Attributes
+    ----------
+    seconds : (points,) float
+        The least common period of the drivers, s; where there is none, the scene's time scale.
+    notes : dict
+        By point without one, first of its kind: why there is none.
+    first_speed : (points,) float
+        Of the first driver that turns, rad/s, positive; 1 where none does.
+    """
+
+    seconds: Floats
+    notes: dict[int, str]
+    first_speed: Floats
+
+
+def periods(scenes: PointScenes) -> Periods:
+    """Return the time units of all points."""
+    count = len(scenes.values)
+    driven = [scenes.column(leaf) for leaf in scenes.leaves if _SPEED.fullmatch(leaf.path)]
+    group = distinct(driven, count)
+    seconds, speed = np.empty(count), np.empty(count)
+    notes: dict[int, str] = {}
+    lacking = np.zeros(count, np.bool_)
+    firsts = np.unique(group, return_index=True)[1].tolist()
+    alike = _members(group)
+    for index, point in enumerate(firsts):
+        scene = scenes.scene(point)
+        period = common_period(scene)
+        speed[alike[index]] = first_speed(scene)
+        seconds[alike[index]] = period.seconds or 0.0
+        if period.seconds is None:
+            lacking[alike[index]] = True
+            if period.note not in notes.values():
+                notes[point] = period.note
+    if notes:
+        weights = [scenes.column(leaf) for leaf in scenes.leaves if _GRAVITY.fullmatch(leaf.path)]
+        group = distinct([*driven, *weights, *geometry_columns(scenes)], count)
+        for same in _members(group):
+            if lacking[same[0]]:
+                scene = scenes.scene(int(same[0]))
+                seconds[same] = characteristic_time(scene, shortest_link(scene))
+    return Periods(seconds, notes, speed)
+
+
+def _members(group: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Return the points of each group, in order."""
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
+
+
+def first_speed(scene: Scene) -> float:
+    """Return the speed of the first driver that turns, rad/s, positive; 1 if none does."""
+    turning = (
+        abs(driver.speed)
+        for driver in scene.drivers.values()
+        if driver.speed != 0.0 and isinstance(scene.joints[driver.joint], Revolute)
+    )
+    return next(turning, 1.0)
+
+
+def crank_offsets(found: Periods, crank_angle: float) -> Floats:
+    """Return (points,) s: when the first driver has turned that far; see `section_offset`."""
+    if not crank_angle:
+        return np.zeros(len(found.seconds))
+    return np.minimum(crank_angle / found.first_speed, found.seconds)

@@ -1,0 +1,179 @@
+"""The kinds whose points are looked at section by section: document, admission and plan."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Annotated, Any, Literal, TypeVar, get_args
+
+import numpy as np
+from pydantic import Field
+
+from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.checked_points import check_points
+from jointplay.solver.kinds.job import ChannelChoice, Job
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.limits import EVENT_PATIENCE, LONGEST_SETTLING, check_size
+from jointplay.solver.kinds.methods import check_study
+from jointplay.solver.kinds.observables import chosen, coordinate_channels
+from jointplay.solver.kinds.periods import Periods, crank_offsets, periods
+from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
+from jointplay.solver.kinds.points import Points
+from jointplay.solver.kinds.section import CrankSection, Section
+from jointplay.solver.kinds.section_checks import check_section
+from jointplay.solver.kinds.studies import make_study
+from jointplay.solver.runs.starts import Perturbation
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.scene.unions import form, told_by
+
+Indicator = Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum"]
+INDICATORS: tuple[Indicator, ...] = get_args(Indicator)
+
+PERIODS = {"unit": "periods"}
+
+
+def _form_of_settle(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "auto" if value == "auto" else None
+    return "periods"
+
+
+Settle = Annotated[
+    Annotated[int, Field(ge=0, le=10**12), form("periods")]
+    | Annotated[Literal["auto"], form("auto")],
+    told_by(_form_of_settle, "'settle' must be a whole number of periods, or 'auto'"),
+    Field(
+        description=(
+            "periods before the first recorded section; auto: until the statistics of the sections"
+            " have settled"
+        ),
+        json_schema_extra=PERIODS,
+    ),
+]
+
+
+def _form_of_indicators(value: Any) -> str | None:
+    if isinstance(value, str):
+        return "all" if value == "all" else None
+    return "list"
+
+
+IndicatorChoice = Annotated[
+    Annotated[
+        list[Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum", "all"]],
+        Field(max_length=16),
+        form("list"),
+    ]
+    | Annotated[Literal["all"], form("all")],
+    told_by(_form_of_indicators, "'indicators' must be a list of indicators, or 'all'"),
+    Field(description="what tells regular from chaotic motion, each with its uncertainty"),
+]
+
+
+class SectionStudyJob(Job):
+    """A study of Poincare sections: after settling, `record` sections of each point are kept."""
+
+    settle: Settle = 100
+    record: Annotated[
+        int,
+        Field(ge=1, le=10**12, description="sections kept per point", json_schema_extra=PERIODS),
+    ] = 50
+    section: Section = CrankSection()
+    observables: Annotated[
+        ChannelChoice | None,
+        Field(
+            description=(
+                "channels kept at sections, names or globs; default: the generalised coordinates"
+                " and the eccentricities, with their rates"
+            )
+        ),
+    ] = None
+    indicators: IndicatorChoice = []
+
+
+J = TypeVar("J", bound=SectionStudyJob)
+
+
+class SectionStudy(Kind[J]):
+    """What `bifurcation`, `poincare` and `ensemble` share; a member says which points it has."""
+
+    @abstractmethod
+    def points(self, job: J) -> Points:
+        """Return the points of a job.
+
+        Raises
+        ------
+        InvalidInput
+            They cannot be had.
+        LimitExceeded
+            They are too many.
+        """
+
+    def continuation(self, job: J) -> tuple[str, int]:
+        """Return in which direction a point starts from its neighbour, and how many chains do."""
+        return "none", 1
+
+    def perturbation(self, job: J) -> Perturbation | None:
+        """Return how points start apart that differ in nothing else."""
+        return None
+
+    def admit(self, job: J) -> Study:
+        """Check and fill in; see `Kind.admit`."""
+        indicators = indicators_of(job)
+        check_study(job, tangents="lyapunov" in indicators)
+        checked = check_points(job, self.points(job))
+        default = coordinate_channels(checked)
+        observables = chosen(checked, job.observables, default, "/observables")
+        units = periods(checked.scenes)
+        check_section(job.section, checked, units)
+        filled = documents.filled(
+            job,
+            checked.document,
+            checked.echo,
+            observables=[channel.name for channel in observables],
+            indicators=list(indicators),
+        )
+        study = self._study(job, filled, checked, units)
+        settle, recording = _most_periods(job)
+        place = "/settle" if isinstance(job.settle, int) and settle > recording else "/record"
+        check_size(study, settle + recording, place)
+        return study
+
+    def plan(self, job: J, filled: dict[str, Any]) -> Study:
+        """Return what `admit` returned; see `Kind.plan`."""
+        placed = place_points(job, self.points(job))
+        return self._study(job, filled, placed, periods(placed.scenes))
+
+    def _study(self, job: J, filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+        settle, recording = _most_periods(job)
+        offset = np.zeros(placed.points.count)
+        if isinstance(job.section, CrankSection):
+            offset = crank_offsets(units, job.section.crank_angle)
+        return make_study(
+            filled,
+            placed,
+            continuation=self.continuation(job),
+            observables=placed.channels(filled["observables"]),
+            record=job.record,
+            indicators=tuple(filled["indicators"]),
+            period=units.seconds,
+            offset=offset,
+            settle=settle * units.seconds,
+            duration=(settle + recording) * units.seconds + offset,
+            perturbation=self.perturbation(job),
+        )
+
+
+def _most_periods(job: SectionStudyJob) -> tuple[int, int]:
+    """Return the most periods that settling takes, and recording after it."""
+    settle = LONGEST_SETTLING if job.settle == "auto" else job.settle
+    turning = isinstance(job.section, CrankSection)
+    return settle, job.record if turning else EVENT_PATIENCE * job.record
+
+
+def indicators_of(job: SectionStudyJob) -> tuple[str, ...]:
+    """Return the indicators that a job asks for, in their own order."""
+    return tuple(
+        name
+        for name in INDICATORS
+        if job.indicators == "all" or "all" in job.indicators or name in job.indicators
+    )

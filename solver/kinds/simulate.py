@@ -1,0 +1,168 @@
+"""The kind ``simulate``: one trajectory from the scene's start."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.job import ChannelChoice, Job
+from jointplay.solver.kinds.kind import Kind
+from jointplay.solver.kinds.limits import (
+    BYTES_PER_VALUE,
+    DEFAULT_SAMPLES,
+    LONGEST_IDEAL_RUN,
+    LONGEST_RUN,
+    MOST_BYTES,
+    MOST_SAMPLES,
+)
+from jointplay.solver.kinds.mechanism import check, offered, resolve, scene_of
+from jointplay.solver.kinds.methods import chosen
+from jointplay.solver.kinds.section import CrankSection
+from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.scene.channels import select
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import (
+    Period,
+    characteristic_time,
+    common_period,
+    section_offset,
+)
+from jointplay.solver.scene.references import has_play
+
+
+class SimulateJob(Job):
+    """One trajectory from the scene's start."""
+
+    kind: Literal["simulate"]
+    duration: Annotated[
+        float,
+        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
+    ]
+    output_step: Annotated[
+        float | None,
+        Field(
+            ge=1e-15,
+            description="time between samples; default duration/2000",
+            json_schema_extra={"unit": "s"},
+        ),
+    ] = None
+    channels: ChannelChoice = ["*"]
+    section: CrankSection = CrankSection()
+    certificate: Annotated[
+        bool,
+        Field(description="say how far the result can be believed; does not change its bits"),
+    ] = True
+
+
+class Simulate(Kind[SimulateJob]):
+    """One trajectory, with its peaks, sections, impacts and certificate."""
+
+    document = SimulateJob
+    results: ClassVar = (
+        *("history", "peaks", "poincare", "impacts", "statistics", "certificate"),
+        *("figures", "zarr"),
+    )
+
+    def admit(self, job: SimulateJob) -> Admission:
+        """Check and fill in; see `Kind.admit`."""
+        scene, scene_document, echo = resolve(job)
+        tree, assembly = check(scene)
+        moves = assembly.freedom_with_play > 0
+        if moves:
+            check_length(scene, tree, job.formulation)
+        selected = select(offered(scene), list(job.channels), "/channels")
+        chosen(job)
+        filled = documents.filled(
+            job,
+            scene_document,
+            echo,
+            output_step=job.output_step or job.duration / DEFAULT_SAMPLES,
+            channels=[channel.name for channel in selected],
+        )
+        admission = _admission(job, filled, scene)
+        _check_limits(admission, job.duration, endless=moves or admission.period is not None)
+        return admission
+
+    def plan(self, job: SimulateJob, filled: dict[str, Any]) -> Admission:
+        """Return what `admit` returned; see `Kind.plan`."""
+        return _admission(job, filled, scene_of(job))
+
+
+def _admission(job: SimulateJob, filled: dict[str, Any], scene: Scene) -> Admission:
+    channels = {channel.name: channel for channel in offered(scene)}
+    selected = tuple(channels[name] for name in filled["channels"])
+    period = common_period(scene)
+    samples = sample_count(job.duration, filled["output_step"])
+    sections = section_count(scene, period, job)
+    return Admission(
+        job=filled,
+        scene=scene,
+        digest=documents.digest(filled),
+        channels=selected,
+        samples=samples,
+        sections=sections,
+        period=period.seconds,
+        section_note=period.note,
+        joints=tuple(name for name, joint in scene.joints.items() if has_play(joint)),
+        stored_bytes=int(BYTES_PER_VALUE * (len(selected) + 1) * (samples + sections)),
+    )
+
+
+def sample_count(duration: float, output_step: float) -> int:
+    """Return how many samples k * output_step from 0 there are before the duration, and it."""
+    whole = math.floor(duration / output_step * (1.0 - 1e-12))
+    if whole > 0 and duration - whole * output_step <= 1e-9 * output_step:
+        whole -= 1
+    elif duration - whole * output_step > output_step * (1.0 + 1e-9):
+        whole += 1
+    return whole + 2
+
+
+def section_count(scene: Scene, period: Period, job: SimulateJob) -> int:
+    """Return the number of sections at or before the duration, the start included."""
+    if period.seconds is None:
+        return 0
+    first = section_offset(scene, period.seconds, job.section.crank_angle)
+    if first > job.duration:
+        return 0
+    return math.floor((job.duration - first) / period.seconds * (1.0 + 1e-12)) + 1
+
+
+def _check_limits(admission: Admission, duration: float, *, endless: bool) -> None:
+    """Refuse what is too long or too large.
+
+    `endless` : whether the end of a run need not be reached pose by pose.
+    """
+    scene, channels = admission.scene, len(admission.channels)
+    longest = LONGEST_RUN if endless else LONGEST_IDEAL_RUN
+    unit = admission.period or characteristic_time(scene, shortest_link(scene))
+    problems = []
+    if duration > longest * unit:
+        problems.append(
+            Problem(
+                "/duration",
+                f"{duration:g} s are {duration / unit:.3g} periods of {unit:.3g} s; the"
+                f" limit is {longest:g} periods ({longest * unit:.3g} s).",
+            )
+        )
+    step = f"a larger output_step than {admission.job['output_step']:g} s"
+    for pointer, what, count, remedy in (
+        ("/output_step", "samples", admission.samples, step),
+        ("/duration", "Poincare sections", admission.sections, "a shorter duration"),
+    ):
+        stored = BYTES_PER_VALUE * (channels + 1) * count
+        if count > MOST_SAMPLES or stored > MOST_BYTES:
+            sentence = (
+                f"{count:.3g} {what} of {channels} channels are about {stored / 1e9:.3g} GB;"
+                f" the limits are {MOST_SAMPLES:g} and {MOST_BYTES / 1e9:g} GB. Choose {remedy},"
+                " or fewer channels."
+            )
+            problems.append(Problem(pointer, sentence))
+    if problems:
+        raise LimitExceeded(problems)

@@ -1,0 +1,93 @@
+"""Whether the statistics that a sweep asks for can be had, and how many they are."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from typing import Literal
+
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import OF_CONTACTS
+
+StatisticName = Literal[
+    "mean",
+    "root_mean_square",
+    "standard_deviation",
+    "mean_absolute",
+    "quantile_05",
+    "median",
+    "quantile_95",
+    "impacts",
+    "largest_impact_force",
+    "contact_share",
+]
+
+
+def statistic_count(names: Sequence[str], channels: int, joints: int) -> int:
+    """Return how many numbers a point has of the statistics of channels and joints."""
+    of_contacts = sum(name in OF_CONTACTS for name in names)
+    return (len(names) - of_contacts) * channels + of_contacts * joints
+
+
+def check_statistics(names: Sequence[str], joints: Collection[str], channels: int) -> None:
+    """Refuse statistics that cannot be had of the joints with clearance and so many channels.
+
+    Raises
+    ------
+    InvalidInput
+        One is asked for twice, or of joints with clearance where there are none.
+    LimitExceeded
+        They are too many.
+    """
+    if problems := list(_problems(names, joints)):
+        raise InvalidInput(problems)
+    count = statistic_count(names, channels, len(joints))
+    if count > MOST_STATISTICS:
+        of_contacts = sum(name in OF_CONTACTS for name in names)
+        sentence = (
+            f"{len(names) - of_contacts} statistics of {channels} channels and {of_contacts} of"
+            f" {len(joints)} joints are {count} numbers a point; the limit is {MOST_STATISTICS}."
+            " Choose fewer statistics, or fewer 'channels'."
+        )
+        raise LimitExceeded([Problem("/statistics", sentence)])
+
+
+def check_samples(study: Study, per_period: int) -> None:
+    """Refuse samples that are too few or too many.
+
+    Raises
+    ------
+    InvalidInput
+        A point has less than two.
+    LimitExceeded
+        With the number.
+    """
+    left = study.duration - study.settle
+    samples = left / study.period * per_period
+    place = "/samples_per_period"
+    if samples.min() < 2.0:
+        point = int(samples.argmin())
+        least = 2.0 * study.period[point] / per_period
+        sentence = (
+            f"At point {point} only {left[point]:g} s are left after settling,"
+            f" less than two samples; statistics need {least:.3g} s, or more samples a period."
+        )
+        raise InvalidInput([Problem(place, sentence)])
+    total = float(samples.sum())
+    if total > MOST_SAMPLES_OF_STATISTICS:
+        sentence = (
+            f"{per_period} samples a period are {total:.3g} samples of all points; the"
+            f" limit is {MOST_SAMPLES_OF_STATISTICS:g}. Ask for fewer, or for fewer periods."
+        )
+        raise LimitExceeded([Problem(place, sentence)])
+
+
+def _problems(names: Sequence[str], joints: Collection[str]) -> Iterator[Problem]:
+    for index, name in enumerate(names):
+        place = f"/statistics/{index}"
+        if name in names[:index]:
+            yield Problem(place, f"'{name}' is listed twice; list it once.")
+        if name in OF_CONTACTS and not joints:
+            sentence = f"'{name}' is of joints with clearance, and this scene has none."
+            yield Problem(place, sentence)

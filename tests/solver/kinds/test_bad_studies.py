@@ -1,0 +1,389 @@
+"""Studies that are refused before anything is queued: at which field, and what would be right."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, get_args
+
+import pytest
+
+from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.statistics import StatisticName
+from tests.solver.study.jobs_of_studies import (
+    ACCURACY_STUDY,
+    BIFURCATION,
+    ENSEMBLE,
+    POINCARE,
+    SWEEP,
+)
+
+
+def press(**parameters: Any) -> dict[str, Any]:
+    return {"preset": "seven-bar-press", "parameters": parameters}
+
+
+def values(**changes: Any) -> dict[str, Any]:
+    return {"from": 1e-4, "to": 1e-3, "count": 10, **changes}
+
+
+PENDULUM = {"preset": "pendulum"}
+B, S, P, E, A = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE, ACCURACY_STUDY
+EVERY_STATISTIC = list(get_args(StatisticName))
+LISTED = {**SWEEP, "grid": None}
+WITHOUT_UNIT = {key: value for key, value in SWEEP.items() if key != "periods"}
+
+BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
+    "unknown kind": (B, {"kind": "bifurcaton"}, "/kind", "did you mean 'bifurcation'"),
+    "kind of another type": (B, {"kind": ["sweep"]}, "/kind", "must be one of"),
+    "field of another kind": (B, {"members": 3}, "/members", "There is no field"),
+    "unknown parameter": (B, {"parameter": "clearence"}, "/parameter", "'clearance'"),
+    "parameter that is a word": (B, {"parameter": "slip_velocity"}, "/parameter", "as-published"),
+    "parameter that others override": (
+        B,
+        {"scene": press(clearance_A=1e-4, clearance_B=1e-4)},
+        "/parameter",
+        "'clearance_A', 'clearance_B' override it",
+    ),
+    "value below the range": (B, {"values": [1e-4, -1e-4]}, "/values/1", "Value 1 of 'clearance'"),
+    "value above the range": (B, {"values": [1e-4, 1.0, 1e-4]}, "/values/1", "between 0 and 0.05"),
+    "value not finite": (B, {"values": [1e-4, math.inf]}, "/values/1", "finite"),
+    "value not a number": (B, {"values": [1e-4, "big"]}, "/values/1", "number"),
+    "value true": (B, {"values": [1e-4, True]}, "/values/1", "number"),
+    "no values": (B, {"values": []}, "/values", "at least 1"),
+    "values of another form": (B, {"values": 1e-4}, "/values", "'from', 'to' and 'count'"),
+    "end of a range outside": (B, {"values": values(to=1.0)}, "/values/to", "Value 9 of"),
+    "start of a range outside": (
+        B,
+        {"values": values(**{"from": -1.0})},
+        "/values/from",
+        "Value 0",
+    ),
+    "count 0": (B, {"values": values(count=0)}, "/values/count", "at least 1"),
+    "count negative": (B, {"values": values(count=-5)}, "/values/count", "at least 1"),
+    "count not whole": (B, {"values": values(count=2.5)}, "/values/count", "whole number"),
+    "one value from here to there": (B, {"values": values(count=1)}, "/values/count", "2 at least"),
+    "a range that stands still": (B, {"values": values(to=1e-4)}, "/values/to", "the same"),
+    "ratios from zero": (
+        B,
+        {"values": values(spacing="log", **{"from": 0.0})},
+        "/values/spacing",
+        "above zero",
+    ),
+    "unknown spacing": (B, {"values": values(spacing="cubic")}, "/values/spacing", "'log'"),
+    "clearance of the bearing": (
+        B,
+        {"values": [1e-4, 6e-3]},
+        "/values/1",
+        "Value 1 (clearance = 0.006 m): A radial clearance of 0.006 m leaves no journal",
+    ),
+    "static above dynamic velocity": (
+        B,
+        {"parameter": "dynamic_velocity", "values": [1e-3, 1e-5]},
+        "/values/1",
+        "static limit velocity",
+    ),
+    "exponent without stiffness": (
+        B,
+        {"scene": press(), "parameter": "exponent", "values": [1.5, 1.3]},
+        "/values/1",
+        "stiffness",
+    ),
+    "clearance zero": (B, {"values": [1e-4, 0.0]}, "/values/1", "'simulate' runs the ideal"),
+    "clearance zero alone": (B, {"values": [0.0]}, "/values/0", "no motion to integrate"),
+    "clearance zero in a sweep": (
+        S,
+        {"grid": {"clearance": [0.0, 1e-4]}},
+        "/grid/clearance/0",
+        "no motion to integrate",
+    ),
+    "one clearance of two": (
+        B,
+        {"parameter": "clearance_A", "values": [1e-4, 0.0]},
+        "/values/1",
+        "close a loop",
+    ),
+    "no freedom at all": (P, {"scene": press(clearance=0.0)}, "/scene", "no motion to integrate"),
+    "a fixed parameter that is wrong": (
+        B,
+        {"scene": press(friction=-1.0)},
+        "/scene/parameters/friction",
+        "between 0 and 10",
+    ),
+    "a scene that is wrong everywhere": (
+        B,
+        {"scene": press(exponent=1.2)},
+        "/scene/parameters/exponent",
+        "stiffness",
+    ),
+    "unknown preset": (P, {"scene": {"preset": "press"}}, "/scene/preset", "seven-bar-press"),
+    "no period": (P, {"scene": PENDULUM}, "/section", "No driver turns"),
+    "no period at one value": (
+        B,
+        {"parameter": "speed", "values": [1.0, 0.0]},
+        "/values/1",
+        "No driver turns",
+    ),
+    "irrational ratio of speeds": (
+        P,
+        {"scene": press(speed=1.0, speed_crank4=math.sqrt(2.0))},
+        "/section",
+        "ratio of whole numbers",
+    ),
+    "irrational ratio at one value": (
+        B,
+        {"parameter": "speed_crank4", "values": [-math.pi, 3.0]},
+        "/values/1",
+        "ratio of whole numbers",
+    ),
+    "a section of no form": (P, {"section": 3.0}, "/section", "'crank_angle'"),
+    "crank angle beyond a turn": (
+        P,
+        {"section": {"crank_angle": 7.0}},
+        "/section/crank_angle",
+        "less than 6.28319 rad",
+    ),
+    "two sections at once": (
+        P,
+        {"section": {"onset": "A", "crank_angle": 0.0}},
+        "/section/crank_angle",
+        "There is no field",
+    ),
+    "onset at no joint": (P, {"section": {"onset": "Q"}}, "/section/onset", "no joint 'Q'"),
+    "onset at an ideal joint": (
+        P,
+        {"section": {"onset": "C2"}},
+        "/section/onset",
+        "joints with clearance are: A, B",
+    ),
+    "crossing of no channel": (
+        P,
+        {"section": {"channel": "slider7.z", "value": 0.0}},
+        "/section/channel",
+        "did you mean 'slider7.",
+    ),
+    "crossing without a value": (
+        P,
+        {"section": {"channel": "slider7.x"}},
+        "/section/value",
+        "required",
+    ),
+    "unknown direction": (
+        P,
+        {"section": {"channel": "slider7.x", "value": 1.7, "direction": "left"}},
+        "/section/direction",
+        "'up' or 'down'",
+    ),
+    "settle negative": (P, {"settle": -1}, "/settle", "at least 0"),
+    "settle a word": (P, {"settle": "long"}, "/settle", "'auto'"),
+    "settle not whole": (P, {"settle": 10.5}, "/settle", "whole number"),
+    "settle true": (P, {"settle": True}, "/settle", "whole number"),
+    "record nothing": (P, {"record": 0}, "/record", "at least 1"),
+    "unknown observable": (P, {"observables": ["slider7.X"]}, "/observables/0", "'slider7.x'"),
+    "no observable": (P, {"observables": []}, "/observables", "at least 1"),
+    "unknown indicator": (P, {"indicators": ["chaos"]}, "/indicators/0", "'lyapunov'"),
+    "indicators a word": (P, {"indicators": "some"}, "/indicators", "'all'"),
+    "unknown continuation": (B, {"continuation": "up"}, "/continuation", "'forward'"),
+    "no chains": (B, {"chains": 0}, "/chains", "at least 1"),
+    "tolerance and accuracy": (
+        P,
+        {"tolerance": 1e-6, "accuracy": "standard"},
+        "/accuracy",
+        "not both",
+    ),
+    "exponents along steps of another method": (
+        P,
+        {"method": "dormand-prince-853", "indicators": ["lyapunov"]},
+        "/method",
+        "'tsitouras'",
+    ),
+    "exponents of a draft": (
+        P,
+        {"accuracy": "draft", "indicators": "all"},
+        "/accuracy",
+        "'tsitouras'",
+    ),
+    "a fixed step": (P, {"method": "rk4", "step": 1e-4}, "/method", "error control"),
+    "no member": (E, {"members": 0}, "/members", "at least 1"),
+    "negative spread": (E, {"spread": -1.0}, "/spread", "at least 0"),
+    "negative seed": (E, {"seed": -1}, "/seed", "at least 0"),
+    "an ensemble in absolute coordinates": (
+        E,
+        {"formulation": "lagrange"},
+        "/formulation",
+        "'reduced'",
+    ),
+    "grid and points": (S, {"points": [{"clearance": 1e-4}]}, "/grid", "not both"),
+    "neither grid nor points": (LISTED, {}, "/grid", "one of 'grid' and 'points'"),
+    "duration and periods": (S, {"duration": 1.0}, "/duration", "not both"),
+    "neither duration nor periods": (WITHOUT_UNIT, {}, "/duration", "'periods'"),
+    "unknown statistic": (S, {"statistics": ["avarage"]}, "/statistics/0", "'median'"),
+    "statistics by a word": (S, {"statistics": "mean"}, "/statistics", "must be a list"),
+    "statistic listed twice": (
+        S,
+        {"statistics": ["mean", "median", "mean"]},
+        "/statistics/2",
+        "'mean' is listed twice",
+    ),
+    "contacts without clearance": (
+        {"kind": "sweep", "scene": PENDULUM, "points": [{"angle": 1.0}], "duration": 1.0},
+        {"statistics": ["mean", "contact_share"]},
+        "/statistics/1",
+        "this scene has none",
+    ),
+    "statistics of another kind of study": (B, {"statistics": ["mean"]}, "/statistics", "no field"),
+    "few samples a period": (
+        S,
+        {"samples_per_period": 8},
+        "/samples_per_period",
+        "at least 16",
+    ),
+    "less than two samples": (
+        S,
+        {"statistics": ["mean"], "settle": 1.9999},
+        "/samples_per_period",
+        "less than two samples",
+    ),
+    "settling for all of it": (S, {"settle": 2.0}, "/settle", "must be shorter"),
+    "periods without a period": (
+        S,
+        {"scene": PENDULUM, "grid": {"angle": [0.1, 0.2]}},
+        "/periods",
+        "Give a 'duration'",
+    ),
+    "unknown parameter of a grid": (S, {"grid": {"frict": [0.1]}}, "/grid/frict", "'friction'"),
+    "value of a grid outside": (
+        S,
+        {"grid": {"clearance": [1e-4], "friction": [0.1, 20.0]}},
+        "/grid/friction/1",
+        "between 0 and 10",
+    ),
+    "grid of nothing": (S, {"grid": {}}, "/grid", "at least 1"),
+    "empty axis of a grid": (S, {"grid": {"friction": []}}, "/grid/friction", "at least 1"),
+    "points without a parameter": (LISTED, {"points": [{}]}, "/points/0", "at least 1"),
+    "points of different parameters": (
+        LISTED,
+        {"points": [{"friction": 0.1}, {"clearance": 1e-4}]},
+        "/points/1",
+        "lacks 'friction' and has 'clearance' besides",
+    ),
+    "unknown parameter of points": (
+        LISTED,
+        {"points": [{"frict": 0.1}]},
+        "/points/0/frict",
+        "'friction'",
+    ),
+    "value of a point outside": (
+        LISTED,
+        {"points": [{"friction": 0.1, "clearance": 1e-4}, {"friction": 11.0, "clearance": 1e-4}]},
+        "/points/1/friction",
+        "Value 1 of 'friction' is 11",
+    ),
+    "values of a point that do not fit": (
+        LISTED,
+        {
+            "points": [
+                {"bearing_radius": 5e-3, "clearance": 1e-4},
+                {"bearing_radius": 1e-4, "clearance": 2e-4},
+            ]
+        },
+        "/points/1/clearance",
+        "Point 1 (bearing_radius = 0.0001 m, clearance = 0.0002 m): ",
+    ),
+    "one tolerance of all": (A, {"tolerance": 1e-6}, "/tolerance", "did you mean 'tolerances'"),
+    "no tolerances": (A, {"tolerances": []}, "/tolerances", "at least 1"),
+    "tolerance beyond the reference": (A, {"tolerances": [1e-13]}, "/tolerances/0", "at least"),
+    "tolerance of no use": (A, {"tolerances": [1e-4, 0.1]}, "/tolerances/1", "at most 0.01"),
+    "unknown method": (A, {"methods": ["rk45"]}, "/methods/0", "'rk4'"),
+    "method of no name": (A, {"methods": ["auto"]}, "/methods/0", "'tsitouras'"),
+    "no methods": (A, {"methods": []}, "/methods", "at least 1"),
+    "no duration": (A, {"duration": 0.0}, "/duration", "at least 1e-09"),
+    "nothing to integrate": (A, {"scene": press(clearance=0.0)}, "/scene", "positive clearance"),
+    "unknown channel of a sweep": (S, {"channels": ["displacment"]}, "/channels/0", "displacement"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_a_bad_study_is_refused_at_its_field(case: str) -> None:
+    job, changes, pointer, words = BAD[case]
+    with pytest.raises(InvalidInput) as refused:
+        admit({**job, **changes})
+    assert not isinstance(refused.value, LimitExceeded)
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert pointer in found, found
+    assert words in found[pointer], found[pointer]
+    for problem in refused.value.problems:
+        assert problem.detail.endswith((".", "?")), problem
+        assert "\n" not in problem.detail
+
+
+TOO_LARGE: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
+    "points of a range": (B, {"values": values(count=10**9)}, "/values", "1e+09 points"),
+    "points in both directions": (
+        B,
+        {"values": values(count=60_000), "continuation": "both"},
+        "/values",
+        "120000 points",
+    ),
+    "points of a grid": (
+        S,
+        {"grid": {name: values(count=10**6) for name in ("clearance", "friction", "restitution")}},
+        "/grid",
+        "1e+18 points",
+    ),
+    "members": (E, {"members": 10**9}, "/members", "the limit of a study is 100000"),
+    "periods of a point": (P, {"settle": 10**7}, "/settle", "1.000005e+07 periods"),
+    "sections of a point": (P, {"record": 2 * 10**6}, "/record", "the limit is 1e+06"),
+    "periods of all points": (
+        B,
+        {"values": values(count=10_000), "settle": 20_000},
+        "/settle",
+        "2e+08 periods",
+    ),
+    "bytes of all sections": (E, {"members": 1000, "record": 90_000}, "/record", "12.2 GB"),
+    "duration of a point": (
+        {**WITHOUT_UNIT, "duration": 1e7},
+        {},
+        "/duration",
+        "5000000 periods",
+    ),
+    "statistics of every channel": (
+        S,
+        {"statistics": EVERY_STATISTIC, "channels": ["*"]},
+        "/statistics",
+        "the limit is 512",
+    ),
+    "samples of statistics": (
+        S,
+        {"statistics": ["mean"], "periods": 9e5, "samples_per_period": 4096},
+        "/samples_per_period",
+        "the limit is 1e+10",
+    ),
+    "duration of an accuracy-study": (A, {"duration": 201.0}, "/duration", "limit of an"),
+    "periods of a sweep": (S, {"periods": 1e7}, "/periods", "the limit is 1e+06"),
+}
+
+
+@pytest.mark.parametrize("case", TOO_LARGE)
+def test_a_study_over_a_limit_is_refused_with_the_estimate(case: str) -> None:
+    job, changes, pointer, words = TOO_LARGE[case]
+    with pytest.raises(LimitExceeded) as refused:
+        admit({**job, **changes})
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert words in found[pointer], found
+
+
+def test_many_bad_values_are_counted_and_a_few_are_named() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        admit({**B, "values": [1e-4] + [-1.0 - k for k in range(100)]})
+    assert [p.pointer for p in refused.value.problems] == [
+        f"/values/{k}" for k in [*range(1, 8), 100]
+    ]
+    assert refused.value.problems[-1].detail.endswith("So it is with 92 others.")
+
+
+def test_all_that_a_document_gets_wrong_is_reported_at_once() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        admit({**B, "settle": -1, "record": 0, "values": [1e-4, "x"], "extra": 1})
+    found = {problem.pointer for problem in refused.value.problems}
+    assert found == {"/settle", "/record", "/values/1", "/extra"}

@@ -1,0 +1,129 @@
+"""A section that a channel never crosses is refused; one that it does cross is not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
+from jointplay.solver.runs.ideal.reach import MotionReach
+from tests.solver.completed_runs import CASE_3, run
+from tests.solver.study.jobs_of_studies import BIFURCATION, POINCARE, study
+
+NEVER: dict[str, tuple[dict[str, Any], str, str]] = {
+    "far beyond the slider's stroke": (
+        {"channel": "slider7.x", "value": 5.0},
+        "/section/value",
+        "stays between 1.4",
+    ),
+    "an output beyond the stroke, in its own terms": (
+        {"channel": "displacement", "value": 0.6},
+        "/section/value",
+        "'displacement' never crosses 0.6 m: it stays between -0.00",
+    ),
+    "a link's angle beyond its swing": (
+        {"channel": "link3.theta", "value": 0.5},
+        "/section/value",
+        "rad",
+    ),
+    "across the guide": (
+        {"channel": "slider7.y", "value": 0.0},
+        "/section/channel",
+        "does not change",
+    ),
+    "the constant speed of a crank": (
+        {"channel": "crank1.omega", "value": 3.0},
+        "/section/channel",
+        "does not change",
+    ),
+    "a driven body's speed beyond its own": (
+        {"channel": "crank1.vx", "value": 1.0},
+        "/section/value",
+        "m/s",
+    ),
+    "an angle that turns": (
+        {"channel": "crank1.theta", "value": 1.0},
+        "/section/channel",
+        "crank angle",
+    ),
+    "far outside the bearing": (
+        {"channel": "A.eccentricity_x", "value": 1.01e-3},
+        "/section/value",
+        "radial clearance of 0.0005 m",
+    ),
+    "deeper than the bearing's centre": (
+        {"channel": "A.penetration", "value": -6e-4},
+        "/section/value",
+        "between -0.0005 and 0.0005 m",
+    ),
+    "a pulling contact": (
+        {"channel": "A.normal_force", "value": -1.0},
+        "/section/value",
+        "never below zero",
+    ),
+    "no kinetic energy": (
+        {"channel": "energy.kinetic", "value": -1.0},
+        "/section/value",
+        "never below zero",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", NEVER)
+def test_a_section_that_is_never_crossed_is_refused(case: str) -> None:
+    section, pointer, words = NEVER[case]
+    with pytest.raises(InvalidInput) as refused:
+        admit({**POINCARE, "section": section})
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert words in found[pointer], found
+
+
+@pytest.mark.parametrize(
+    "section",
+    [
+        {"channel": "slider7.x", "value": 1.7},
+        {"channel": "displacement", "value": 0.2, "direction": "down"},
+        {"channel": "slider7.vx", "value": 100.0},  # an impact may throw the slider
+        {"channel": "crank1.vx", "value": 0.1},
+        {"channel": "A.eccentricity_x", "value": 4e-4},
+        {"channel": "A.penetration", "value": 0.0},
+        {"channel": "A.normal_force", "value": 10.0},
+        {"channel": "A.slip_velocity", "value": 0.0},
+        {"channel": "drive1.torque", "value": 0.0},
+    ],
+)
+def test_a_section_that_may_be_crossed_is_admitted(section: dict[str, Any]) -> None:
+    assert study(POINCARE, section=section).job["section"]["channel"] == section["channel"]
+
+
+def test_the_value_whose_clearance_is_too_small_for_a_section_is_named() -> None:
+    section = {"channel": "A.eccentricity_x", "value": 3e-4}
+    with pytest.raises(InvalidInput) as refused:
+        admit({**BIFURCATION, "section": section, "values": [5e-4, 2e-4, 1e-4]})
+    assert "Value 2 (clearance = 0.0001 m)" in refused.value.problems[0].detail
+
+
+def test_a_mechanism_that_moves_freely_may_cross_anything() -> None:
+    scene = {"preset": "pendulum"}
+    assert study(POINCARE, scene=scene, section={"channel": "rod.theta", "value": 3.0})
+
+
+def test_a_run_with_play_stays_within_the_reach_of_its_bodies() -> None:
+    found = run("seven-bar-press", 2.0, parameters=CASE_3, output_step=1e-3)
+    scene = found.admission.scene
+    assert found.admission.period is not None
+    reach = MotionReach(scene, found.admission.period)
+    for body in scene.bodies:
+        for quantity in ("x", "y", "theta"):
+            bounds = reach.of(body, quantity)
+            assert bounds is not None
+            samples = found[f"{body}.{quantity}"]
+            slack = 1e-9  # m and rad, of the integration
+            assert bounds.low - slack <= samples.min(), (body, quantity)
+            assert samples.max() <= bounds.high + slack, (body, quantity)
+            spread = np.ptp(samples)
+            # no wider than it need be: play moves this mechanism by a few clearances
+            assert bounds.high - bounds.low <= 1.05 * spread + 0.02, (body, quantity)

@@ -1,0 +1,362 @@
+"""Jobs and scenes that are refused: each with the field that is wrong and what would be right."""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.limits import LONGEST_RUN, MOST_SAMPLES
+from jointplay.solver.scene import presets
+from tests.solver.random_mechanisms import chain
+
+JOB: dict[str, Any] = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press", "parameters": {}},
+    "duration": 2.0,
+}
+SCENE: dict[str, Any] = {
+    "kind": "simulate",
+    "scene": presets.document("seven-bar-press"),
+    "duration": 2.0,
+}
+
+
+def at(path: str, value: Any) -> Callable[[dict[str, Any]], None]:
+    """Return a change: put a value at a path."""
+
+    def change(document: dict[str, Any]) -> None:
+        *parents, last = path.strip("/").split("/")
+        place: Any = document
+        for key in parents:
+            place = place[int(key)] if isinstance(place, list) else place[key]
+        place[int(last) if isinstance(place, list) else last] = value
+
+    return change
+
+
+def without(path: str) -> Callable[[dict[str, Any]], None]:
+    """Return a change: take away what is at a path."""
+
+    def change(document: dict[str, Any]) -> None:
+        *parents, last = path.strip("/").split("/")
+        for key in parents:
+            document = document[key]
+        del document[last]
+
+    return change
+
+
+def both(*changes: Callable[[dict[str, Any]], None]) -> Callable[[dict[str, Any]], None]:
+    def change(document: dict[str, Any]) -> None:
+        for one in changes:
+            one(document)
+
+    return change
+
+
+P = "/scene/parameters"
+BAD_JOBS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
+    "unknown kind": (at("/kind", "optimise"), "/kind", "simulate"),
+    "no kind": (without("/kind"), "/kind", "required"),
+    "no scene": (without("/scene"), "/scene", "required"),
+    "no duration": (without("/duration"), "/duration", "required"),
+    "unknown field": (at("/durations", 1.0), "/durations", "did you mean 'duration'"),
+    "unknown preset": (at("/scene/preset", "seven-bar"), "/scene/preset", "seven-bar-press"),
+    "unknown parameter": (at(f"{P}/clearence", 1e-4), f"{P}/clearence", "clearance"),
+    "parameter of the wrong type": (at(f"{P}/clearance", "big"), f"{P}/clearance", "number"),
+    "parameter true": (at(f"{P}/clearance", True), f"{P}/clearance", ""),
+    "negative clearance": (at(f"{P}/clearance", -1e-4), f"{P}/clearance", "between 0"),
+    "clearance of the bearing": (at(f"{P}/clearance", 5e-3), f"{P}/clearance", "smaller"),
+    "clearance above the bearing": (at(f"{P}/clearance", 6e-3), f"{P}/clearance", "smaller"),
+    "parameter not a number": (at(f"{P}/friction", math.nan), f"{P}/friction", ""),
+    "parameter infinite": (at(f"{P}/friction", math.inf), f"{P}/friction", ""),
+    "bad choice": (at(f"{P}/slip_velocity", "wet"), f"{P}/slip_velocity", "as-published"),
+    "static above dynamic": (at(f"{P}/static_velocity", 0.1), f"{P}/static_velocity", "equal"),
+    "exponent without stiffness": (at(f"{P}/exponent", 1.2), f"{P}/exponent", "stiffness"),
+    "duration not a number": (at("/duration", math.nan), "/duration", "finite"),
+    "duration infinite": (at("/duration", math.inf), "/duration", "finite"),
+    "duration zero": (at("/duration", 0.0), "/duration", "at least"),
+    "duration negative": (at("/duration", -1.0), "/duration", "at least"),
+    "duration a word": (at("/duration", "2"), "/duration", "number"),
+    "duration true": (at("/duration", True), "/duration", "number"),
+    "step zero": (at("/output_step", 0.0), "/output_step", "at least"),
+    "tolerance zero": (at("/tolerance", 0.0), "/tolerance", "at least"),
+    "tolerance coarse": (at("/tolerance", 0.1), "/tolerance", "at most"),
+    "unknown accuracy": (at("/accuracy", "superb"), "/accuracy", "standard"),
+    "tolerance and accuracy": (
+        both(at("/tolerance", 1e-6), at("/accuracy", "standard")),
+        "/accuracy",
+        "not both",
+    ),
+    "method and accuracy": (
+        both(at("/method", "tsitouras"), at("/accuracy", "fine")),
+        "/accuracy",
+        "a method or a named accuracy",
+    ),
+    "unknown method": (at("/method", "euler"), "/method", "rk4"),
+    "tolerance dishonest": (
+        both(at("/tolerance", 1e-4), at("/method", "tsitouras")),
+        "/tolerance",
+        "'bogacki-shampine' or 'dormand-prince-853'",
+    ),
+    "tolerance dishonest for all": (at("/tolerance", 5e-3), "/tolerance", "0.001 at most"),
+    "fixed without a step": (at("/method", "rk4"), "/step", "needs its fixed 'step'"),
+    "fixed with a tolerance": (
+        both(at("/method", "rk4"), at("/step", 1e-4), at("/tolerance", 1e-6)),
+        "/tolerance",
+        "does not control its error",
+    ),
+    "step of a method without": (at("/step", 1e-4), "/step", "'rk4'"),
+    "unknown channel": (at("/channels", ["slider7.vX"]), "/channels/0", "did you mean 'slider7.v"),
+    "no channel": (at("/channels", []), "/channels", "at least 1"),
+    "unknown formulation": (at("/formulation", "hamilton"), "/formulation", "lagrange"),
+    "section angle": (at("/section", {"crank_angle": 7.0}), "/section/crank_angle", "less than"),
+    "long label": (at("/label", "x" * 201), "/label", "200"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_JOBS)
+def test_a_bad_job_is_refused_at_its_field(case: str) -> None:
+    change, pointer, words = BAD_JOBS[case]
+    document = copy.deepcopy(JOB)
+    change(document)
+    with pytest.raises(InvalidInput) as refused:
+        admit(document)
+    assert_points(refused.value, pointer, words)
+
+
+def assert_points(error: InvalidInput, pointer: str, words: str) -> None:
+    found = {problem.pointer: problem.detail for problem in error.problems}
+    assert pointer in found, found
+    assert words in found[pointer], found[pointer]
+    for problem in error.problems:
+        assert problem.detail.endswith((".", "?")), problem
+        assert "\n" not in problem.detail
+
+
+A = "/scene/joints/A"
+BAD_SCENES: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
+    "unknown body": (at(f"{A}/bearing", "crank9.pin"), f"{A}/bearing", "crank"),
+    "unknown point": (at(f"{A}/journal", "link2.Z"), f"{A}/journal", "point"),
+    "malformed reference": (at(f"{A}/journal", "link2"), f"{A}/journal", ""),
+    "unknown field": (at(f"{A}/slack", 1.0), f"{A}/slack", "There is no field"),
+    "unknown joint type": (at(f"{A}/type", "ball"), A, ""),
+    "unknown law": (
+        at(f"{A}/clearance/contact/law", "glue"),
+        f"{A}/clearance/contact/law",
+        "lankarani-nikravesh",
+    ),
+    "negative mass": (at("/scene/bodies/link2/mass", -1.0), "/scene/bodies/link2/mass", "at least"),
+    "zero inertia": (
+        at("/scene/bodies/link2/inertia", 0.0),
+        "/scene/bodies/link2/inertia",
+        "at least",
+    ),
+    "negative clearance": (
+        at(f"{A}/clearance/radial_clearance", -1e-4),
+        f"{A}/clearance/radial_clearance",
+        "at least",
+    ),
+    "point not a pair": (
+        at("/scene/bodies/link2/points/A", [0.0]),
+        "/scene/bodies/link2/points/A",
+        "2",
+    ),
+    "driver of nothing": (
+        at("/scene/drivers/drive1/joint", "O9"),
+        "/scene/drivers/drive1/joint",
+        "O",
+    ),
+    "driver of a joint with play": (
+        at("/scene/drivers/drive1/joint", "A"),
+        "/scene/drivers/drive1/joint",
+        "clearance",
+    ),
+    "two drivers of a joint": (
+        at("/scene/drivers/drive4/joint", "O1"),
+        "/scene/drivers",
+        "more than one",
+    ),
+    "both ends on one body": (at(f"{A}/bearing", "link2.C"), A, "two bodies"),
+    "output of nothing": (
+        at("/scene/outputs/0/channel", "slider7.z"),
+        "/scene/outputs/0/channel",
+        "slider7",
+    ),
+    "output with a taken name": (
+        at("/scene/outputs/0/name", "velocity"),
+        "/scene/outputs/0/name",
+        "taken",
+    ),
+    "parameter to nowhere": (
+        at("/scene/parameters/clearance/targets/0/path", "/joints/Q/clearance/radial_clearance"),
+        "/scene/parameters/clearance/targets/0/path",
+        "nowhere",
+    ),
+    "start of an unknown body": (
+        at("/scene/start/angles/link9", 0.0),
+        "/scene/start/angles/link9",
+        "link",
+    ),
+    "reserved name": (
+        both(
+            at("/scene/bodies/energy", {"mass": 1.0, "inertia": 1.0, "points": {"p": [0.0, 0.0]}}),
+            at(
+                "/scene/joints/J",
+                {"type": "fixed", "base": "link2.A", "part": "energy.p", "angle": 0.0},
+            ),
+        ),
+        "/scene/bodies/energy",
+        "reserved",
+    ),
+    "not a number": (at("/scene/gravity/0", math.nan), "/scene/gravity/0", "finite"),
+    "body that nothing holds": (
+        at("/scene/bodies/lost", {"mass": 1.0, "inertia": 1.0}),
+        "/scene/bodies/lost",
+        "No joint holds",
+    ),
+    "over-constrained": (
+        at(
+            "/scene/joints/extra",
+            {"type": "fixed", "base": "ground.O1", "part": "slider7.D", "angle": 0.0},
+        ),
+        "/scene/joints",
+        "over-constrained",
+    ),
+    "redundant": (
+        at(
+            "/scene/joints/extra",
+            {
+                "type": "prismatic",
+                "guide": "ground.O1",
+                "slider": "slider7.D",
+                "axis": [2.0, 0.0],
+                "angle": 3.141592653589793,
+            },
+        ),
+        "/scene/joints",
+        "over-constrained",
+    ),
+    "links that do not reach": (
+        at("/scene/bodies/link2/points/C", [3.0, 0.0]),
+        "/scene/start/angles",
+        "does not close",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD_SCENES)
+def test_a_bad_scene_is_refused_at_its_field(case: str) -> None:
+    change, pointer, words = BAD_SCENES[case]
+    document = copy.deepcopy(SCENE)
+    change(document)
+    with pytest.raises(InvalidInput) as refused:
+        admit(document)
+    assert_points(refused.value, pointer, words)
+
+
+@pytest.mark.parametrize("joint", ["A", "B"])
+def test_a_loop_that_stays_closed_and_moves_is_refused_for_now(joint: str) -> None:
+    document = copy.deepcopy(JOB)
+    document["scene"]["parameters"] = {f"clearance_{joint}": 0.0}
+    with pytest.raises(InvalidInput) as refused:
+        admit(document)
+    assert_points(refused.value, "/scene/joints", "loop")
+
+
+@pytest.mark.parametrize("document", [None, [], "job", 3.0, {}, {"scene": []}, {"scene": None}])
+def test_what_is_no_job_is_refused(document: object) -> None:
+    with pytest.raises(InvalidInput):
+        admit(document)
+
+
+def test_every_problem_is_reported_at_once() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        admit({**JOB, "duration": -1.0, "tolerance": 2.0, "extra": 1})
+    assert {p.pointer for p in refused.value.problems} == {"/duration", "/tolerance", "/extra"}
+
+
+def test_a_duration_over_the_limit_is_refused_with_the_estimate() -> None:
+    with pytest.raises(LimitExceeded) as refused:
+        admit({**JOB, "duration": 2.5 * LONGEST_RUN, "output_step": 1000.0})
+    assert_points(refused.value, "/duration", "1.25e+06 periods")
+
+
+def test_too_many_samples_are_refused_with_the_estimate() -> None:
+    with pytest.raises(LimitExceeded) as refused:
+        admit({**JOB, "output_step": 1e-9})
+    assert_points(refused.value, "/output_step", "2e+09 samples")
+    assert f"{MOST_SAMPLES:g}" in refused.value.problems[0].detail
+
+
+def test_too_many_bytes_are_refused_with_the_estimate() -> None:
+    with pytest.raises(LimitExceeded) as refused:
+        admit({**JOB, "output_step": 1e-7})
+    assert_points(refused.value, "/output_step", "GB")
+    admit({**JOB, "output_step": 1e-7, "channels": ["slider7.x"]})
+
+
+def test_equations_too_long_to_compile_are_refused_with_their_length() -> None:
+    scene = chain(40).model_dump()
+    with pytest.raises(LimitExceeded) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    assert_points(refused.value, "/scene", "statements")
+
+
+@pytest.mark.parametrize("duration", [1e300, 1.7e308, 1e12, 1.0, 1e-12, 1e-300, 5e-324])
+def test_extreme_durations_are_refused_or_admitted_but_never_crash(duration: float) -> None:
+    for output_step in (None, 1e-300, 1e-16, 1e12, 1e300, 5e-324):
+        job = {**JOB, "duration": duration}
+        if output_step is not None:
+            job["output_step"] = output_step
+        try:
+            found = admit(job)
+        except InvalidInput:
+            continue
+        assert found.samples >= 2
+
+
+@pytest.mark.parametrize("name", presets.names())
+def test_admission_fills_in_everything_and_is_idempotent(name: str) -> None:
+    first = admit({"kind": "simulate", "scene": {"preset": name}, "duration": 1.0})
+    again = admit(first.job)
+    assert again == first
+    declared = presets.document(name)["parameters"]
+    assert first.job["scene"]["parameters"].keys() == declared.keys()
+    assert first.job["tolerance"] == 1e-6
+    assert first.job["output_step"] == 1.0 / 2000
+    assert first.job["formulation"] == "reduced"
+    assert len(first.job["channels"]) == len(first.channels)
+
+
+def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else() -> None:
+    first = admit(JOB)
+    assert admit({**JOB, "label": "a name"}).digest == first.digest
+    assert admit({**JOB, "accuracy": "standard"}).digest == first.digest
+    assert admit({**JOB, "duration": 2}).digest == first.digest
+    assert admit({**JOB, "tolerance": 1e-7}).digest != first.digest
+    changed = {**JOB, "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.02}}}
+    assert admit(changed).digest != first.digest
+
+
+def test_a_parameter_overrides_and_follows_as_declared() -> None:
+    def joints(**parameters: float) -> list[float]:
+        scene = {"preset": "seven-bar-press", "parameters": parameters}
+        found = admit({**JOB, "scene": scene}).scene_document()
+        return [found["joints"][j]["clearance"]["radial_clearance"] for j in "AB"] + [
+            found["drivers"][d]["speed"] for d in ("drive1", "drive4")
+        ]
+
+    assert joints(clearance=1e-4, speed=2.0) == [1e-4, 1e-4, 2.0, -2.0]
+    assert joints(clearance=1e-4, clearance_B=2e-4, speed=2.0, speed_crank4=3.0) == [
+        1e-4,
+        2e-4,
+        2.0,
+        3.0,
+    ]
