@@ -100,7 +100,7 @@ def service_url(settings: Settings) -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def http(service_url: str) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=service_url, trust_env=False) as client:
+    with httpx.Client(base_url=service_url, trust_env=False, timeout=60) as client:
         yield client
 
 

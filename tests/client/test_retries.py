@@ -80,7 +80,9 @@ def pauses(monkeypatch):
 
 
 def number_of_jobs(url):
-    return len(httpx.get(f"{url}/v1/jobs?page_size=1000", trust_env=False).json()["jobs"])
+    return len(
+        httpx.get(f"{url}/v1/jobs?page_size=1000", trust_env=False, timeout=60).json()["jobs"]
+    )
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import threading
 from concurrent.futures.process import BrokenProcessPool
 
 import pytest
-from tests.reproduce.calls import doubled, endless, killed, refused
+from tests.paper.calls import doubled, endless, killed, refused
 
 from jointplay.paper.processes import Call, Interrupted, processes
 

@@ -42,7 +42,7 @@ def test_every_link_of_a_job_leads_somewhere(http, finished_job):
 
 
 def test_pages_hold_every_job_once_newest_first_while_jobs_arrive(fresh_service):
-    with httpx.Client(base_url=fresh_service, trust_env=False) as http:
+    with httpx.Client(base_url=fresh_service, trust_env=False, timeout=60) as http:
         job = PENDULUM | {"cache": False}
         made = [http.post("/v1/jobs", json=job).json()["id"] for _ in range(7)]
         listed, token = [], None

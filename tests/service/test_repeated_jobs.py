@@ -19,7 +19,10 @@ JOB = {"kind": "simulate", "scene": SCENE, "duration": 0.125}
 def own(tmp_path):
     """A service and a catalogue of its own."""
     settings = Settings(data=tmp_path / "data")
-    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+    with (
+        serving(create_app(settings)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
         catalogue = Catalogue(settings.catalogue_url)
         yield http, catalogue
         catalogue.close()
@@ -184,7 +187,10 @@ def test_a_job_is_deleted_once_it_is_finished(own):
 
 def test_jobs_expire_by_themselves_where_the_service_says_so(tmp_path):
     settings = Settings(data=tmp_path / "data", keep=3600)
-    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+    with (
+        serving(create_app(settings)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
         job = http.post("/v1/jobs", json=JOB).json()
         created, expires = (datetime.fromisoformat(job[name]) for name in ("created", "expires"))
         assert abs((expires - created).total_seconds() - 3600) < 5

@@ -33,7 +33,10 @@ def test_a_service_that_is_up_is_alive_and_ready(http):
 
 def test_a_service_without_its_folder_is_alive_but_not_ready(tmp_path):
     settings = Settings(data=tmp_path / "data")
-    with serving(create_app(settings)) as url, httpx.Client(base_url=url, trust_env=False) as http:
+    with (
+        serving(create_app(settings)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
         assert http.get("/readyz").status_code == 200
         shutil.rmtree(settings.data)
         answer = http.get("/readyz")

@@ -98,7 +98,7 @@ def test_a_form_that_there_is_not_is_refused_with_those_there_are(http, job, acc
 
 def test_without_accept_the_answer_is_json(service_url, job):
     request = httpx.Request("GET", f"{service_url}/v1/jobs/{job}/history?stop=0.01")
-    with httpx.Client(trust_env=False) as client:
+    with httpx.Client(trust_env=False, timeout=60) as client:
         assert client.send(request).headers["Content-Type"] == "application/json"
 
 

@@ -124,7 +124,7 @@ def test_documents_are_compressed_for_those_who_ask(http, base):
     ],
 )
 def test_what_is_not_there_is_not_found(service_url, base, key):
-    with httpx.Client(trust_env=False) as client:
+    with httpx.Client(trust_env=False, timeout=60) as client:
         for method in ("GET", "HEAD"):
             answer = client.request(method, f"{service_url}{base}/{key}")
             assert answer.status_code == 404

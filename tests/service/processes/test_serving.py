@@ -100,7 +100,7 @@ def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
         def find_new(words: str, before: int) -> bool:
             return find(words) not in (None, before)
 
-        for words in ("serving.api", "jointplay.worker.relay", "broker/redis.sock"):
+        for words in ("processes.api", "jointplay.worker.relay", "broker/redis.sock"):
             before = find(words)
             assert before is not None
             os.kill(before, signal.SIGKILL)
