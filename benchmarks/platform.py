@@ -25,9 +25,9 @@ from redis import Redis
 from sqlalchemy import Engine, event
 
 from benchmarks.sweep import RECORD, SETTLE, VALUES, document
+from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
-from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob
 from jointplay.storage.results import durable

@@ -21,10 +21,11 @@ import zarr
 from obstore.store import HTTPStore
 from zarr.storage import ObjectStore
 
+from jointplay.records.impact import IMPACT
 from jointplay.service.app import create_app
 from jointplay.solver.kinds import admit
 from jointplay.storage.catalogue import BlockState, Catalogue
-from jointplay.storage.results import IMPACT, ArraySpec, ResultLayout, ResultWriter
+from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.storage.settings import Settings
 
 REPEATS = 15
@@ -97,7 +98,7 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     claim = catalogue.claim_block(catalogue.blocks(job_id)[0].id, "benchmark", 3600.0)
     assert claim is not None
     admission = admit(claim.job.spec)
-    specs = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
+    specs = admission.channels
     attributes = {"job": admission.job, "scene": admission.scene_document()}
     layout = ResultLayout(specs, admission.samples, 0, admission.joints, attributes)
     folder = settings.result_folder(job_id, claim.block.attempt)

@@ -15,14 +15,10 @@ from time import perf_counter
 
 import numpy as np
 
-from jointplay.storage.results import (
-    IMPACT,
-    ArraySpec,
-    Peak,
-    ResultLayout,
-    ResultReader,
-    ResultWriter,
-)
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
+from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
 
 CHANNELS = 95
 REPEATS = 7
@@ -30,7 +26,7 @@ REPEATS = 7
 
 def layout(samples: int, sections: int) -> ResultLayout:
     channels = tuple(
-        ArraySpec(f"body{index // 9}.coordinate{index % 9}", "m", "position of a centre of mass")
+        Channel(f"body{index // 9}.coordinate{index % 9}", "m", "position of a centre of mass")
         for index in range(CHANNELS)
     )
     return ResultLayout(channels, samples, sections, ("A", "B"), {"job": {"kind": "simulate"}})

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from jointplay.figures import page
 from jointplay.figures.quantity import Scale, scale
+from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.study import FAILED, RUNNING, WAITING, StudySource
+from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,7 +74,7 @@ class ParameterAxis:
         axes.set_xlim(float(edges[0]), float(edges[-1]))
         for low, high in self.unfinished():
             axes.axvspan(low, high, color=page.SHADE, linewidth=0.0, zorder=0.5)
-        failed = self.shown[self.status == FAILED]
+        failed = self.shown[self.status == PointStatus.failed]
         if len(failed):
             axes.plot(
                 failed,
@@ -114,7 +115,7 @@ class ParameterAxis:
     def legend(self) -> dict[str, tuple[str, str]]:
         """Explain the signs that `dress` draws: marker and colour by label."""
         entries = {}
-        if (self.status == FAILED).any():
+        if (self.status == PointStatus.failed).any():
             entries["failed"] = ("x", page.BLACK)
         if self.unfinished():
             entries["not finished"] = ("s", page.SHADE)
@@ -130,7 +131,7 @@ class ParameterAxis:
     def unfinished(self) -> list[tuple[float, float]]:
         """Give the ranges in which values wait or are being computed."""
         edges, values = self.cells()
-        open_ones = np.isin(self.status, (WAITING, RUNNING))
+        open_ones = np.isin(self.status, (PointStatus.waiting, PointStatus.running))
         is_open = np.zeros(len(values), dtype=bool)
         is_open[np.searchsorted(np.unique(self.shown), self.shown[open_ones])] = True
         changes = np.flatnonzero(np.diff(np.concatenate([[False], is_open, [False]])))

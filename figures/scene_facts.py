@@ -8,7 +8,8 @@ from typing import Any
 
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection
-from jointplay.records.run import ChannelLike, Source
+from jointplay.records.channel import Channel
+from jointplay.records.run import Source
 
 
 def outputs(source: Source) -> tuple[str, ...]:
@@ -64,7 +65,7 @@ def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def channel(source: Source, name: str) -> ChannelLike:
+def channel(source: Source, name: str) -> Channel:
     """Give unit and meaning of a stored channel."""
     return next(channel for channel in source.channels if channel.name == name)
 

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from jointplay.figures import page
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection
+from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel, no_such_channel
-from jointplay.records.run import ChannelLike
-from jointplay.records.run_in_memory import Channel
 from jointplay.records.study import StudySource
 
 _RATES = (
@@ -67,7 +66,7 @@ def chosen_observables(source: StudySource, selection: Selection) -> tuple[str, 
     return _checked(selection.channels, source.observables)
 
 
-def statistics(source: StudySource) -> tuple[ChannelLike, ...]:
+def statistics(source: StudySource) -> tuple[Channel, ...]:
     """Give the statistics of channels and joints whose meaning the study tells."""
     meanings = source.attributes.get("meanings", {})
     return tuple(Channel(name, *meanings[name]) for name in source.statistics if name in meanings)
@@ -128,12 +127,12 @@ def by_verdict(source: StudySource) -> tuple[Group, ...]:
     return tuple(group for group in groups if group.members.any())
 
 
-def described(channels: Sequence[ChannelLike], name: str) -> ChannelLike:
+def described(channels: Sequence[Channel], name: str) -> Channel:
     """Give unit and meaning of a channel."""
     return next(channel for channel in channels if channel.name == name)
 
 
-def _checked(names: tuple[str, ...], channels: Sequence[ChannelLike]) -> tuple[str, ...]:
+def _checked(names: tuple[str, ...], channels: Sequence[Channel]) -> tuple[str, ...]:
     known = [channel.name for channel in channels]
     if unknown := [name for name in names if name not in known]:
         error: NoSuchChannel = no_such_channel(unknown, known)

@@ -12,8 +12,9 @@ from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import Selection, StudyFigure
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, scale
+from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.study import FAILED, StudySource
+from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -180,7 +181,7 @@ def _map(
     drawn = axes.pcolormesh(
         x_edges, y_edges, np.ma.masked_invalid(table), cmap="cividis", rasterized=True
     )
-    failed = across.status == FAILED
+    failed = across.status == PointStatus.failed
     axes.plot(
         across.shown[failed], up.shown[failed], "x", color=page.BLACK, markersize=3.0, zorder=3.0
     )

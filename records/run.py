@@ -6,52 +6,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
+from jointplay.records.peak import Peak
+
 Floats = NDArray[np.float64]
 Columns = tuple[Floats, dict[str, Floats]]
 """(k,) times [s], and by channel (k,) values in its unit."""
-
-
-class ChannelLike(Protocol):
-    """What a channel says of itself."""
-
-    @property
-    def name(self) -> str:
-        """Name, unique in its source."""
-        ...
-
-    @property
-    def unit(self) -> str:
-        """SI unit, `m/s^2` for example; `1` for a pure number."""
-        ...
-
-    @property
-    def long_name(self) -> str:
-        """A few words of meaning."""
-        ...
-
-
-class PeakLike(Protocol):
-    """Signed extremes of a channel, found between the samples too."""
-
-    @property
-    def minimum(self) -> float:
-        """Smallest value, in the channel's unit."""
-        ...
-
-    @property
-    def minimum_time(self) -> float:
-        """When it was reached [s]."""
-        ...
-
-    @property
-    def maximum(self) -> float:
-        """Largest value, in the channel's unit."""
-        ...
-
-    @property
-    def maximum_time(self) -> float:
-        """When it was reached [s]."""
-        ...
 
 
 class NumbersLike(Protocol):
@@ -89,7 +49,7 @@ class Source(Protocol):
         ...
 
     @property
-    def channels(self) -> Sequence[ChannelLike]:
+    def channels(self) -> Sequence[Channel]:
         """Channels that were stored."""
         ...
 
@@ -122,16 +82,12 @@ class Source(Protocol):
         """Give the Poincare sections."""
         ...
 
-    def peaks(self) -> Mapping[str, PeakLike]:
+    def peaks(self) -> Mapping[str, Peak]:
         """Give the signed extremes by channel."""
         ...
 
     def impacts(self) -> NDArray[Any]:
-        """Give the contacts in order of release: (j,) structured array.
-
-        Fields: joint (index), onset and release [s] (NaN where contact had not ended),
-        approach_rate [m/s], peak_force [N], impulse [N s].
-        """
+        """Give the contacts in order of release: (j,) of dtype `records.impact.IMPACT`."""
         ...
 
     def certificate(self) -> CertificateLike | None:

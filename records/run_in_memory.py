@@ -2,41 +2,15 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateLike, Columns, Floats
-
-IMPACT = np.dtype(
-    [
-        ("joint", "<i4"),
-        ("onset", "<f8"),
-        ("release", "<f8"),
-        ("approach_rate", "<f8"),
-        ("peak_force", "<f8"),
-        ("impulse", "<f8"),
-    ]
-)
-"""One contact: index of its joint, times [s], approach rate [m/s], force [N], impulse [N s]."""
-
-
-class Channel(NamedTuple):
-    """Name, SI unit and meaning of a channel."""
-
-    name: str
-    unit: str
-    long_name: str = ""
-
-
-class Peak(NamedTuple):
-    """Signed extremes of a channel in its unit, each with its time [s]."""
-
-    minimum: float
-    minimum_time: float
-    maximum: float
-    maximum_time: float
 
 
 def _nothing() -> Floats:

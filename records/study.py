@@ -1,62 +1,15 @@
 """What figures and exports of a study take: values, status, sections and peaks of many points."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.run import ChannelLike, Floats
-
-WAITING: Final = 0
-RUNNING: Final = 1
-DONE: Final = 2
-FAILED: Final = 3
-STATUS: Final = ("waiting", "running", "done", "failed")
-"""What a point is doing; the code is the position."""
-
-
-class FailureLike(Protocol):
-    """Why a point has no results, or not all."""
-
-    @property
-    def code(self) -> str:
-        """The reason for programs."""
-        ...
-
-    @property
-    def detail(self) -> str:
-        """The reason as a sentence."""
-        ...
-
-    @property
-    def time(self) -> float:
-        """Simulated time reached [s]."""
-        ...
-
-
-class PeakColumns(Protocol):
-    """Extremes of one channel at every point, (points,) each; NaN where there are none."""
-
-    @property
-    def minimum(self) -> Floats:
-        """Smallest values, in the channel's unit."""
-        ...
-
-    @property
-    def minimum_time(self) -> Floats:
-        """When they were reached [s]."""
-        ...
-
-    @property
-    def maximum(self) -> Floats:
-        """Largest values, in the channel's unit."""
-        ...
-
-    @property
-    def maximum_time(self) -> Floats:
-        """When they were reached [s]."""
-        ...
+from jointplay.records.channel import Channel
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import Failure
+from jointplay.records.run import Floats
 
 
 class StudySource(Protocol):
@@ -77,17 +30,17 @@ class StudySource(Protocol):
         ...
 
     @property
-    def parameters(self) -> Sequence[ChannelLike]:
+    def parameters(self) -> Sequence[Channel]:
         """Parameters that differ between points; none for one point perturbed."""
         ...
 
     @property
-    def observables(self) -> Sequence[ChannelLike]:
+    def observables(self) -> Sequence[Channel]:
         """Channels that were taken at the sections."""
         ...
 
     @property
-    def channels(self) -> Sequence[ChannelLike]:
+    def channels(self) -> Sequence[Channel]:
         """Channels whose extremes were kept."""
         ...
 
@@ -117,7 +70,7 @@ class StudySource(Protocol):
         ...
 
     @property
-    def failures(self) -> Mapping[int, FailureLike]:
+    def failures(self) -> Mapping[int, Failure]:
         """Failed points."""
         ...
 

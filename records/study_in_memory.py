@@ -2,31 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.run_in_memory import Channel
-from jointplay.records.study import DONE, FAILED
-
-
-class Failure(NamedTuple):
-    """Why a point failed, and the simulated time [s] it had reached."""
-
-    code: str
-    detail: str
-    time: float
-
-
-class Extremes(NamedTuple):
-    """Signed extremes of a channel, each with its time [s]: (points,) arrays."""
-
-    minimum: Floats
-    minimum_time: Floats
-    maximum: Floats
-    maximum_time: Floats
 
 
 @dataclass(frozen=True)
@@ -58,7 +42,7 @@ class StudyDataset:
     channels: Sequence[Channel] = ()
     times: Floats = field(default_factory=lambda: np.empty((0, 0)))
     section_values: Mapping[str, Floats] = field(default_factory=dict)
-    extremes: Mapping[str, Extremes] = field(default_factory=dict)
+    extremes: Mapping[str, PeakColumns] = field(default_factory=dict)
     failures: Mapping[int, Failure] = field(default_factory=dict)
     statistics: Mapping[str, Floats] = field(default_factory=dict)
     indicators: Mapping[str, Floats] = field(default_factory=dict)
@@ -83,7 +67,7 @@ class StudyDataset:
     @property
     def complete(self) -> bool:
         """Every point has ended."""
-        return bool(np.isin(self.status, (DONE, FAILED)).all())
+        return bool(np.isin(self.status, (PointStatus.done, PointStatus.failed)).all())
 
     @property
     def counts(self) -> NDArray[np.int64]:
@@ -98,6 +82,6 @@ class StudyDataset:
         """Give an observable at the sections of points."""
         return self.section_values[observable][start:stop]
 
-    def peaks(self, channel: str) -> Extremes:
+    def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point."""
         return self.extremes[channel]

@@ -14,13 +14,16 @@ import uvicorn
 from fastapi import FastAPI
 from numpy.typing import NDArray
 
+from jointplay.records.impact import IMPACT
+from jointplay.records.job import JobError
+from jointplay.records.peak import Peak
+from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.study.outputs import own_meanings
-from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
-from jointplay.storage.catalogue import BlockState, Catalogue, Claim, JobError
-from jointplay.storage.results import IMPACT, ArraySpec, Peak, ResultLayout, ResultWriter
+from jointplay.storage.catalogue import BlockState, Catalogue, Claim
+from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyBlock, create, seal
 from jointplay.worker.study_block import layout_of
@@ -174,7 +177,7 @@ class Worker:
         admission = admit(claim.job.spec)
         assert isinstance(admission, Admission)
         folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
-        channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
+        channels = admission.channels
         attributes = {"job": admission.job, "scene": admission.scene_document(), "section_note": ""}
         layout = ResultLayout(
             channels, admission.samples, admission.sections, admission.joints, attributes

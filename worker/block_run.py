@@ -8,15 +8,8 @@ from collections.abc import Callable
 from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.records.failure import InvalidInput
-from jointplay.storage.catalogue import (
-    BlockState,
-    Catalogue,
-    Claim,
-    ErrorClass,
-    Fenced,
-    JobError,
-    Verdict,
-)
+from jointplay.records.job import ErrorClass, JobError
+from jointplay.storage.catalogue import BlockState, Catalogue, Claim, Fenced, Verdict
 from jointplay.storage.results import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome

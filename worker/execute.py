@@ -3,19 +3,19 @@
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.records.job import JobError
 from jointplay.solver.kinds import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import JobError
-from jointplay.storage.results import ArraySpec, Peak, ResultLayout, ResultWriter
+from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.worker.certificates import appendix_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
@@ -178,10 +178,7 @@ def _advance(
 def layout_of(admission: Admission) -> ResultLayout:
     """Return what a run's store holds."""
     return ResultLayout(
-        channels=tuple(
-            ArraySpec(channel.name, channel.unit, channel.long_name)
-            for channel in admission.channels
-        ),
+        channels=admission.channels,
         samples=admission.samples,
         sections=admission.sections,
         joints=admission.joints,
@@ -199,6 +196,7 @@ def layout_of(admission: Admission) -> ResultLayout:
 def _seal(
     writer: ResultWriter, summary: Summary, certificate: Certificate | None, *, complete: bool
 ) -> None:
-    peaks = {name: Peak(**asdict(peak)) for name, peak in summary.peaks.items()}
     appendix = None if certificate is None else appendix_of(certificate)
-    writer.seal(peaks=peaks, summary=summary.statistics, complete=complete, certificate=appendix)
+    writer.seal(
+        peaks=summary.peaks, summary=summary.statistics, complete=complete, certificate=appendix
+    )

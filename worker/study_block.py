@@ -9,18 +9,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from jointplay.records.channel import Channel
+from jointplay.records.job import JobError
+from jointplay.records.point import StudySlice
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.outputs import MEANINGS, own_meanings
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.results import StudySlice
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.plan import KIND as ACCURACY_STUDY
 from jointplay.solver.runs.work_precision.plan import runs_in
 from jointplay.solver.runs.work_precision.run import TradeRun
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import JobError
-from jointplay.storage.results import ArraySpec, ResultsError
+from jointplay.storage.results import ResultsError
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
 from jointplay.worker.execute import JOB_FILE, Answer, Outcome
 
@@ -54,13 +55,13 @@ def layout_of(study: Study) -> StudyLayout:
     runs = [run.document() for run in runs_in(study)] if study.kind == ACCURACY_STUDY else []
     return StudyLayout(
         parameters=tuple(
-            ArraySpec(name, unit, declared[name].help)
+            Channel(name, unit, declared[name].help)
             for name, unit in zip(study.parameters, study.parameter_units, strict=True)
         ),
         values=study.values,
-        observables=tuple(ArraySpec(c.name, c.unit, c.long_name) for c in study.observables),
+        observables=study.observables,
         record=study.record,
-        channels=tuple(ArraySpec(c.name, c.unit, c.long_name) for c in study.channels),
+        channels=study.channels,
         blocks=study.blocks,
         attributes={
             "job": study.job,
@@ -72,7 +73,7 @@ def layout_of(study: Study) -> StudyLayout:
             **({"meanings": own} if own else {}),
             **({"runs": runs} if runs else {}),
         },
-        meanings={name: ArraySpec(name, *meaning) for name, meaning in (MEANINGS | own).items()},
+        meanings={name: Channel(name, *meaning) for name, meaning in (MEANINGS | own).items()},
     )
 
 

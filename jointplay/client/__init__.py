@@ -29,7 +29,7 @@ from jointplay.client.errors import (
 )
 from jointplay.client.estimates import Estimate
 from jointplay.client.job import Job
-from jointplay.client.job_record import JobError, JobRecord, Progress
+from jointplay.client.job_record import JobRecord
 from jointplay.client.picture import Picture
 from jointplay.client.results import Impacts, Peak, Results
 from jointplay.client.window import ChannelSeries, Window
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from jointplay.client.batches import Batch
     from jointplay.client.client import Client
     from jointplay.client.connection import DEFAULT_URL
+from jointplay.records.job import JobError, Progress
 
 __all__ = [
     "DEFAULT_URL",

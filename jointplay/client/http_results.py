@@ -8,10 +8,13 @@ from typing import Any
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
 from jointplay.client.job_record import JobRecord
-from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
+from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import Window, floats
 from jointplay.client.windows import pieces
-from jointplay.records.run_in_memory import Channel, Dataset
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.peak import PEAK
+from jointplay.records.run_in_memory import Dataset
 from jointplay.records.study_in_memory import StudyDataset
 
 
@@ -53,9 +56,8 @@ class HttpResults:
 
     def peaks(self) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel."""
-        names = ("minimum", "minimum_time", "maximum", "maximum_time")
         return {
-            channel: Peak(peak["unit"], *floats([peak[name] for name in names]).tolist())
+            channel: Peak(*_numbers(peak), peak["unit"])
             for channel, peak in self._document("peaks")["peaks"].items()
         }
 
@@ -147,6 +149,11 @@ class HttpResults:
     def _document(self, name: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
         document: dict[str, Any] = self._connection.get(f"{self._path}/{name}", query).json()
         return document
+
+
+def _numbers(peak: Mapping[str, Any]) -> tuple[float, float, float, float]:
+    low, low_time, high, high_time = floats([peak[name] for name in PEAK]).tolist()
+    return low, low_time, high, high_time
 
 
 def _joined(names: Sequence[str] | None) -> str | None:

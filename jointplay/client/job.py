@@ -44,7 +44,7 @@ class Job(ReadableJob):
                 "id": self.id,
                 "label": self.label,
                 "state": f"{self.state}, {self.done_so_far}",
-                "error": self.error and f"{self.error.kind}: {self.error.detail}",
+                "error": self.error and f"{self.error.error_class}: {self.error.detail}",
                 "created": f"{self.created.astimezone():%Y-%m-%d %H:%M:%S}",
                 "computed in": self.seconds and f"{self.seconds:.3g} s",
             },
@@ -123,7 +123,7 @@ class Job(ReadableJob):
     def check(self) -> None:
         """Raise `JobFailed` or `JobCancelled` if the job ended so."""
         if self.state == "failed":
-            why = f" ({self.error.kind}): {self.error.detail}" if self.error else "."
+            why = f" ({self.error.error_class}): {self.error.detail}" if self.error else "."
             raise JobFailed(f"Job {self.id} failed{why}", self)
         if self.state == "cancelled":
             raise JobCancelled(f"Job {self.id} was cancelled at {self.done_so_far}.", self)

@@ -6,31 +6,9 @@ from datetime import datetime
 from typing import Any
 
 from jointplay.client.errors import ClientError
+from jointplay.records.job import JobError, Progress
 
 TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a job is: simulated ``time`` in s, and ``fraction`` of the whole from 0 to 1.
-
-    ``steps`` of the solver are known once it has told.
-    """
-
-    time: float
-    fraction: float
-    steps: int | None = None
-
-
-@dataclass(frozen=True)
-class JobError:
-    """Why a job failed.
-
-    ``kind`` is "user", "solver", "platform" or "limit" (``error.class`` of the service).
-    """
-
-    kind: str
-    detail: str
 
 
 @dataclass
@@ -85,10 +63,11 @@ class JobRecord:
 
     def to_document(self) -> dict[str, Any]:
         """Return the job as JSON takes it."""
-        return {
+        found = {
             name: value.isoformat() if isinstance(value, datetime) else value
             for name, value in asdict(self).items()
         }
+        return found | {"error": self.error and self.error.document()}
 
     def renew(self, document: Mapping[str, Any]) -> None:
         """Take over what the service says now."""
@@ -121,7 +100,7 @@ def read_job(document: Mapping[str, Any]) -> dict[str, Any]:
         **{name: document[name] for name in same},
         **{name: _moment(document[name]) for name in moments},
         "progress": Progress(**document["progress"]),
-        "error": None if error is None else JobError(error["class"], error["detail"]),
+        "error": None if error is None else JobError.of(error),
         "solver_version": document["solver_version"],
         **({"cached": document["cached"]} if "cached" in document else {}),
     }

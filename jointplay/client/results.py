@@ -2,37 +2,24 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Literal, NamedTuple, Protocol
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.client.window import Window
+from jointplay.records import peak
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
 Form = Literal["png", "svg"]
-IMPACT_UNITS: Final = {
-    "onset": "s",
-    "release": "s",
-    "approach_rate": "m/s",
-    "peak_force": "N",
-    "impulse": "N s",
-}
 
 
 @dataclass(frozen=True)
-class Peak:
-    """Signed extremes of one channel, in ``unit``, each with its time in s.
+class Peak(peak.Peak):
+    """Signed extremes of one channel, each with its time in s; NaN where nothing was computed."""
 
-    NaN where nothing was computed.
-    """
-
-    unit: str
-    minimum: float
-    minimum_time: float
-    maximum: float
-    maximum_time: float
+    unit: str = "1"
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ import numpy as np
 
 from jointplay.client.errors import Refused
 from jointplay.client.job_record import JobRecord
+from jointplay.records.channel import Channel
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.run_in_memory import Channel
-from jointplay.records.study import STATUS
-from jointplay.records.study_in_memory import Extremes, Failure, StudyDataset
+from jointplay.records.study_in_memory import StudyDataset
 
 _TOO_LARGE = "response-too-large"
 Document = dict[str, Any]
@@ -55,10 +56,10 @@ def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDatase
     pages = list(_pages(fetch))
     channels = pages[0]["peaks"]
     extremes = {
-        name: Extremes(
+        name: PeakColumns(
             *(
                 _joined([page["peaks"][name][column] for page in pages])
-                for column in Extremes._fields
+                for column in PeakColumns._fields
             )
         )
         for name in channels
@@ -110,7 +111,7 @@ def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDa
         _joined([page["values"][parameter.name]["values"] for page in pages])
         for parameter in parameters
     ]
-    status = [STATUS.index(word) for page in pages for word in page["status"]]
+    status = [PointStatus[word] for page in pages for word in page["status"]]
     codes, names = None, []
     if first.get("verdicts") is not None:
         words = [word for page in pages for word in page["verdicts"]]

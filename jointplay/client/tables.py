@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from jointplay.client.errors import NotFound
-from jointplay.client.results import IMPACT_UNITS
 from jointplay.client.stored import missing_extra
-from jointplay.records.study import STATUS, StudySource
+from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.point import PointStatus
+from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -83,7 +84,7 @@ def points(job: "ReadableJob") -> "pd.DataFrame":
     # one section of each: they are not in this table
     study = job.results.study(None, None, None if job.kind == "sweep" else (0, 1))
     columns: dict[str, Any] = {**_values(study)}
-    columns["status"] = [STATUS[code] for code in study.status]
+    columns["status"] = [PointStatus(code).name for code in study.status]
     failures = study.failures
     columns["failure"] = [
         failures[point].code if point in failures else "" for point in range(study.points)

@@ -85,7 +85,8 @@ def point_range(points: int, start: float | None, stop: float | None) -> range:
 
 
 def _as_source(window: "Window") -> "Source":
-    from jointplay.records.run_in_memory import Channel, Dataset
+    from jointplay.records.channel import Channel
+    from jointplay.records.run_in_memory import Dataset
 
     return Dataset(
         attributes={"exact": window.exact},

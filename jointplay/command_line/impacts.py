@@ -11,7 +11,7 @@ def impact_rows(
     impacts: "Impacts", start: float | None, stop: float | None
 ) -> list[dict[str, Any]]:
     """Return the contacts that begin from ``start`` to ``stop`` [s], in order of release."""
-    from jointplay.client.results import IMPACT_UNITS
+    from jointplay.records.impact import IMPACT_UNITS
 
     low = float("-inf") if start is None else start
     high = float("inf") if stop is None else stop
@@ -23,7 +23,7 @@ def impact_rows(
 
 def impact_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     """Yield rows as lines of CSV, with 17 significant digits."""
-    from jointplay.client.results import IMPACT_UNITS
+    from jointplay.records.impact import IMPACT_UNITS
 
     titles = [f"{name} [{unit}]" for name, unit in IMPACT_UNITS.items()]
     yield ",".join(["joint", *titles]) + "\n"

@@ -84,7 +84,7 @@ def _print_record(job: "Job") -> None:
         typer.echo(f"computed  {job.seconds:.2f} s")
     typer.echo(f"solver    {job.solver_version}")
     if job.error is not None:
-        typer.echo(f"error     {job.error.kind}: {job.error.detail}")
+        typer.echo(f"error     {job.error.error_class}: {job.error.detail}")
 
 
 def _print_simulation(found: dict[str, Any]) -> None:

@@ -23,15 +23,15 @@ def write_points(source: "StudySource", table: Path) -> None:
 
 def summary_of(source: "StudySource") -> dict[str, Any]:
     """Return how many points ended in which way, the verdicts, and all failures."""
-    from jointplay.records.study import STATUS
+    from jointplay.records.point import PointStatus
 
-    counts = Counter(STATUS[code] for code in source.status)
+    counts = Counter(PointStatus(code).name for code in source.status)
     verdicts: Counter[str] | None = None
     if (codes := source.verdicts) is not None:
         verdicts = Counter(source.verdict_names[code] for code in codes if code >= 0)
     return {
         "number": source.points,
-        "status": {word: counts[word] for word in STATUS},
+        "status": {word: counts[word] for word in PointStatus.__members__},
         "verdicts": None if verdicts is None else dict(verdicts.most_common()),
         "failures": [
             {"point": point, "code": one.code, "detail": one.detail, "time": one.time}
@@ -52,14 +52,14 @@ def print_points(source: "StudySource") -> None:
     """Print how many points ended in which way, the verdicts, the extremes, the first failures."""
     import numpy as np
 
-    from jointplay.records.study import DONE
+    from jointplay.records.point import PointStatus
 
     summary = summary_of(source)
     for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):
         if counts is not None:
             told = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
             typer.echo(f"{heading:9} {told}")
-    done = source.status == DONE
+    done = source.status == PointStatus.done
     width = max((len(channel.name) for channel in source.channels), default=0)
     for channel in source.channels if done.any() else ():
         peaks = source.peaks(channel.name)

@@ -6,8 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.run import ChannelLike, Floats
-from jointplay.records.study import STATUS, StudySource
+from jointplay.records.channel import Channel
+from jointplay.records.point import PointStatus
+from jointplay.records.run import Floats
+from jointplay.records.study import StudySource
 
 _BLOCK = 200_000  # values that are held at a time
 
@@ -126,7 +128,7 @@ def _head(source: StudySource, points: range) -> str:
         one.name: source.values[part, column].tolist()
         for column, one in enumerate(source.parameters)
     }
-    status = [STATUS[code] for code in source.status[part]]
+    status = [PointStatus(code).name for code in source.status[part]]
     return (
         f'{{"complete": {json.dumps(source.complete)}, "first_point": {points.start}, '
         f'"values": {json.dumps(values)}, "status": {json.dumps(status)}'
@@ -173,7 +175,7 @@ def _columns_of_points(
 
 
 def _words_of_points(source: StudySource) -> dict[str, list[str]]:
-    words = {"status": [STATUS[code] for code in source.status]}
+    words = {"status": [PointStatus(code).name for code in source.status]}
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
         words["verdict"] = names[source.verdicts].tolist()
@@ -195,7 +197,7 @@ def _list(values: Floats) -> str:
     return f"[{', '.join(numbers)}]"
 
 
-def _titled(channel: ChannelLike) -> str:
+def _titled(channel: Channel) -> str:
     return f"{channel.name} [{channel.unit}]"
 
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
-from jointplay.client.results import IMPACT_UNITS, Form, Impacts, Peak, Store
+from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import ChannelSeries, Floats, Window
 from jointplay.local.folder import results_in, store_in
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.records.impact import IMPACT_UNITS
 from jointplay.solver.runs.work_precision.plan import KIND
 from jointplay.solver.runs.work_precision.work_precision import Trade
 from jointplay.storage.results import ResultReader
@@ -65,7 +66,9 @@ class FolderResults:
         """Return the signed extremes of every channel."""
         run = self._run("peaks")
         found = run.peaks()
-        return {one.name: Peak(one.unit, *found[one.name]) for one in run.channels if found}
+        return {
+            one.name: Peak(**vars(found[one.name]), unit=one.unit) for one in run.channels if found
+        }
 
     def impacts(self) -> Impacts:
         """Return the contacts of the clearance joints."""

@@ -116,7 +116,8 @@ def _figures(admission: "Admission | Study") -> int:
     import numpy as np
 
     from jointplay import figures
-    from jointplay.records.run_in_memory import Channel, Dataset
+    from jointplay.records.channel import Channel
+    from jointplay.records.run_in_memory import Dataset
     from jointplay.solver.kinds import Admission
 
     if not isinstance(admission, Admission):

@@ -1,10 +1,11 @@
 """Jobs as the API shows them."""
 
 from datetime import UTC, datetime
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from jointplay.records.job import ErrorClass
 from jointplay.service.jobs.results_of_kinds import RESULTS
 from jointplay.storage.catalogue import Job, JobState
 
@@ -24,7 +25,7 @@ class JobError(BaseModel):
 
     model_config = ConfigDict(serialize_by_alias=True, validate_by_name=True)
 
-    error_class: Literal["user", "solver", "platform", "limit"] = Field(
+    error_class: ErrorClass = Field(
         alias="class",
         description="Who can do something about it: the user (the job's document), nobody but "
         "another tolerance (solver), the operator (platform), a smaller job (limit).",
@@ -67,7 +68,6 @@ class JobResource(BaseModel):
     @classmethod
     def of(cls, job: Job, **more: Any) -> Self:
         """Show the catalogue's record."""
-        error = job.error
         return cls(
             id=job.id,
             kind=job.kind,
@@ -83,13 +83,7 @@ class JobResource(BaseModel):
             started=None if job.started is None else moment(job.started),
             finished=None if job.finished is None else moment(job.finished),
             expires=None if job.expires is None else moment(job.expires),
-            error=error
-            and JobError(
-                error_class=error.error_class,
-                code=error.code,
-                detail=error.detail,
-                time=error.time,
-            ),
+            error=job.error and JobError.model_validate(job.error.document()),
             links=_links(job),
             job=job.spec,
             solver_version=job.solver_version,

@@ -128,7 +128,7 @@ def show_peaks(store: StoreOfThePath) -> Response:
     """Return each channel's signed minimum and maximum, with their times."""
     units = {channel.name: channel.unit for channel in store.channels}
     peaks = {
-        name: schemas.Peak.model_construct(unit=units[name], **peak._asdict())
+        name: schemas.Peak.model_construct(unit=units[name], **vars(peak))
         for name, peak in store.peaks().items()
     }
     return as_json(schemas.Peaks.model_construct(complete=store.complete, peaks=peaks))

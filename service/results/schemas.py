@@ -4,6 +4,8 @@ from typing import Any
 
 from pydantic import BaseModel, Field
 
+from jointplay.records.impact import MEASURED
+
 Values = list[float | None]
 
 
@@ -86,11 +88,11 @@ class Impact(BaseModel):
     """One contact in a clearance joint, from onset to release."""
 
     joint: str
-    onset: float | None = _in("s", "When journal and bearing touch.")
-    release: float | None = _in("s", "When they part; null: still in contact at the end.")
-    approach_rate: float | None = _in("m/s", "Rate of penetration at the onset.")
-    peak_force: float | None = _in("N", "Largest normal force.")
-    impulse: float | None = _in("N s", "Integral of the normal force.")
+    onset: float | None = _in(*MEASURED["onset"])
+    release: float | None = _in("s", "time of release; null: still in contact at the end")
+    approach_rate: float | None = _in(*MEASURED["approach_rate"])
+    peak_force: float | None = _in(*MEASURED["peak_force"])
+    impulse: float | None = _in(*MEASURED["impulse"])
 
 
 class Impacts(BaseModel):

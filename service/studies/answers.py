@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.point import PointStatus
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import (
@@ -23,7 +24,6 @@ from jointplay.solver.runs.study.outputs import MEANINGS
 from jointplay.storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
-STATUS: tuple[schemas.Status, ...] = ("waiting", "running", "done", "failed")
 NO_MEANING = ("1", "")
 VERDICT = "verdict"
 _READ = 4_000_000
@@ -102,7 +102,7 @@ def _points(
             )
             for column, one in enumerate(store.parameters)
         },
-        "status": [STATUS[code] for code in store.status[part]],
+        "status": [PointStatus(code).name for code in store.status[part]],
         "failures": [
             schemas.PointFailure.model_construct(
                 point=point, code=one.code, detail=one.detail, time=one.time

@@ -6,12 +6,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Final
 
+from jointplay.records.channel import Channel
 from jointplay.service.jobs.results_of_kinds import is_study
 from jointplay.service.results.stores import committed_so_far
 from jointplay.service.zarr.content import Content
 from jointplay.solver.runs.study.outputs import MEANINGS
 from jointplay.storage.catalogue import Catalogue, Job
-from jointplay.storage.results import ArraySpec, NotAStore
+from jointplay.storage.results import NotAStore
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.live import LiveStore, loosened
 from jointplay.storage.results.metadata import FILE
@@ -20,7 +21,7 @@ from jointplay.storage.studies.live import LiveStudy
 
 _FRESH: Final = 0.5
 """Seconds for which the parts of a running study are not read again."""
-_MEANINGS: Final = {name: ArraySpec(name, *meaning) for name, meaning in MEANINGS.items()}
+_MEANINGS: Final = {name: Channel(name, *meaning) for name, meaning in MEANINGS.items()}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
 

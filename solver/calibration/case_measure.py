@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.failure import Problem
+from jointplay.records.peak import Peak
 from jointplay.solver.calibration.problem import Calibration, CheckedCase
 from jointplay.solver.calibration.windows import Windows
 from jointplay.solver.kernels.emit.kernel import Kernel
@@ -24,7 +25,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.mechanics.assembly import assemble
-from jointplay.solver.runs.results import Peak
 from jointplay.solver.runs.study.fields import geometry_columns, structure_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene

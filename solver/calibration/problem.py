@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.calibration.document import CalibrationJob, CalibrationTarget
@@ -19,7 +20,6 @@ from jointplay.solver.kinds.job import PresetScene
 from jointplay.solver.kinds.limits import MOST_PERIODS
 from jointplay.solver.kinds.mechanism import declared, resolve
 from jointplay.solver.kinds.methods import check_study, chosen
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
 

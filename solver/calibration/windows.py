@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.peak import Peak
 from jointplay.solver.calibration.document import CalibrationTarget, Statistic
 from jointplay.solver.calibration.targets import grid_indices
-from jointplay.solver.runs.results import Peak
 
 Floats = NDArray[np.float64]
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kernels.record.length import check_length
 from jointplay.solver.kinds.job import MechanismJob
@@ -30,7 +31,6 @@ from jointplay.solver.runs.study.fields import (
     structure_columns,
 )
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import PLACE, set_parameters
 from jointplay.solver.scene.sizes import ill_sized

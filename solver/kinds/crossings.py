@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import Problem
 from jointplay.solver.kinds.checked_points import CheckedPoints
 from jointplay.solver.kinds.section import ChannelSection
 from jointplay.solver.runs.ideal.reach import motion_reach
-from jointplay.solver.scene.channels import Channel
 
 FARTHEST = 2.0
 """Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""

@@ -8,12 +8,13 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
 from jointplay.solver.mechanics.assembly import ASSEMBLED, Assembly, assemble, shortest_link
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
-from jointplay.solver.scene.channels import Channel, channels
+from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import part_problems, reference_problems

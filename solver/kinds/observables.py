@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.checked_points import CheckedPoints, Mechanism
 from jointplay.solver.mechanics.tree import Branch
-from jointplay.solver.scene.channels import Channel, select
+from jointplay.solver.scene.channels import select
 from jointplay.solver.scene.document import Prismatic
 
 RATES = {"x": "vx", "y": "vy", "theta": "omega"}

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.mechanism import offered, written
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.study.fields import distinct, structure_columns
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.scene.references import has_play

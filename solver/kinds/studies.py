@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.limits import stored_bytes
 from jointplay.solver.kinds.placed_points import PlacedPoints
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.scene.channels import Channel
 
 Floats = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 
 STANDARD_TOLERANCE = 1e-6

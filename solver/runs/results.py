@@ -8,20 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.peak import Peak
 
-IMPACT = np.dtype(
-    [
-        ("joint", "i4"),
-        ("onset", "f8"),
-        ("release", "f8"),
-        ("approach_rate", "f8"),
-        ("peak_force", "f8"),
-        ("impulse", "f8"),
-    ]
-)
-"""One contact: joint index, times (s; release not a number: it lasts beyond the run), penetration
-rate at onset (m/s), largest normal force (N), its integral (N s)."""
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -41,22 +30,6 @@ class Slice:
     """(sections, channels)."""
     impacts: NDArray[np.void]
     """Contacts that ended, of dtype `IMPACT`, in the order of their release."""
-
-
-@dataclass(frozen=True)
-class Peak:
-    """Signed extremes of a channel over the whole run, and their times (s)."""
-
-    minimum: float
-    minimum_time: float
-    maximum: float
-    maximum_time: float
-
-    def scaled(self, factor: float, offset: float) -> Peak:
-        """Return the extremes of factor * channel + offset."""
-        low = (factor * self.minimum + offset, self.minimum_time)
-        high = (factor * self.maximum + offset, self.maximum_time)
-        return Peak(*low, *high) if factor >= 0.0 else Peak(*high, *low)
 
 
 @dataclass(frozen=True)

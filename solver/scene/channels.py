@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Revolute, Scene
@@ -37,15 +37,6 @@ PLAY = (
     ("slip_velocity", "m/s", "slip velocity of the journal against the bearing"),
 )
 ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
-
-
-@dataclass(frozen=True)
-class Channel:
-    """A named signal, its SI unit and what it is."""
-
-    name: str
-    unit: str
-    long_name: str
 
 
 @per_structure

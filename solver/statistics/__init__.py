@@ -7,7 +7,7 @@ its result has the same bits however the rows were cut.
 
 from __future__ import annotations
 
-from jointplay.solver.scene.channels import Channel
+from jointplay.records.channel import Channel
 from jointplay.solver.statistics.of_channels import OF_CHANNELS
 from jointplay.solver.statistics.of_contacts import OF_CONTACTS
 

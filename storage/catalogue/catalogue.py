@@ -10,6 +10,7 @@ from typing import Any
 from sqlalchemy import text
 from sqlalchemy.exc import OperationalError
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import (
     batches,
     holding,
@@ -32,7 +33,6 @@ from jointplay.storage.catalogue.records import (
     Event,
     Glance,
     Job,
-    JobError,
     JobFilter,
     JobPage,
     JobState,

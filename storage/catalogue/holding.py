@@ -8,9 +8,10 @@ from typing import Any
 
 from sqlalchemy import Connection, delete, func, insert, select, update
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import BlockState, Claim, JobError, JobState, Verdict
+from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Verdict
 from jointplay.storage.catalogue.rows import block_record, lock_job, record_event, step_job
 from jointplay.storage.catalogue.submission import drop_queued_blocks
 

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Literal
+from typing import Any
 
-ErrorClass = Literal["user", "solver", "platform", "limit"]
+from jointplay.records.job import JobError
 
 
 class JobState(StrEnum):
@@ -54,16 +54,6 @@ class Verdict(StrEnum):
 
     go_on = "continue"
     cancel = "cancel"
-
-
-@dataclass(frozen=True)
-class JobError:
-    """Why a job failed: who can do something about it, a code for programs, a sentence."""
-
-    error_class: ErrorClass
-    code: str
-    detail: str
-    time: float | None = None  # simulated time [s] at which it happened, if that means something
 
 
 @dataclass(frozen=True)

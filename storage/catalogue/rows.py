@@ -6,6 +6,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, func, insert, select, update
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import (
@@ -15,7 +16,6 @@ from jointplay.storage.catalogue.records import (
     BlockState,
     Event,
     Job,
-    JobError,
     JobState,
 )
 

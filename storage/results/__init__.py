@@ -16,22 +16,19 @@ from jointplay.storage.results.errors import (
     StoreSealed,
     UnknownChannel,
 )
-from jointplay.storage.results.layout import IMPACT, ArraySpec, Peak, ResultLayout
+from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.partition import Partition
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
 
 __all__ = [
-    "IMPACT",
     "Appendix",
-    "ArraySpec",
     "CheckpointMismatch",
     "CorruptStore",
     "InvalidAppend",
     "InvalidLayout",
     "NotAStore",
     "Partition",
-    "Peak",
     "ResultLayout",
     "ResultReader",
     "ResultWriter",

@@ -3,47 +3,15 @@
 import json
 from dataclasses import astuple, dataclass, field
 from hashlib import sha256
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
-import numpy as np
-
+from jointplay.records.channel import Channel
 from jointplay.records.names import STORED, is_storable
 from jointplay.storage.results.errors import InvalidLayout
 from jointplay.storage.results.partition import Partition
 
 MANIFEST: Final = "MANIFEST.json"
 SCHEMA_VERSION: Final = 1
-
-IMPACT: Final = np.dtype(
-    [
-        ("joint", "<i4"),
-        ("onset", "<f8"),
-        ("release", "<f8"),
-        ("approach_rate", "<f8"),
-        ("peak_force", "<f8"),
-        ("impulse", "<f8"),
-    ]
-)
-"""One contact: joint (index into `ResultLayout.joints`), onset and release [s] (NaN where it
-had not ended), approach rate [m/s], peak force [N], impulse [N s]."""
-
-
-class Peak(NamedTuple):
-    """Signed extremes of one channel, in its unit, each with its time [s]."""
-
-    minimum: float
-    minimum_time: float
-    maximum: float
-    maximum_time: float
-
-
-@dataclass(frozen=True)
-class ArraySpec:
-    """One channel: its name, its SI unit ("1" for a pure number) and a few words of meaning."""
-
-    name: str
-    unit: str
-    long_name: str
 
 
 @dataclass(frozen=True)
@@ -72,7 +40,7 @@ class ResultLayout:
         that JSON cannot carry.
     """
 
-    channels: tuple[ArraySpec, ...]
+    channels: tuple[Channel, ...]
     samples: int
     sections: int
     joints: tuple[str, ...]
@@ -102,7 +70,7 @@ class ResultLayout:
         """SHA-256 over the arrays (not the attributes): two runs with it can share shards."""
         shape = [
             SCHEMA_VERSION,
-            [[channel.name, channel.unit, channel.long_name] for channel in self.channels],
+            self.channels,
             self.samples,
             self.sections,
             list(self.joints),

@@ -12,10 +12,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
 from jointplay.storage.results import shards
 from jointplay.storage.results.errors import NotAStore
-from jointplay.storage.results.layout import IMPACT
 from jointplay.storage.results.metadata import FILE, Document, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
 

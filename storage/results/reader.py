@@ -10,12 +10,15 @@ import numpy as np
 import zarr
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
+from jointplay.records.peak import PEAK, Peak
 from jointplay.storage.results import manifest
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
 from jointplay.storage.results.envelope import Envelope
 from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import IMPACT, MANIFEST, SCHEMA_VERSION, ArraySpec, Peak
+from jointplay.storage.results.layout import MANIFEST, SCHEMA_VERSION
 from jointplay.storage.results.live import columns_of, committed, rows_in_shards, shape_of
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.results.waiting import Waiting
@@ -67,12 +70,12 @@ class ResultReader:
         """Samples that can be read."""
 
     @cached_property
-    def channels(self) -> tuple[ArraySpec, ...]:
+    def channels(self) -> tuple[Channel, ...]:
         """Channels in the order of the layout, with units and long names."""
         names = self.attributes["channels"]
         attributes = {name: self._members[name]["attributes"] for name in names}
         return tuple(
-            ArraySpec(name, str(found["units"]), str(found["long_name"]))
+            Channel(name, str(found["units"]), str(found["long_name"]))
             for name, found in attributes.items()
         )
 
@@ -176,7 +179,7 @@ class ResultReader:
         if not self.sealed:
             return {}
         group = _opened(self.path / "peaks")  # alone: without a look at hundreds of channels
-        columns = [np.asarray(group[name]).tolist() for name in Peak._fields]
+        columns = [np.asarray(group[name]).tolist() for name in PEAK]
         return {
             name: Peak(*values)
             for name, *values in zip(self.attributes["channels"], *columns, strict=True)

@@ -9,24 +9,13 @@ from typing import Any, Final
 
 import numpy as np
 
+from jointplay.records.impact import IMPACT, MEASURED
 from jointplay.records.names import TIME
-from jointplay.storage.results.layout import IMPACT, SCHEMA_VERSION, Peak, ResultLayout
+from jointplay.records.peak import PEAK
+from jointplay.storage.results.layout import SCHEMA_VERSION, ResultLayout
 from jointplay.storage.results.shards import fill
 
 _DOUBLE: Final = np.dtype("<f8")
-_IMPACT_MEANING: Final = {
-    "onset": ("s", "time of impact onset"),
-    "release": ("s", "time of release"),
-    "approach_rate": ("m/s", "approach rate at onset"),
-    "peak_force": ("N", "largest normal contact force"),
-    "impulse": ("N s", "impulse of the normal contact force"),
-}
-_PEAK_MEANING: Final = {
-    "minimum": {"long_name": "smallest value, in the unit of its channel"},
-    "minimum_time": {"units": "s", "long_name": "time of the smallest value"},
-    "maximum": {"long_name": "largest value, in the unit of its channel"},
-    "maximum_time": {"units": "s", "long_name": "time of the largest value"},
-}
 
 
 @dataclass(frozen=True)
@@ -68,10 +57,7 @@ class Table:
 def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
     """History, sections, impacts and peaks of a layout."""
     sampled = (
-        *(
-            Column(channel.name, _DOUBLE, {"units": channel.unit, "long_name": channel.long_name})
-            for channel in layout.channels
-        ),
+        *(Column(channel.name, _DOUBLE, channel.attributes) for channel in layout.channels),
         # last, because readers take its shard for the sign that all others are there
         Column(TIME, _DOUBLE, {"units": "s", "long_name": "time"}),
     )
@@ -82,7 +68,7 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
         "joints": list(layout.joints),
         "complete": False,
     }
-    peaks = tuple(Column(name, _DOUBLE, _PEAK_MEANING[name]) for name in Peak._fields)
+    peaks = tuple(Column(name, _DOUBLE, meaning) for name, meaning in PEAK.items())
     channels = {
         "channels": [channel.name for channel in layout.channels],
         "channel_units": [channel.unit for channel in layout.channels],
@@ -116,6 +102,6 @@ def _impact_columns(joints: tuple[str, ...]) -> tuple[Column, ...]:
     }
     measured = (
         Column(name, IMPACT[name], {"units": unit, "long_name": long_name})
-        for name, (unit, long_name) in _IMPACT_MEANING.items()
+        for name, (unit, long_name) in MEASURED.items()
     )
     return (Column("joint", IMPACT["joint"], flags), *measured)

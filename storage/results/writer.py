@@ -1,19 +1,22 @@
 """Write the results of one attempt, from empty store to sealed store."""
 
 from collections.abc import Mapping
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
 from jointplay.storage.results import manifest, metadata
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.journal import Checkpoint, Journal
-from jointplay.storage.results.layout import IMPACT, Peak, ResultLayout
+from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.pyramid import Pyramid
 from jointplay.storage.results.tables import tables
 
@@ -248,7 +251,7 @@ class ResultWriter:
         if unknown := peaks.keys() - set(names):
             raise InvalidAppend(f"peaks of channels that the layout lacks: {sorted(unknown)}")
         self._sealed = True
-        rows = np.array([peaks.get(name, _NO_PEAK) for name in names]).reshape(-1, 4)
+        rows = np.array([astuple(peaks.get(name, _NO_PEAK)) for name in names]).reshape(-1, 4)
         self._peaks.append(list(rows.T))
         self._pyramid.close()
         for litter in self._path.rglob(f"*{PARTIAL}"):

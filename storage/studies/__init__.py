@@ -6,14 +6,10 @@
 
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Failure, PointStatus
-from jointplay.storage.studies.reader import Extremes, StudyReader
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.storage.studies.store import create, seal
 
 __all__ = [
-    "Extremes",
-    "Failure",
-    "PointStatus",
     "StudyBlock",
     "StudyLayout",
     "StudyReader",

@@ -12,13 +12,13 @@ from typing import Self
 import numpy as np
 
 from jointplay.records.names import TIME
+from jointplay.records.point import Failure, PointEnd, PointStatus, SectionRows, StudySlice
 from jointplay.storage.results import shards
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import CorruptStore, InvalidAppend, ResultsError
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus
-from jointplay.storage.studies.pieces import End, Piece, Rows
+from jointplay.storage.studies.part import Floats, Part
 
 _ENDED = (PointStatus.done, PointStatus.failed)
 
@@ -90,7 +90,7 @@ class StudyBlock:
         """Points that have ended."""
         return int(np.isin(self._part.status, _ENDED).sum())
 
-    def take(self, piece: Piece) -> None:
+    def take(self, piece: StudySlice) -> None:
         """Add what became known; chunks that are full go to the disk, durable with `flush`.
 
         Raises
@@ -136,7 +136,7 @@ class StudyBlock:
         for path in (self._folder.root / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
             path.unlink(missing_ok=True)
 
-    def _add_rows(self, rows: Rows) -> int:
+    def _add_rows(self, rows: SectionRows) -> int:
         place = self._row(rows.point)
         count, known = len(rows.time), int(self._part.counts[place])
         width = len(self._layout.observables)
@@ -164,7 +164,7 @@ class StudyBlock:
         self._part.counts[place] = known + count
         return row
 
-    def _add_end(self, end: End) -> int:
+    def _add_end(self, end: PointEnd) -> int:
         place = self._row(end.point)
         if self._part.status[place] in _ENDED:
             raise InvalidAppend(f"point {end.point} ended before")

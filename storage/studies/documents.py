@@ -9,20 +9,15 @@ from typing import Any, Final
 
 import numpy as np
 
+from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
+from jointplay.records.peak import PEAK
+from jointplay.records.point import PointStatus
 from jointplay.storage.results import metadata
-from jointplay.storage.results.layout import ArraySpec
 from jointplay.storage.results.metadata import FILE, Document
 from jointplay.storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
-from jointplay.storage.studies.part import PointStatus
 
 DOUBLE: Final = np.dtype("<f8")
-PEAKS: Final = {
-    "minimum": {"long_name": "smallest value, in the unit of its channel"},
-    "minimum_time": {"units": "s", "long_name": "time of the smallest value"},
-    "maximum": {"long_name": "largest value, in the unit of its channel"},
-    "maximum_time": {"units": "s", "long_name": "time of the largest value"},
-}
 _STATUS: Final = {
     "long_name": "what became of the point",
     "flag_values": [int(status) for status in PointStatus],
@@ -69,12 +64,12 @@ def sealed(
     }
     for group, members in names.items():
         for name in members:
-            meaning = layout.meanings.get(name, ArraySpec(name, "1", name.replace("_", " ")))
-            arrays[f"{group}/{name}"] = column(DOUBLE, _described(meaning))
+            meaning = layout.meanings.get(name, Channel(name, "1", name.replace("_", " ")))
+            arrays[f"{group}/{name}"] = column(DOUBLE, meaning.attributes)
     if layout.channels:
         width = len(layout.channels)
         shape, cut = [layout.points, width], [point_chunk(layout, width), width]
-        for name, attributes_of in PEAKS.items():
+        for name, attributes_of in PEAK.items():
             arrays[f"peaks/{name}"] = metadata.array(
                 shape, cut, DOUBLE, ["point", "channel"], attributes_of
             )
@@ -85,7 +80,7 @@ def _values(layout: StudyLayout) -> dict[str, Document]:
     chunk = [point_chunk(layout)]
     return {
         f"values/{spec.name}": metadata.array(
-            [layout.points], chunk, DOUBLE, ["point"], _described(spec)
+            [layout.points], chunk, DOUBLE, ["point"], spec.attributes
         )
         for spec in layout.parameters
     }
@@ -94,21 +89,17 @@ def _values(layout: StudyLayout) -> dict[str, Document]:
 def _sections(layout: StudyLayout) -> dict[str, Document]:
     if not layout.record:
         return {}
-    time = ArraySpec(TIME, "s", "time since the start of the point's run")
+    time = Channel(TIME, "s", "time since the start of the point's run")
     return {
         f"sections/{spec.name}": metadata.array(
             [layout.points, layout.record],
             layout.chunk,
             DOUBLE,
             ["point", "section"],
-            _described(spec),
+            spec.attributes,
         )
         for spec in (*layout.observables, time)
     }
-
-
-def _described(spec: ArraySpec) -> dict[str, str]:
-    return {"units": spec.unit, "long_name": spec.long_name}
 
 
 def _tree(
@@ -148,5 +139,5 @@ def _tree(
     return written
 
 
-def _listed(specs: Sequence[ArraySpec]) -> list[list[str]]:
+def _listed(specs: Sequence[Channel]) -> list[list[str]]:
     return [[spec.name, spec.unit, spec.long_name] for spec in specs]

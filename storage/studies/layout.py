@@ -10,9 +10,10 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
 from jointplay.storage.results.errors import InvalidLayout
-from jointplay.storage.results.layout import ArraySpec, check_name
+from jointplay.storage.results.layout import check_name
 
 STUDY_SCHEMA: Final = 1
 CHUNK_VALUES: Final = 16_384
@@ -54,14 +55,14 @@ class StudyLayout:
         attributes that JSON cannot carry.
     """
 
-    parameters: tuple[ArraySpec, ...]
+    parameters: tuple[Channel, ...]
     values: NDArray[np.float64]
-    observables: tuple[ArraySpec, ...]
+    observables: tuple[Channel, ...]
     record: int
-    channels: tuple[ArraySpec, ...]
+    channels: tuple[Channel, ...]
     blocks: tuple[tuple[int, int], ...]
     attributes: dict[str, Any] = field(default_factory=dict)
-    meanings: Mapping[str, ArraySpec] = field(default_factory=dict)
+    meanings: Mapping[str, Channel] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or self.values.shape[1] != len(self.parameters):
@@ -128,7 +129,7 @@ class StudyLayout:
         return sha256(json.dumps(shape).encode()).hexdigest()
 
 
-def _check_names(specs: Iterable[ArraySpec], what: str, taken: Iterable[str]) -> None:
+def _check_names(specs: Iterable[Channel], what: str, taken: Iterable[str]) -> None:
     seen = set(taken)
     for spec in specs:
         check_name(spec.name)

@@ -12,9 +12,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
 from jointplay.storage.results import shards
-from jointplay.storage.results.layout import ArraySpec
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
 from jointplay.storage.studies.layout import StudyLayout
@@ -39,7 +39,7 @@ class LiveStudy:
         There is no store of a study.
     """
 
-    def __init__(self, folder: Path, meanings: Mapping[str, ArraySpec]) -> None:
+    def __init__(self, folder: Path, meanings: Mapping[str, Channel]) -> None:
         self._reader = reader = StudyReader(folder)
         self._layout = StudyLayout(
             parameters=reader.parameters,
@@ -50,7 +50,7 @@ class LiveStudy:
             blocks=tuple((int(first), int(count)) for first, count in reader.attributes["blocks"]),
             meanings={
                 **meanings,
-                **{name: ArraySpec(name, *meaning) for name, meaning in reader.meanings.items()},
+                **{name: Channel(name, *meaning) for name, meaning in reader.meanings.items()},
             },
         )
         self._codes = sorted({failure.code for failure in reader.failures.values()})

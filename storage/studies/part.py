@@ -8,14 +8,14 @@ last part remains until the study is sealed.
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from enum import IntEnum
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, Final, NamedTuple, Self
+from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.point import Failure
 from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.studies.layout import StudyLayout
 
@@ -23,23 +23,6 @@ FOLDER: Final = ".parts"
 _MAGIC: Final = b"jointplay part of a study 1\n"
 
 Floats = NDArray[np.float64]
-
-
-class PointStatus(IntEnum):
-    """What a point of a study is doing."""
-
-    waiting = 0
-    running = 1
-    done = 2
-    failed = 3
-
-
-class Failure(NamedTuple):
-    """Why a point has not all its sections: a code, a sentence, the simulated time reached [s]."""
-
-    code: str
-    detail: str
-    time: float
 
 
 @dataclass

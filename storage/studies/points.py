@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.storage.studies.part import Failure, Floats, Part
+from jointplay.records.point import Failure
+from jointplay.storage.studies.part import Floats, Part
 
 
 @dataclass(frozen=True)

@@ -5,33 +5,27 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
 import numpy as np
 import zarr
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import Failure
 from jointplay.storage.results import manifest
 from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import MANIFEST, ArraySpec
+from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import STUDY_SCHEMA
-from jointplay.storage.studies.part import Failure, Floats, Part
+from jointplay.storage.studies.part import Floats, Part
 from jointplay.storage.studies.points import Points, together
 from jointplay.storage.studies.store import FAILURES
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
-
-
-class Extremes(NamedTuple):
-    """Signed extremes of one channel at every point, each with its time [s]: (points,) arrays."""
-
-    minimum: Floats
-    minimum_time: Floats
-    maximum: Floats
-    maximum_time: Floats
 
 
 class StudyReader:
@@ -132,7 +126,7 @@ class StudyReader:
         """Names of the verdicts."""
         return tuple(self.attributes.get("verdicts", ()))
 
-    def peaks(self, channel: str) -> Extremes:
+    def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point; NaN at points that have not ended.
 
         Raises
@@ -143,11 +137,11 @@ class StudyReader:
         column = _position(channel, self.channels)
         numbers = self._numbers
         if not self.sealed:
-            return Extremes(*numbers.peaks[:, column, :].T)
-        return Extremes(
+            return PeakColumns(*numbers.peaks[:, column, :].T)
+        return PeakColumns(
             *(
                 np.asarray(self._array(f"peaks/{name}")[:, column], np.float64)
-                for name in Extremes._fields
+                for name in PeakColumns._fields
             )
         )
 
@@ -294,11 +288,11 @@ class StudyReader:
         return zarr.open_group(self.path, mode="r", zarr_format=3)
 
 
-def _specs(listed: Sequence[Sequence[str]]) -> tuple[ArraySpec, ...]:
-    return tuple(ArraySpec(*spec) for spec in listed)
+def _specs(listed: Sequence[Sequence[str]]) -> tuple[Channel, ...]:
+    return tuple(Channel(*spec) for spec in listed)
 
 
-def _position(name: str, specs: Sequence[ArraySpec]) -> int:
+def _position(name: str, specs: Sequence[Channel]) -> int:
     names = tuple(spec.name for spec in specs)
     if name not in names:
         raise UnknownChannel(name, names)

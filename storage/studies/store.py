@@ -11,6 +11,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.peak import PEAK
+from jointplay.records.point import Failure, PointStatus
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.results.durable import PARTIAL, DurableFolder
 from jointplay.storage.results.errors import IncompleteStudy, StoreExists
@@ -18,7 +20,7 @@ from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.studies import documents, part
 from jointplay.storage.studies.block import chunk_files, require_chunks
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Failure, Floats, Part, PointStatus
+from jointplay.storage.studies.part import Floats, Part
 from jointplay.storage.studies.points import Points, together
 
 FAILURES: Final = "failures.json"
@@ -158,7 +160,7 @@ def _columns(
         size = documents.point_chunk(layout, width)
         for chunk, first in enumerate(range(0, layout.points, size)):
             peaks = window(first, size).peaks
-            for position, name in enumerate(documents.PEAKS):
+            for position, name in enumerate(PEAK):
                 yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
 
 

@@ -18,7 +18,8 @@ from jointplay.client import (
     TimedOut,
     Unreachable,
 )
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import BlockState
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 
@@ -98,7 +99,7 @@ def test_a_failed_job_says_why(client, worker):
     with pytest.raises(JobFailed, match="loosen the tolerance") as caught:
         client.job(claim.job.id).wait()
     job = caught.value.job
-    assert (job.error.kind, job.error.detail) == ("limit", error.detail)
+    assert job.error == error
     assert client.job(claim.job.id).wait(check=False).state == "failed"
     with pytest.raises(JobCancelled):
         client.job(worker.submit()).cancel().wait()

@@ -5,7 +5,7 @@ import pytest
 
 from jointplay import figures
 from jointplay.client import Client, NotFound, Refused, ResultsNotReady
-from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
+from jointplay.records.point import PointStatus
 from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
@@ -23,7 +23,7 @@ def test_a_study_comes_as_arrays(client, finished_study):
     assert (study.kind, study.points, study.record, study.complete) == ("bifurcation", 20, 6, True)
     np.testing.assert_array_equal(study.values[:, 0], np.linspace(1e-4, 1e-3, 20))
     assert [(one.name, one.unit) for one in study.parameters] == [("clearance", "m")]
-    assert np.flatnonzero(study.status == FAILED).tolist() == [3, 17]
+    assert np.flatnonzero(study.status == PointStatus.failed).tolist() == [3, 17]
     assert study.failures[17].code == "step-size-underflow"
     assert study.counts.tolist() == [3 if point in (3, 17) else 6 for point in range(20)]
     names = client.job(finished_study).job["observables"]
@@ -47,7 +47,7 @@ def test_a_sweep_comes_as_arrays(client, finished_sweep):
     assert study.values[3].tolist() == [2e-4, 0.05]
     peaks = study.peaks("A.normal_force")
     np.testing.assert_array_equal(peaks.maximum, [1.0, 2.0, 3.0, 4.0, np.nan, 6.0])
-    assert (study.status == DONE).sum() == 5
+    assert (study.status == PointStatus.done).sum() == 5
     mean = study.statistics["A.normal_force.mean"]
     np.testing.assert_array_equal(mean, [0.0, 0.5, 1.0, 1.5, np.nan, 2.5])
     assert study.attributes["meanings"]["A.normal_force.mean"][0] == "N"
@@ -83,7 +83,8 @@ def test_a_study_can_be_fetched_while_it_runs(client, worker):
     worker.compute(worker.start(job, 1), points=3, sections=2)
     study = client.job(job).study(["A.eccentricity_x"])
     assert not study.complete
-    assert study.status.tolist() == [WAITING] * 8 + [DONE] * 2 + [RUNNING] + [WAITING] * 9
+    states = ["waiting"] * 8 + ["done"] * 2 + ["running"] + ["waiting"] * 9
+    assert [PointStatus(code).name for code in study.status] == states
     assert study.counts[10] == 2
 
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from jointplay.client import Client, NotFound, Refused
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
 

@@ -67,7 +67,7 @@ def test_the_table_has_a_line_for_every_published_number():
     cases = cases_of(scene)
     peaks = [
         {
-            entry["channel"]: Peak(entry["unit"], entry["value"], 0.0, entry["value"], 0.0)
+            entry["channel"]: Peak(entry["value"], 0.0, entry["value"], 0.0, entry["unit"])
             for entry in case.reported
         }
         for case in cases

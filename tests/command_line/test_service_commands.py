@@ -8,7 +8,8 @@ import socket
 import pytest
 
 from jointplay.client import retrying
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import BlockState
 
 
 @pytest.fixture

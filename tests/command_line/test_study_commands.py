@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import BlockState
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}

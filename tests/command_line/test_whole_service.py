@@ -11,7 +11,7 @@ import xarray as xr
 
 from jointplay import load
 from jointplay.client import Client, JobCancelled
-from jointplay.records.study import WAITING
+from jointplay.records.point import PointStatus
 from jointplay.service.processes import running_service
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
@@ -104,7 +104,7 @@ def test_a_study_is_read_while_it_runs_and_keeps_what_it_has_when_cancelled(join
         assert job.wait(report=look, timeout=120.0, check=False).state == "cancelled"
         assert seen is not None
         assert not seen.complete
-        assert (seen.status == WAITING).any()
+        assert (seen.status == PointStatus.waiting).any()
         assert (seen.counts > 0).any()
         kept = job.study(["P.eccentricity_x"], sections=(0, 10))
         assert (kept.counts >= seen.counts).all()
@@ -181,7 +181,7 @@ def test_a_job_that_fails_says_why_and_keeps_what_it_computed(jointplay, url):
     with Client(url) as client:
         job = client.job(ended.out.strip())
         assert job.error is not None
-        assert job.error.kind == "solver"
+        assert job.error.error_class == "solver"
         history = job.window("displacement")
         assert not history.complete
         assert 0.0 < history.time[-1] < 0.05

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from jointplay.exports.run import csv_lines, json_pieces
+from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel
-from jointplay.records.run_in_memory import Channel, Dataset
-from jointplay.storage.results import ArraySpec, ResultLayout, ResultReader, ResultWriter
-from jointplay.storage.results.layout import IMPACT
+from jointplay.records.impact import IMPACT
+from jointplay.records.run_in_memory import Dataset
+from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
 
 CHANNELS = (Channel("slider7.x", "m", "position"), Channel("A.normal_force", "N", "normal force"))
 
@@ -81,7 +82,7 @@ def test_unknown_channels_are_refused_before_any_text(writer):
 
 def test_a_long_history_is_exported_in_bounded_memory(tmp_path):
     rows = 200_000
-    layout = ResultLayout((ArraySpec("x", "m", "position"),), rows, 0, ())
+    layout = ResultLayout((Channel("x", "m", "position"),), rows, 0, ())
     writer = ResultWriter.create(tmp_path, layout)
     none = np.empty(0), np.empty((0, 1)), np.empty(0, IMPACT)
     values = np.random.default_rng(0).normal(size=(rows, 1))
@@ -103,7 +104,7 @@ def test_a_long_history_is_exported_in_bounded_memory(tmp_path):
 
 def test_the_store_and_memory_export_alike(tmp_path):
     values = np.random.default_rng(0).normal(size=(7, 2))
-    specs = tuple(ArraySpec(*channel) for channel in CHANNELS)
+    specs = CHANNELS
     writer = ResultWriter.create(tmp_path, ResultLayout(specs, 7, 0, ()))
     none = np.empty(0), np.empty((0, 2)), np.empty(0, IMPACT)
     in_memory = dataset(values)

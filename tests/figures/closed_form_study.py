@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from jointplay.records.run_in_memory import Channel
-from jointplay.records.study import DONE, FAILED, RUNNING, WAITING
-from jointplay.records.study_in_memory import Extremes, Failure, StudyDataset
+from jointplay.records.channel import Channel
+from jointplay.records.peak import PeakColumns
+from jointplay.records.point import Failure, PointStatus
+from jointplay.records.study_in_memory import StudyDataset
 
 VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
 SCENE = {"name": "logistic", "bodies": {}, "joints": {"left": {"clearance": {}}}}
@@ -54,12 +55,12 @@ def bifurcation(
     growth = 2.9 + 1.1 * (values - low) / (high - low)
     if both:
         values, growth = np.tile(values, 2), np.tile(growth, 2)
-    status = np.full(len(values), DONE, dtype=np.uint8)
-    status[list(failed)] = FAILED
-    status[list(unfinished)] = RUNNING
-    status[list(unfinished)[len(list(unfinished)) // 2 :]] = WAITING
+    status = np.full(len(values), PointStatus.done, dtype=np.uint8)
+    status[list(failed)] = PointStatus.failed
+    status[list(unfinished)] = PointStatus.running
+    status[list(unfinished)[len(list(unfinished)) // 2 :]] = PointStatus.waiting
     x = logistic(growth, record + 1)
-    x[status != DONE] = np.nan
+    x[status != PointStatus.done] = np.nan
     sections = {
         name: scale * (x[:, 1:] if "rate" in name or "v" in name else x[:, :-1])
         for name, _, scale in OBSERVED
@@ -70,9 +71,9 @@ def bifurcation(
     times = PERIOD * (100 + np.arange(1.0, record + 1)) + 0.0 * x[:, :-1]
     indicators, verdicts = {}, None
     if judged:
-        exponent = np.where(status == DONE, exponents(growth), np.nan)
+        exponent = np.where(status == PointStatus.done, exponents(growth), np.nan)
         verdicts = np.select(
-            [status != DONE, exponent > 0.05, exponent < -0.02], [-1, 3, 1], default=0
+            [status != PointStatus.done, exponent > 0.05, exponent < -0.02], [-1, 3, 1], default=0
         )
         verdicts[(verdicts == 1) & (growth > 2.95) & (growth < 3.0)] = 2
         indicators = {"lyapunov": exponent, "lyapunov_error": 0.02 + 0.0 * exponent}
@@ -110,7 +111,7 @@ def one_point(kind="poincare", members=1, record=400):
         attributes={"job": {"kind": kind}, "scene": SCENE},
         parameters=(),
         values=np.empty((members, 0)),
-        status=np.full(members, DONE, dtype=np.uint8),
+        status=np.full(members, PointStatus.done, dtype=np.uint8),
         observables=tuple(Channel(name, unit, name) for name, unit, _ in OBSERVED),
         times=np.broadcast_to(PERIOD * np.arange(1.0, record + 1), (members, record)),
         section_values=sections,
@@ -133,11 +134,11 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
         )
     ]
     values = np.stack([one.ravel() for one in np.meshgrid(*axes, indexing="ij")], axis=1)
-    status = np.full(len(values), DONE, dtype=np.uint8)
-    status[list(failed)] = FAILED
-    status[list(unfinished)] = WAITING
+    status = np.full(len(values), PointStatus.done, dtype=np.uint8)
+    status[list(failed)] = PointStatus.failed
+    status[list(unfinished)] = PointStatus.waiting
     force = 3e6 * values[:, 0] ** 1.5 * (values[:, 1] ** 0.3 if len(sizes) > 1 else 1e2) * 1e2
-    force[status != DONE] = np.nan
+    force[status != PointStatus.done] = np.nan
     stroke = 0.528 - 2.0 * values[:, 0] + 0.0 * force
     moment = 0.1 + 0.0 * force
     return StudyDataset(
@@ -161,8 +162,8 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
             Channel("left.normal_force", "N", "normal force"),
         ),
         extremes={
-            "stroke": Extremes(stroke - 0.5, moment, stroke, moment),
-            "left.normal_force": Extremes(0.0 * force, moment, force, moment),
+            "stroke": PeakColumns(stroke - 0.5, moment, stroke, moment),
+            "left.normal_force": PeakColumns(0.0 * force, moment, force, moment),
         },
         failures={point: Failure("step-size-underflow", "No step.", 0.1) for point in failed},
         statistics={
@@ -193,10 +194,10 @@ def accuracy_study(ended=None, *, lossless=False):
         "evaluations": 1e3 * order * 10.0 ** (decades / order),
         "astray": np.full(len(runs), np.nan) if lossless else 0.1 * error,
     }
-    status = np.full(len(runs), DONE, dtype=np.uint8)
-    status[2] = FAILED
+    status = np.full(len(runs), PointStatus.done, dtype=np.uint8)
+    status[2] = PointStatus.failed
     if ended is not None:
-        status[ended:] = WAITING
+        status[ended:] = PointStatus.waiting
         for column in statistics.values():
             column[ended:] = np.nan
     return StudyDataset(

@@ -18,7 +18,7 @@ from PIL import Image
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
-from jointplay.records.run_in_memory import Peak
+from jointplay.records.peak import Peak
 
 CHOICES = {"time-history": Selection(channels=("block.x", "left.normal_force"))}
 NAMES = [kind.name for kind in figures.ROSTER]

@@ -7,7 +7,9 @@ from closed_form_motion import SCENE
 from test_every_figure import drawn_with
 
 from jointplay.figures import Selection
-from jointplay.records.run_in_memory import IMPACT, Channel, Dataset
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT
+from jointplay.records.run_in_memory import Dataset
 
 
 def thrown(samples, contacts=()):

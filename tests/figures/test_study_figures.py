@@ -12,7 +12,7 @@ from test_every_figure import MILLIMETRES_AN_INCH, drawn_with, stand_apart, visi
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
-from jointplay.records.run_in_memory import Channel
+from jointplay.records.channel import Channel
 
 UNITS = {"", "m", "mm", "m/s", "mm/s", "N", "kN", "1/s"}
 CASES = {

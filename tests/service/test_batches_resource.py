@@ -5,9 +5,10 @@ from typing import Any
 import httpx
 import pytest
 
+from jointplay.records.job import JobError
 from jointplay.service.batches.schemas import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION
 
 PENDULUM: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

@@ -19,8 +19,9 @@ from schemathesis.specs.openapi.checks import (
     status_code_conformance,
 )
 
+from jointplay.records.job import JobError
 from jointplay.service.app import create_app
-from jointplay.storage.catalogue import BlockState, Catalogue, JobError
+from jointplay.storage.catalogue import BlockState, Catalogue
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker, serving
 

@@ -7,9 +7,11 @@ import pytest
 import xarray
 import zarr
 
+from jointplay.records.impact import IMPACT
+from jointplay.records.job import JobError
 from jointplay.solver.kinds import Admission, admit
-from jointplay.storage.catalogue import BlockState, Claim, JobError
-from jointplay.storage.results import IMPACT, ArraySpec, Partition, ResultLayout, ResultWriter
+from jointplay.storage.catalogue import BlockState, Claim
+from jointplay.storage.results import Partition, ResultLayout, ResultWriter
 from tests.service_in_thread import BIFURCATION, SWEEP, known_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
@@ -60,7 +62,7 @@ class Running:
 
 
 def layout_of(admission):
-    channels = tuple(ArraySpec(c.name, c.unit, c.long_name) for c in admission.channels)
+    channels = admission.channels
     attributes = {"job": admission.job, "scene": admission.scene_document(), "section_note": ""}
     counts = admission.samples, admission.sections
     return ResultLayout(channels, *counts, admission.joints, attributes, SMALL)

@@ -6,8 +6,9 @@ from datetime import UTC, datetime, timedelta
 import httpx
 import pytest
 
+from jointplay.records.job import JobError
 from jointplay.service.app import create_app
-from jointplay.storage.catalogue import BlockState, Catalogue, JobError
+from jointplay.storage.catalogue import BlockState, Catalogue
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 

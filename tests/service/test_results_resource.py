@@ -5,8 +5,9 @@ from typing import Any
 import httpx
 import pytest
 
+from jointplay.records.job import JobError
 from jointplay.service.results import schemas
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.storage.catalogue import BlockState
 
 RESULTS = ["history", "peaks", "poincare", "impacts", "statistics", "figures", "figures/orbit.png"]
 

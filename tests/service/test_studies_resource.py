@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import zarr
 
+from jointplay.records.job import JobError
 from jointplay.service.studies import schemas
-from jointplay.storage.catalogue import BlockState, JobError
+from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
 
 OBSERVED = "A.eccentricity_x"

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
 from jointplay.solver.kinds import Admission, admit
-from jointplay.solver.runs.results import IMPACT, Peak, Slice
+from jointplay.solver.runs.results import Slice
 from jointplay.solver.runs.simulate import Simulation
 
 Floats = NDArray[np.float64]

@@ -11,9 +11,9 @@ import pytest
 
 import jointplay.solver.runs.work_precision.run
 import jointplay.solver.runs.work_precision.timed_run
+from jointplay.records.point import PointEnd
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Study, admit
-from jointplay.solver.runs.study.results import PointEnd
 from jointplay.solver.runs.work_precision.advice import advice, cheapest
 from jointplay.solver.runs.work_precision.plan import runs_in
 from jointplay.solver.runs.work_precision.point import Point

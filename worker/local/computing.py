@@ -64,7 +64,7 @@ def _simulation(admission: "Admission", store: Path, report: Report) -> "Outcome
 
 
 def _study(study: "Study", store: Path, processes: int | None, report: Report) -> "Outcome":
-    from jointplay.storage.catalogue import JobError
+    from jointplay.records.job import JobError
     from jointplay.worker.execute import Outcome
     from jointplay.worker.local.study import ProcessDied, compute
 

@@ -18,7 +18,7 @@ def write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
     error = outcome.error
     document = {
         "state": outcome.state,
-        "error": None if error is None else {"class": error.error_class, "detail": error.detail},
+        "error": None if error is None else error.document(),
         "started": begun.isoformat(),
         "finished": datetime.now(UTC).isoformat(),
         "progress": {"time": outcome.time, "fraction": outcome.fraction},

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.kernel import LOSSES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.prescribed import prescribed_peaks
 from jointplay.solver.kernels.loop.state import Counter, Status
-from jointplay.solver.runs.results import IMPACT, Peak
 
 
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:

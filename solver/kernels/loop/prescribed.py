@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from jointplay.records.peak import Peak
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.state import Setting, row_width
 from jointplay.solver.quantities.extremes import Floats, refine_extreme
-from jointplay.solver.runs.results import Peak
 
 INSTANTS_A_PERIOD = 720
 MOST_INSTANTS = 200_000

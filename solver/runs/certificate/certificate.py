@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.failures import ledger_of, peaks_of
 from jointplay.solver.kernels.loop.state import Counter, Status
@@ -24,7 +25,6 @@ from jointplay.solver.runs.certificate.estimate import (
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.spread import BINS, histogram
 from jointplay.solver.runs.starts import start_scales
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Revolute, Scene
 
 Floats = NDArray[np.float64]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -16,7 +17,6 @@ from jointplay.solver.runs.certificate.certificate import Certificate, certify
 from jointplay.solver.runs.certificate.companions import RUN, Companions
 from jointplay.solver.runs.certificate.growth import Windows
 from jointplay.solver.runs.certificate.violation import Violation
-from jointplay.solver.scene.channels import Channel
 
 
 class Survey:

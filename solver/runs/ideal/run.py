@@ -11,12 +11,14 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
 from jointplay.solver.mechanics.observe import channel_values
 from jointplay.solver.quantities.extremes import Floats, refine_extreme
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.ideal.motion import IdealMotion
-from jointplay.solver.runs.results import IMPACT, Peak, Slice, Summary
+from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import section_offset
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
-from jointplay.solver.scene.channels import Channel
 from jointplay.solver.scene.document import Scene
 
 Floats = NDArray[np.float64]

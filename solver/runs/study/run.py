@@ -11,13 +11,14 @@ import io
 import json
 import time
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -37,7 +38,6 @@ from jointplay.solver.runs.study.point_run import (
     problem_of,
     scales_of,
 )
-from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
 from jointplay.solver.runs.study.window import statistics_in, take_contacts, take_samples
 
 Floats = NDArray[np.float64]
@@ -216,7 +216,7 @@ class StudyRun:
             failure.code if failure else "",
             failure.detail if failure else "",
             bundle.time(lane),
-            np.array([list(asdict(peak).values()) for peak in peaks]).reshape(-1, 4),
+            np.array([astuple(peak) for peak in peaks]).reshape(-1, 4),
             self._statistics(lane, run, whole=failure is None),
             {} if failure or not study.indicators else self._indicators(run),
         )

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.failure import SimulationFailed
+from jointplay.records.point import PointEnd, StudySlice
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.results import PointEnd, StudySlice
 from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, runs_in
 from jointplay.solver.runs.work_precision.timed_run import Passage
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from jointplay.solver.runs.results import IMPACT
+from jointplay.records.impact import IMPACT
 from jointplay.solver.statistics import OF_CONTACTS
 
 START, END = 10.0, 20.0

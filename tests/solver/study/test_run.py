@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.records.point import PointEnd
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs import simulate
 from jointplay.solver.runs.simulate import Simulation
-from jointplay.solver.runs.study.results import PointEnd
 from jointplay.solver.runs.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
 

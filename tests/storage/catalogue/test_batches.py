@@ -5,11 +5,11 @@ import pytest
 from sqlalchemy.exc import IntegrityError
 from stepped_clock import Clock
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import (
     BatchNotFound,
     BlockState,
     Catalogue,
-    JobError,
     JobState,
     KeyReused,
     NewJob,

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 from stepped_clock import Clock
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     Fenced,
-    JobError,
     JobNotFound,
     JobState,
     KeyReused,

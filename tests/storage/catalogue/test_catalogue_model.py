@@ -21,11 +21,11 @@ from hypothesis.stateful import (
     rule,
 )
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import (
     BlockState,
     Catalogue,
     Fenced,
-    JobError,
     JobState,
     KeyReused,
     NewJob,

@@ -5,14 +5,8 @@ from dataclasses import replace
 import pytest
 from stepped_clock import Clock
 
-from jointplay.storage.catalogue import (
-    BlockState,
-    Catalogue,
-    JobError,
-    JobNotFinished,
-    NewJob,
-    SubmissionKey,
-)
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import BlockState, Catalogue, JobNotFinished, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

@@ -6,7 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from jointplay.storage.results import IMPACT, ArraySpec, Partition, Peak, ResultLayout, ResultWriter
+from jointplay.records.channel import Channel
+from jointplay.records.impact import IMPACT
+from jointplay.records.peak import Peak
+from jointplay.storage.results import Partition, ResultLayout, ResultWriter
 
 # many small stores: there fsync costs nothing, and it is their bytes that count
 MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
@@ -18,7 +21,7 @@ PLAIN_FILES = Partition(chunk_rows=4, shard_chunks=1, buffer_bytes=2**20)
 def made_up_layout(samples, sections, channels=2, partition=SMALL_FILES, attributes=None):
     return ResultLayout(
         channels=tuple(
-            ArraySpec(f"slider7.q{index}", "m", f"coordinate {index}") for index in range(channels)
+            Channel(f"slider7.q{index}", "m", f"coordinate {index}") for index in range(channels)
         ),
         samples=samples,
         sections=sections,

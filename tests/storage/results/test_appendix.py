@@ -5,8 +5,8 @@ import pytest
 import zarr
 from made_up_runs import MadeUpRun, made_up_layout
 
+from jointplay.records.impact import IMPACT
 from jointplay.storage.results import (
-    IMPACT,
     Appendix,
     InvalidAppend,
     ResultReader,

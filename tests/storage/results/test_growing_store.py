@@ -10,11 +10,11 @@ import pytest
 import zarr
 from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
+from jointplay.records.channel import Channel
+from jointplay.records.peak import Peak
 from jointplay.storage.results import (
-    ArraySpec,
     InvalidAppend,
     InvalidLayout,
-    Peak,
     ResultLayout,
     ResultReader,
     ResultWriter,
@@ -175,12 +175,12 @@ def test_peaks_of_unknown_channels_are_refused(run, writer):
 )
 def test_names_that_would_leave_their_place_are_refused(name):
     with pytest.raises(InvalidLayout, match="cannot name"):
-        ResultLayout((ArraySpec(name, "m", ""),), 1, 0, ())
+        ResultLayout((Channel(name, "m", ""),), 1, 0, ())
 
 
 def test_a_name_occurs_once():
     with pytest.raises(InvalidLayout, match="occurs twice"):
-        ResultLayout((ArraySpec("x", "m", ""), ArraySpec("x", "s", "")), 1, 0, ())
+        ResultLayout((Channel("x", "m", ""), Channel("x", "s", "")), 1, 0, ())
 
 
 def test_a_million_impacts_stay_flat_in_memory(tmp_path):

@@ -2,26 +2,26 @@
 
 import numpy as np
 
-from jointplay.solver.runs.study.results import PointEnd, SectionRows, StudySlice
-from jointplay.storage.results import ArraySpec
+from jointplay.records.channel import Channel
+from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
 
 
 def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, attributes=None):
     return StudyLayout(
-        parameters=(ArraySpec("clearance", "m", "radial clearance"),),
+        parameters=(Channel("clearance", "m", "radial clearance"),),
         values=np.linspace(1e-4, 1e-3, points)[:, None],
         observables=tuple(
-            ArraySpec(f"slider7.q{index}", "m", f"coordinate {index}")
+            Channel(f"slider7.q{index}", "m", f"coordinate {index}")
             for index in range(observables if record else 0)
         ),
         record=record,
-        channels=tuple(ArraySpec(f"A.force{index}", "N", "force") for index in range(channels)),
+        channels=tuple(Channel(f"A.force{index}", "N", "force") for index in range(channels)),
         blocks=octets(points) if blocks is None else blocks,
         attributes={"job": {"kind": "bifurcation"}, "verdicts": ["undecided", "periodic"]}
         if attributes is None
         else attributes,
-        meanings={"energy_residual": ArraySpec("energy_residual", "J", "what the ledger lacks")},
+        meanings={"energy_residual": Channel("energy_residual", "J", "what the ledger lacks")},
     )
 
 

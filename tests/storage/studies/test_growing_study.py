@@ -10,7 +10,7 @@ import pytest
 import zarr
 from made_up_studies import MadeUpStudy, files, made_up_layout
 
-from jointplay.solver.runs.study.results import StudySlice
+from jointplay.records.point import StudySlice
 from jointplay.storage.results.errors import IncompleteStudy
 from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from made_up_studies import MadeUpStudy, files, made_up_layout
 
-from jointplay.solver.runs.study.results import StudySlice
+from jointplay.records.point import StudySlice
 from jointplay.storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
 from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
 

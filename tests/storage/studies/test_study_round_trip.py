@@ -5,8 +5,9 @@ import pytest
 import zarr
 from made_up_studies import MadeUpStudy, made_up_layout
 
+from jointplay.records.point import Failure
 from jointplay.storage.results import CorruptStore, InvalidLayout, NotAStore, UnknownChannel
-from jointplay.storage.studies import Failure, StudyReader, create
+from jointplay.storage.studies import StudyReader, create
 from jointplay.storage.studies.layout import StudyLayout
 
 SHAPES = {

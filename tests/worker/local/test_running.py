@@ -101,7 +101,7 @@ def test_a_run_that_fails_raises_and_keeps_what_it_computed():
             dynamic_velocity=1e-12,
         )
     failed = caught.value.job
-    assert failed.error.kind == "solver"
+    assert failed.error.error_class == "solver"
     assert not failed.window("displacement").complete
     assert jointplay.load(failed.id).error == failed.error
 

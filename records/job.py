@@ -1,0 +1,48 @@
+"""A job's progress, and the error that ended it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal, Self
+
+ErrorClass = Literal["user", "solver", "platform", "limit"]
+"""Who can mend it: the user by another document, nobody but another tolerance or method, the
+operator, a smaller job."""
+
+
+@dataclass(frozen=True)
+class JobError:
+    """Why a job failed."""
+
+    error_class: ErrorClass
+    code: str
+    """The reason for programs, for example ``step-size-underflow``."""
+    detail: str
+    """The reason, and what to try, as a sentence."""
+    time: float | None = None
+    """Simulated time at which it happened [s]; None where that means nothing."""
+
+    @classmethod
+    def of(cls, document: Mapping[str, Any]) -> Self:
+        """Read what `document` wrote."""
+        return cls(document["class"], *(document[name] for name in ("code", "detail", "time")))
+
+    def document(self) -> dict[str, Any]:
+        """Return it as JSON has it, everywhere; ``class`` is a keyword of Python."""
+        return {
+            "class": self.error_class,
+            "code": self.code,
+            "detail": self.detail,
+            "time": self.time,
+        }
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a job is."""
+
+    time: float
+    """Simulated time reached [s]; 0 for studies."""
+    fraction: float
+    """Part of the whole job, 0..1."""
+    steps: int | None = None
+    """Accepted steps of the solver, as far as they are known."""
