@@ -8,6 +8,7 @@ ENV NUMBA_CPU_NAME=${PROCESSOR} \
     NUMBA_CPU_FEATURES="" \
     JOINTPLAY_CACHE=/opt/jointplay/kernels \
     JOINTPLAY_DATA=/data \
+    PYTHONSAFEPATH=1 \
     PYTHONUNBUFFERED=1
 
 WORKDIR /opt/jointplay

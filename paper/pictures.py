@@ -10,9 +10,9 @@ from jointplay.figures import page
 from jointplay.paper import cases, reported
 from jointplay.paper.drawings import forces, portraits, responses, tracks
 from jointplay.paper.drawings.curves import COLOURS, Compared
-from jointplay.paper.processes import Advance, Call
 from jointplay.paper.size import Size
 from jointplay.paper.variants import CONSTANT, Variant
+from jointplay.solver.runs.processes import Advance, Call
 from jointplay.storage.studies import StudyReader
 
 

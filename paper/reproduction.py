@@ -3,8 +3,10 @@
 from pathlib import Path
 
 from jointplay.paper import cases, pictures, report, runs
-from jointplay.paper.processes import Report, processes
 from jointplay.paper.size import Size
+from jointplay.solver.runs.processes import cores, processes
+from jointplay.worker.local.computing import Report
+from jointplay.worker.local.interruption import interruption
 
 RUNS = "runs"
 PAGE = "report.html"
@@ -26,19 +28,23 @@ def reproduce(folder: Path, size: Size, count: int | None, progress: Report) -> 
     """
     chosen = cases.runs(size)
     stores = folder / RUNS
-    with processes(count, most_calls=64 * len(chosen)) as crew:
+    with (
+        interruption() as asked_to_end,
+        processes(count or cores(), 64 * len(chosen), asked_to_end) as pool,
+    ):
         runs.compute(
             chosen,
             cases.kernels(size),
             stores,
-            crew,
+            pool,
             lambda done, note: progress(_DRAWING_FROM * done, note),
         )
         drawn = pictures.pictures(stores, size)
-        images = crew.make(
+        images = pool.make(
             [picture.call for picture in drawn],
-            lambda done, note: progress(
-                _DRAWING_FROM + (1.0 - _DRAWING_FROM) * done, f"drawing {note}"
+            lambda done, ended, note: progress(
+                _DRAWING_FROM + (1.0 - _DRAWING_FROM) * done,
+                f"drawing {ended} of {len(drawn)}: {note}",
             ),
         )
     page = folder / PAGE

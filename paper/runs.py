@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Final, cast
 
 from jointplay.paper.cases import Run
-from jointplay.paper.processes import Advance, Call, Processes, Report
 from jointplay.solver.kinds import Admission, Study, admit, parse
+from jointplay.solver.runs.processes import Advance, Call, Processes
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.worker.execute import execute
+from jointplay.worker.local.computing import Report
 from jointplay.worker.study_block import create_store, run_block, seal_store
 
 _SEALS_FROM: Final = 0.96
@@ -21,7 +22,7 @@ class RunFailed(Exception):
 
 
 def compute(
-    chosen: Sequence[Run], kernels: Sequence[Run], folder: Path, crew: Processes, report: Report
+    chosen: Sequence[Run], kernels: Sequence[Run], folder: Path, pool: Processes, report: Report
 ) -> None:
     """Compute runs into stores named for them in a folder.
 
@@ -38,22 +39,25 @@ def compute(
         The stores cannot be written.
     """
     report(0.0, "preparing the kernels")
-    crew.make([Call(_prepare, (run,), 1.0) for run in kernels], lambda fraction, note: None)
+    pool.make([Call(_prepare, (run,)) for run in kernels])
     calls, seals = [], []
     for run in chosen:
         store = folder / run.name
         if run.job["kind"] == "simulate":
-            calls.append(Call(_simulate, (run, store), run.weight, run.name))
+            calls.append(Call(_simulate, (run, store), run.weight, note=run.name))
             continue
         study = cast("Study", admit(run.job))
         run = replace(run, job=study.job)
         create_store(study, store)
-        seals.append(Call(_seal, (run, store), 1.0))
+        seals.append(Call(_seal, (run, store)))
         for block, (_, count) in enumerate(study.blocks):
             weight = run.weight * count / study.points
-            calls.append(Call(_block, (run, block, store), weight, run.name))
-    crew.make(calls, lambda fraction, note: report(_SEALS_FROM * fraction, note))
-    crew.make(seals, lambda fraction, _: report(_share(fraction), "making the results durable"))
+            calls.append(Call(_block, (run, block, store), weight, note=run.name))
+    pool.make(
+        calls,
+        lambda done, ended, note: report(_SEALS_FROM * done, f"{ended} of {len(calls)}: {note}"),
+    )
+    pool.make(seals, lambda done, *_: report(_share(done), "making the results durable"))
 
 
 def _share(fraction: float) -> float:

@@ -44,6 +44,14 @@ def test_nothing_evaluates_or_unpickles_what_it_reads():
     assert [relative(path) for path in SOURCES if forbidden.search(path.read_text())] == []
 
 
+def test_python_is_started_without_the_current_folder_on_its_path():
+    """A file `queue.py` in a user's folder must stay unread; -I and -P leave the folder out."""
+    started = re.compile(r"\[\s*sys\.executable,\s*(\S+)")
+    flags = [flag for path in SOURCES for flag in started.findall(path.read_text())]
+    assert len(flags) >= 4
+    assert set(flags) <= {'"-P",', '"-I",'}
+
+
 def test_no_code_outside_the_scenes_knows_a_preset():
     """The press is a document; a name of it in the code would be a special case."""
     names = re.compile(r"slider7|seven.bar|crank1|link2|bouncing.journal", re.IGNORECASE)

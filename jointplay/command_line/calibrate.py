@@ -103,7 +103,8 @@ def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
     with progress("calibrate") as report:
         report(0.0, "preparing the kernels")
         from jointplay.solver.calibration import calibrate as search
-        from jointplay.solver.calibration.processes import cores, measures
+        from jointplay.solver.calibration.processes import measures
+        from jointplay.solver.runs.processes import cores
 
         try:
             with measures(calibration, processes or cores()) as (fitted, every):

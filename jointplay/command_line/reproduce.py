@@ -31,11 +31,11 @@ def reproduce(
     """
     from concurrent.futures.process import BrokenProcessPool
 
-    from jointplay.paper.processes import Interrupted
     from jointplay.paper.reproduction import reproduce as whole
     from jointplay.paper.runs import RunFailed
     from jointplay.paper.size import FULL, QUICK
     from jointplay.progress import progress
+    from jointplay.solver.runs.processes import Interrupted
 
     try:
         output.mkdir(parents=True)

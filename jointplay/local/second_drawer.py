@@ -15,7 +15,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
-from jointplay.worker.local.cores import cores
+from jointplay.solver.runs.processes import cores
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Admission, Study
@@ -45,7 +45,7 @@ class SecondDrawer:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,  # what fails there is tried, and told, here
                 bufsize=0,
-                env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+                env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
                 pass_fds=(queue,),
                 process_group=0,
             )

@@ -74,7 +74,7 @@ class Prober:
             return self._process
         self.close()
         return subprocess.Popen(
-            [sys.executable, "-m", "jointplay.worker.probe"],
+            [sys.executable, "-P", "-m", "jointplay.worker.probe"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             bufsize=0,

@@ -41,7 +41,7 @@ def running_service(
     """
     logs = data / "logs"
     logs.mkdir(parents=True, exist_ok=True)
-    command = [sys.executable, "-m", "jointplay.service.processes"]
+    command = [sys.executable, "-P", "-m", "jointplay.service.processes"]
     command += ["--data", str(data), "--workers", str(workers)]
     with (
         (logs / "serve.log").open("wb") as log,

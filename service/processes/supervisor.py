@@ -106,7 +106,7 @@ class Supervisor:
         for name, (arguments, inherited) in modules.items():
             child = Child(
                 name,
-                [sys.executable, "-m", *arguments],
+                [sys.executable, "-P", "-m", *arguments],
                 self._log_file(name),
                 environment,
                 inherited,

@@ -1,27 +1,20 @@
-"""Candidates measured by several processes; what they give does not depend on how many."""
+"""Candidates measured by several processes; the values do not depend on how many."""
 
-from __future__ import annotations
-
-import multiprocessing
-import os
-import signal
+import json
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from typing import Any
+from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from jointplay.solver.calibration.measure import Measure, Measurement
+from jointplay.solver.calibration.measure import Floats, Measure, Measurement
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
 from jointplay.solver.kernels.layout import LANES
-
-Floats = NDArray[np.float64]
+from jointplay.solver.runs.processes import Advance, Call, Processes, processes
 
 
 @contextmanager
-def measures(calibration: Calibration, processes: int) -> Iterator[tuple[Measure, Measure]]:
+def measures(calibration: Calibration, count: int) -> Iterator[tuple[Measure, Measure]]:
     """Give what measures the fitted targets, and what measures every target.
 
     Raises
@@ -33,50 +26,31 @@ def measures(calibration: Calibration, processes: int) -> Iterator[tuple[Measure
     """
     here = [Measurement(calibration, every=every) for every in (False, True)]
     here[1].prepare()  # compiles what the processes then find in the cache
-    if processes == 1:
+    if count == 1:
         yield here[0], here[1]
         return
-    context = multiprocessing.get_context("spawn")  # threads of libraries do not survive a fork
-    pool = ProcessPoolExecutor(processes, context, _begin, (calibration.document,))
-    try:
-        yield _Dealt(pool, processes, False), _Dealt(pool, processes, True)
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-
-
-def cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    with processes(count, most_calls=count) as pool:
+        document = json.dumps(calibration.document)
+        yield _Dealt(pool, count, document, False), _Dealt(pool, count, document, True)
 
 
 class _Dealt:
     """A measure whose candidates are dealt out to processes."""
 
-    def __init__(self, pool: ProcessPoolExecutor, processes: int, every: bool) -> None:
-        self.pool, self.processes, self.every = pool, processes, every
+    def __init__(self, pool: Processes, count: int, document: str, every: bool) -> None:
+        self.pool, self.count, self.constants = pool, count, (document, every)
 
     def __call__(self, candidates: Floats) -> Floats:
-        parts = min(self.processes, -(-len(candidates) // LANES))
+        parts = min(self.count, -(-len(candidates) // LANES))
         shares = np.array_split(candidates, max(parts, 1))
-        return np.concatenate(list(self.pool.map(_measure, shares, [self.every] * len(shares))))
+        calls = [Call(_measure, (*self.constants, share)) for share in shares]
+        return np.concatenate(self.pool.make(calls))
 
 
-class _Process:
-    """What one of the processes measures with: set once when it begins."""
-
-    measurements: dict[bool, Measurement]
-
-
-def _begin(document: dict[str, Any]) -> None:
-    """Prepare a process of the pool; Ctrl-C is for the one that reports."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    calibration = admit_calibration(document)
-    _Process.measurements = {
-        every: Measurement(calibration, every=every) for every in (False, True)
-    }
+@lru_cache
+def _measurement(document: str, every: bool) -> Measurement:
+    return Measurement(admit_calibration(json.loads(document)), every=every)
 
 
-def _measure(candidates: Floats, every: bool) -> Floats:
-    return _Process.measurements[every](candidates)
+def _measure(document: str, every: bool, candidates: Floats, advance: Advance) -> Floats:
+    return _measurement(document, every)(candidates)

@@ -37,7 +37,7 @@ def compile_loop_aside() -> subprocess.Popen[bytes] | None:
     if _marker().exists():
         return None
     return subprocess.Popen(
-        [sys.executable, "-m", "jointplay.solver.kernels.kernel_cache"],
+        [sys.executable, "-P", "-m", "jointplay.solver.kernels.kernel_cache"],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

@@ -1,22 +1,17 @@
 """All blocks of a study on this machine's cores, each result through the study's store."""
 
-import multiprocessing
-import signal
-import sys
-from collections.abc import Callable, Iterator, MutableSequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+import json
+from collections.abc import Callable
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
-from jointplay.worker.local.cores import cores
+from jointplay.solver.runs.processes import Advance, Call, Interrupted, cores, processes
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
-
-_POLL = 0.1  # s between two looks at the progress of other processes
 
 
 class ProcessDied(Exception):
@@ -64,7 +59,7 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     return True
 
 
-def _here(study: "Study", folder: Path, processes: int, report: Report) -> bool:
+def _here(study: "Study", folder: Path, count: int, report: Report) -> bool:
     """Compute all blocks in this process, one after the other."""
     from jointplay.worker.study_block import StudyProgress, run_block
 
@@ -82,90 +77,40 @@ def _here(study: "Study", folder: Path, processes: int, report: Report) -> bool:
     return True
 
 
-def _spread(study: "Study", folder: Path, processes: int, report: Report) -> bool:
+def _spread(study: "Study", folder: Path, count: int, report: Report) -> bool:
     """Compute the blocks in several processes, each taking the next one when it is free."""
-    context = multiprocessing.get_context("spawn")  # threads of libraries do not survive a fork
-    fractions = context.Array("d", len(study.blocks), lock=False)
-    ended = context.Array("l", len(study.blocks), lock=False)
-    leave = context.Value("b", 0, lock=False)
-    shared = (study.job, str(folder), fractions, ended, leave)
-    counts = [count for _, count in study.blocks]
-    with (
-        interruption() as asked_to_end,
-        ProcessPoolExecutor(processes, context, _begin, shared) as pool,
-    ):
-        with _without_main():
-            running: set[Future[str]] = {pool.submit(_block, i) for i in range(len(study.blocks))}
-        states: list[str] = []
+    job = json.dumps(study.job)
+    calls = [
+        Call(_block, (job, str(folder), index), weight=points, parts=points)
+        for index, (_, points) in enumerate(study.blocks)
+    ]
+
+    def show(fraction: float, points: int, _: str) -> None:
+        if fraction > 0.0:
+            report(fraction, f"{points} of {study.points} points")
+
+    with interruption() as asked_to_end, processes(count, len(calls), asked_to_end) as pool:
         try:
-            while running:
-                done, running = wait(running, _POLL, FIRST_COMPLETED)
-                states += [future.result() for future in done if not future.cancelled()]
-                if asked_to_end() and not leave.value:
-                    leave.value = 1
-                    for future in running:
-                        future.cancel()
-                weighted = sum(f * c for f, c in zip(fractions, counts, strict=True))
-                if any(fractions):
-                    report(weighted / study.points, f"{sum(ended)} of {study.points} points")
+            return pool.make(calls, show) == ["succeeded"] * len(calls)
+        except Interrupted:
+            return False
         except BrokenProcessPool:
             raise ProcessDied from None
-        finally:
-            leave.value = 1  # after an error too, nobody goes on for nothing
-            pool.shutdown(wait=False, cancel_futures=True)
-    return states == ["succeeded"] * len(study.blocks)
 
 
-@contextmanager
-def _without_main() -> Iterator[None]:
-    """Start processes that do not begin by running the caller's script again.
-
-    They would look for functions in it; ours are in this module.
-    """
-    main = sys.modules["__main__"]
-    hidden = {name: main.__dict__.pop(name, None) for name in ("__file__", "__spec__")}
-    main.__spec__ = None
-    try:
-        yield
-    finally:
-        main.__dict__.update({name: one for name, one in hidden.items() if one is not None})
-
-
-class _Process:
-    """What one of the processes works on: set once when it begins."""
-
-    study: "Study"
-    folder: Path
-    fractions: MutableSequence[float]
-    ended: MutableSequence[int]
-    leave: Any
-
-
-def _begin(
-    job: dict[str, Any],
-    folder: str,
-    fractions: MutableSequence[float],
-    ended: MutableSequence[int],
-    leave: Any,
-) -> None:
-    """Prepare a process of the pool; Ctrl-C is for the one that reports."""
+@lru_cache(maxsize=1)
+def _study(job: str) -> "Study":
+    """Parse an admitted study, once in each process."""
     from jointplay.solver.kinds import parse
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _Process.study, _Process.folder = cast("Study", parse(job)), Path(folder)
-    _Process.fractions, _Process.ended, _Process.leave = fractions, ended, leave
+    return cast("Study", parse(json.loads(job)))
 
 
-def _block(index: int) -> str:
+def _block(job: str, folder: str, index: int, advance: Advance) -> str:
     """Compute one block and return how it ended."""
     from jointplay.worker.study_block import StudyProgress, run_block
 
     def go_on(done: StudyProgress) -> str:
-        _Process.fractions[index], _Process.ended[index] = done.fraction, done.watermark
-        return "cancel" if _Process.leave.value else "continue"
+        return "continue" if advance(done.fraction, done.watermark) else "cancel"
 
-    outcome = run_block(_Process.study, index, _Process.folder, report=go_on)
-    if outcome.state == "succeeded":
-        _Process.fractions[index] = 1.0
-        _Process.ended[index] = _Process.study.blocks[index][1]
-    return outcome.state
+    return run_block(_study(job), index, Path(folder), report=go_on).state
