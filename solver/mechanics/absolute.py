@@ -6,14 +6,13 @@ give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded exp
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import NamedTuple
 
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
-from jointplay.solver.scene.document import JournalStart, Scene
+from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Revolute, Scene
 from jointplay.solver.scene.references import has_play
 
 CONCENTRIC = JournalStart()
@@ -52,7 +51,7 @@ class AbsoluteMechanism:
     def __init__(
         self,
         scene: Scene,
-        numbers: SimpleNamespace,
+        numbers: Scene,
         *,
         close_play: bool,
         held: Collection[str] = (),
@@ -96,14 +95,14 @@ class AbsoluteMechanism:
         this instant (rad or m).
         """
         rows: list[Row] = []
-        writers: dict[str, Callable[..., list[Row]]] = {
-            "revolute": self._revolute,
-            "prismatic": self._prismatic,
-            "fixed": self._fixed,
-        }
         for name in self.joints:
-            joint = self.numbers.joints[name]
-            rows += writers[joint.type](name, joint, q, v, driven)
+            joint, motion = self.numbers.joints[name], self._driver(name, driven)
+            if isinstance(joint, Revolute):
+                rows += self._revolute(name, joint, q, v, motion)
+            elif isinstance(joint, Prismatic):
+                rows += self._prismatic(name, joint, q, v, motion)
+            else:
+                rows += self._fixed(name, joint, q, v)
         return rows
 
     def _coincidence(self, name: str, first: Marker, second: Marker, v: Scalars) -> list[Row]:
@@ -163,14 +162,13 @@ class AbsoluteMechanism:
     def _revolute(
         self,
         name: str,
-        joint: SimpleNamespace,
+        joint: Revolute,
         q: Scalars,
         v: Scalars,
-        driven: Mapping[str, Scalar],
+        motion: tuple[Scalar, Scalar] | None,
     ) -> list[Row]:
         first, second = self.marker(joint.bearing, q, v), self.marker(joint.journal, q, v)
         rows = self._coincidence(name, first, second, v)
-        motion = self._driver(name, driven)
         if motion is not None:
             rows.append(self._angle(name, (first.body, second.body), *motion, q, v))
         return rows
@@ -178,10 +176,9 @@ class AbsoluteMechanism:
     def _fixed(
         self,
         name: str,
-        joint: SimpleNamespace,
+        joint: Fixed,
         q: Scalars,
         v: Scalars,
-        _driven: Mapping[str, Scalar],
     ) -> list[Row]:
         first, second = self.marker(joint.base, q, v), self.marker(joint.part, q, v)
         rows = self._coincidence(name, first, second, v)
@@ -191,22 +188,21 @@ class AbsoluteMechanism:
     def _prismatic(
         self,
         name: str,
-        joint: SimpleNamespace,
+        joint: Prismatic,
         q: Scalars,
         v: Scalars,
-        driven: Mapping[str, Scalar],
+        motion: tuple[Scalar, Scalar] | None,
     ) -> list[Row]:
         first, second = self.marker(joint.guide, q, v), self.marker(joint.slider, q, v)
         axis = self.axis(joint, first.body, q)
         normal = (-axis[1], axis[0])
         rows = [self._projection(name, "normal", normal, 0.0, 0.0, first, second, v)]
         rows.append(self._angle(name, (first.body, second.body), joint.angle, 0.0, q, v))
-        motion = self._driver(name, driven)
         if motion is not None:
             rows.append(self._projection(name, "along", axis, *motion, first, second, v))
         return rows
 
-    def axis(self, joint: SimpleNamespace, guide: int, q: Scalars) -> Pair:
+    def axis(self, joint: Prismatic, guide: int, q: Scalars) -> Pair:
         """Return the guide's unit axis in world components."""
         x, y = unit(joint.axis)
         if guide < 0:

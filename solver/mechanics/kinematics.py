@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 from jointplay.solver.mechanics.absolute import unit
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.scene.document import Prismatic, Revolute, Scene
 
 
 @dataclass
@@ -41,7 +41,7 @@ class Kinematics:
     def __init__(
         self,
         tree: Tree,
-        numbers: SimpleNamespace,
+        numbers: Scene,
         position: Mapping[str, Scalar],
         speed: Mapping[str, Scalar],
         driven: Mapping[str, Scalar],
@@ -110,7 +110,7 @@ class Kinematics:
         angle, spin, spin_partials = parent.angle, parent.spin, dict(parent.spin_partials)
         sense = 1.0 if branch.outward else -1.0
         joint = self.numbers.joints[branch.joint]
-        if branch.kind == "revolute":
+        if isinstance(joint, Revolute):
             if branch.driver is not None:
                 angle = angle + sense * self.driven[branch.driver]
                 spin = spin + sense * self.speed[branch.driver]
@@ -122,7 +122,7 @@ class Kinematics:
         else:
             angle = angle + sense * joint.angle
         self._orient(branch.body, angle)
-        if branch.kind == "prismatic":
+        if isinstance(joint, Prismatic):
             name = branch.driver or branch.coordinates[0]
             travel = self.driven[name] if branch.driver else self.position[name]
             guide = branch.parent if branch.outward else branch.body

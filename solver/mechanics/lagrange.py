@@ -6,16 +6,15 @@ constraints of ideal joints and drivers, Baumgarte's stabilisation (eq. 26).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from types import SimpleNamespace
+from collections.abc import Iterable, Mapping, Sequence
 
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.mechanics.play import Contact, contact
+from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.references import has_play
 
 BAUMGARTE_ALPHA = 50.0
@@ -30,7 +29,7 @@ class LagrangeMechanism:
     def __init__(
         self,
         scene: Scene,
-        numbers: SimpleNamespace,
+        numbers: Scene,
         q: Sequence[Scalar],
         v: Sequence[Scalar],
         driven: Mapping[str, Scalar],
@@ -46,7 +45,7 @@ class LagrangeMechanism:
         """Return accelerations and all forces; modes and impact rates (m/s) by joint with play."""
         play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
         contacts = {name: self._contact(name, modes[name], impact_rates[name]) for name in play}
-        applied = self._applied(contacts)
+        applied = self._applied(found.interaction for found in contacts.values())
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)
         bodies = {
@@ -62,12 +61,13 @@ class LagrangeMechanism:
         }
         joint_force, efforts = joint_reactions(self.scene, self.constraints, rows, multipliers)
         for name, found in contacts.items():
-            joint_force[name] = found.force_on_journal
+            joint_force[name] = found.interaction.force_on_second
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
         return Motion(accelerations, bodies, contacts, joint_force, efforts, speeds)
 
     def _contact(self, name: str, mode: Scalar, impact_rate: Scalar) -> Contact:
         joint = self.numbers.joints[name]
+        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
         bearing = self.constraints.marker(joint.bearing, self.q, self.v)
         journal = self.constraints.marker(joint.journal, self.q, self.v)
         gap = (
@@ -81,21 +81,20 @@ class LagrangeMechanism:
         spins = tuple(
             0.0 if marker.body < 0 else self.v[3 * marker.body + 2] for marker in (bearing, journal)
         )
-        return contact(joint.clearance, gap, rate, (spins[0], spins[1]), mode, impact_rate)
+        return contact(joint, gap, rate, (spins[0], spins[1]), mode, impact_rate)
 
-    def _applied(self, contacts: Mapping[str, Contact]) -> list[Scalar]:
+    def _applied(self, interactions: Iterable[Interaction]) -> list[Scalar]:
         """Generalised forces g of eq. (23): gravity and contacts."""
         gx, gy = self.numbers.gravity
         forces: list[Scalar] = []
         for name in self.constraints.bodies:
             mass = self.numbers.bodies[name].mass
             forces += [mass * gx, mass * gy, 0.0]
-        for name, found in contacts.items():
-            joint = self.numbers.joints[name]
-            fx, fy = found.force_on_journal
+        for acting in interactions:
+            fx, fy = acting.force_on_second
             for reference, sign, moment in (
-                (joint.journal, 1.0, found.moment_on_journal),
-                (joint.bearing, -1.0, found.moment_on_bearing),
+                (acting.second, 1.0, acting.moment_on_second),
+                (acting.first, -1.0, acting.moment_on_first),
             ):
                 marker = self.constraints.marker(reference, self.q, self.v)
                 if marker.body < 0:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.document import Scene
 
 
-def channel_values(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
+def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     """Return the value of every channel by name; see `scene.channels` for units and meaning."""
     values: dict[str, Scalar] = {}
     for name, body in motion.bodies.items():
@@ -38,7 +37,7 @@ def channel_values(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar
     return values
 
 
-def energies(numbers: SimpleNamespace, motion: Motion) -> tuple[Scalar, Scalar]:
+def energies(numbers: Scene, motion: Motion) -> tuple[Scalar, Scalar]:
     """Return kinetic energy and the potential energy of gravity (zero at the origin), J."""
     gx, gy = numbers.gravity
     kinetic: Scalar = 0.0
@@ -51,7 +50,7 @@ def energies(numbers: SimpleNamespace, motion: Motion) -> tuple[Scalar, Scalar]:
     return kinetic, potential
 
 
-def ledger_rates(numbers: SimpleNamespace, motion: Motion) -> dict[str, Scalar]:
+def ledger_rates(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     """Return the powers whose integrals make the energy ledger, W, and the contact forces, N.
 
     ``contact``: power that goes into contacts; ``friction``: power lost there;

@@ -10,16 +10,28 @@ forces is exactly that of the slip and of the penetration, and the energy ledger
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 
-from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
-from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
+from jointplay.solver.scene.document import Revolute
 
 CENTRED = 1e-300
 """Added to the eccentricity (m) and to its square (m^2), so that a centred journal divides by no
 zero: its normal is 0."""
+
+
+@dataclass(frozen=True)
+class Interaction:
+    """A force on a point, its opposite on another (N), and a moment on the body of each (N m).
+
+    Points are named as ``body.point``; components are the world's.
+    """
+
+    first: str
+    second: str
+    force_on_second: Pair
+    moment_on_first: Scalar = 0.0
+    moment_on_second: Scalar = 0.0
 
 
 @dataclass(frozen=True)
@@ -38,11 +50,8 @@ class Contact:
     """F_t, on the journal along t, N."""
     slip_velocity: Scalar
     """Of the material of the journal against the bearing's, m/s."""
-    force_on_journal: Pair
-    moment_on_journal: Scalar
-    """About the journal's centre, N m."""
-    moment_on_bearing: Scalar
-    """About the bearing's centre, N m."""
+    interaction: Interaction
+    """At the centres of bearing (first) and journal (second)."""
 
     @property
     def contact_power(self) -> Scalar:
@@ -56,7 +65,7 @@ class Contact:
 
 
 def contact(
-    clearance: SimpleNamespace,
+    joint: Revolute,
     eccentricity: Pair,
     rate: Pair,
     spins: tuple[Scalar, Scalar],
@@ -67,8 +76,8 @@ def contact(
 
     Parameters
     ----------
-    clearance
-        The joint's numbers: radial clearance, bearing radius, laws.
+    joint
+        The joint's numbers; it has a clearance.
     eccentricity, rate
         Journal centre less bearing centre, m, and its rate, m/s.
     spins
@@ -78,6 +87,8 @@ def contact(
     impact_rate
         Penetration rate latched at the onset of this contact, m/s.
     """
+    clearance = joint.clearance
+    assert clearance is not None  # noqa: S101  (narrows the type)
     ex, ey = eccentricity
     vx, vy = rate
     square = ex * ex + ey * ey
@@ -92,14 +103,18 @@ def contact(
     spinning = journal_radius * spins[1] - bearing_radius * spins[0]
     slip = orbiting + spinning
 
-    law = CONTACT_LAWS[clearance.contact.law]
-    stiffness = law.contact_stiffness(clearance.contact, bearing_radius, clearance.radial_clearance)
     depth = select_positive(mode, penetration, 0.0)
-    normal_force, elastic = law.normal_force(
-        clearance.contact, stiffness, depth, penetration_rate, impact_rate
-    )
-    stored = law.elastic_energy(clearance.contact, elastic, depth)
-    friction = _friction(clearance, normal_force, slip, orbiting, inverse)
+    law = clearance.contact
+    normal_force = law.normal_force(clearance, depth, penetration_rate, impact_rate)
+    stored = law.elastic_energy(clearance, depth)
+    friction: Scalar = 0.0
+    if clearance.friction is not None and not clearance.friction.is_off:
+        seen = slip
+        if not clearance.friction.slips_with_material:
+            # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
+            # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
+            seen = orbiting - clearance.radial_clearance * orbiting * inverse
+        friction = clearance.friction.friction_force(normal_force, seen, ())
     # eqs (13)-(17), on the journal: -(F_n n) + F_t t
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
@@ -113,27 +128,11 @@ def contact(
         stored,
         friction,
         slip,
-        (fx, fy),
-        journal_radius * friction,
-        -(bearing_radius * friction),
+        Interaction(
+            joint.bearing,
+            joint.journal,
+            (fx, fy),
+            moment_on_second=journal_radius * friction,
+            moment_on_first=-(bearing_radius * friction),
+        ),
     )
-
-
-def _friction(
-    clearance: SimpleNamespace,
-    normal_force: Scalar,
-    slip: Scalar,
-    orbiting: Scalar,
-    inverse_distance: Scalar,
-) -> Scalar:
-    friction = clearance.friction
-    if friction is None or (
-        isinstance(friction.coefficient, float) and friction.coefficient == 0.0
-    ):
-        return 0.0
-    if friction.slip_velocity == "as-published":
-        # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
-        # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
-        slip = orbiting - clearance.radial_clearance * orbiting * inverse_distance
-    force: Scalar = FRICTION_LAWS[friction.law].friction_force(friction, normal_force, slip)
-    return force

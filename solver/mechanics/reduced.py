@@ -7,16 +7,16 @@ joint removes coordinates, a joint with play is a force. With partial velocities
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import SimpleNamespace
+from collections.abc import Iterable, Mapping
 
 from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.mechanics.play import Contact, contact
+from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.document import Revolute, Scene
 
 
 class ReducedMechanism:
@@ -25,7 +25,7 @@ class ReducedMechanism:
     def __init__(
         self,
         tree: Tree,
-        numbers: SimpleNamespace,
+        numbers: Scene,
         position: Mapping[str, Scalar],
         speed: Mapping[str, Scalar],
         driven: Mapping[str, Scalar],
@@ -47,18 +47,19 @@ class ReducedMechanism:
         contacts = {
             name: self._contact(name, modes[name], impact_rates[name]) for name in self.tree.play
         }
-        loads = _Loads(self.kinematics, contacts)
+        loads = _Loads(self.kinematics, (found.interaction for found in contacts.values()))
         accelerations = self._accelerations(loads) if known is None else known
         bodies = self._bodies(accelerations)
         joint_force, moments = self._reactions(loads, bodies)
         for name, found in contacts.items():
-            joint_force[name] = found.force_on_journal
+            joint_force[name] = found.interaction.force_on_second
         efforts = self._efforts(joint_force, moments)
         speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
         return Motion(accelerations, bodies, contacts, joint_force, efforts, speeds)
 
     def _contact(self, name: str, mode: Scalar, impact_rate: Scalar) -> Contact:
         joint = self.numbers.joints[name]
+        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
         k = self.kinematics
         (bearing, p), (journal, q) = joint.bearing.split("."), joint.journal.split(".")
         here, here_rate, _ = k.point_motion(bearing, k.arm(bearing, p))
@@ -66,7 +67,7 @@ class ReducedMechanism:
         gap = (there + here.scaled(-1.0)).world()
         rate = (there_rate + here_rate.scaled(-1.0)).world()
         spins = (k.carried[bearing].spin, k.carried[journal].spin)
-        return contact(joint.clearance, gap, rate, spins, mode, impact_rate)
+        return contact(joint, gap, rate, spins, mode, impact_rate)
 
     def _accelerations(self, loads: _Loads) -> list[Scalar]:
         """Solve M q̈ = Q; M from partial velocities, Q by one pass from the leaves inwards."""
@@ -217,18 +218,15 @@ class ReducedMechanism:
 
 
 class _Loads:
-    """Contact forces on the bodies, as force and moment about each body's reference point."""
+    """Forces on the bodies, as force and moment about each body's reference point."""
 
-    def __init__(self, kinematics: Kinematics, contacts: Mapping[str, Contact]) -> None:
+    def __init__(self, kinematics: Kinematics, interactions: Iterable[Interaction]) -> None:
         self._sums: dict[str, tuple[Scalar, Scalar, Scalar]] = {}
-        for name, found in contacts.items():
-            joint = kinematics.numbers.joints[name]
-            fx, fy = found.force_on_journal
-            # bearing and journal points are n c + n delta apart; each force acts at its centre
-            # with the moment of its own radius
+        for acting in interactions:
+            fx, fy = acting.force_on_second
             for reference, force, moment in (
-                (joint.journal, (fx, fy), found.moment_on_journal),
-                (joint.bearing, (-fx, -fy), found.moment_on_bearing),
+                (acting.second, (fx, fy), acting.moment_on_second),
+                (acting.first, (-fx, -fy), acting.moment_on_first),
             ):
                 body, point = reference.split(".")
                 if body == WORLD:

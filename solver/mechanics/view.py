@@ -1,8 +1,7 @@
 """A scene seen through abstract scalars: the same names, every number replaced by a scalar."""
 
 from collections.abc import Callable, Collection
-from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 from pydantic import BaseModel
 
@@ -24,13 +23,15 @@ def plain_number(_path: str, value: float) -> float:
     return value
 
 
-def view(scene: Scene, number: NumberOf = plain_number) -> SimpleNamespace:
-    """Return a scene's content as nested namespaces whose numbers went through `number`.
+def view(scene: Scene, number: NumberOf = plain_number) -> Scene:
+    """Return a scene whose numbers went through `number`; nothing of it is checked again.
 
     Values that decide the form of the equations (an exactly zero coordinate, friction switched
-    off, the exponent 1.5) stay plain floats, so that they are folded away.
+    off, the exponent 1.5) stay plain floats, so that they are folded away. The start, parameters
+    and reported values are left out.
     """
-    return _View(number, targeted_paths(scene)).of_model(scene, "", LEFT_OUT)
+    seen = _View(number, targeted_paths(scene)).of_model(scene, "", LEFT_OUT)
+    return cast(Scene, seen)
 
 
 def form(scene: Scene) -> str:
@@ -43,9 +44,7 @@ class _View:
         self.number = number
         self.targeted = targeted
 
-    def of_model(
-        self, model: BaseModel, path: str, without: Collection[str] = ()
-    ) -> SimpleNamespace:
+    def of_model(self, model: BaseModel, path: str, without: Collection[str] = ()) -> BaseModel:
         fields = {}
         for name, field in type(model).model_fields.items():
             if name in without:
@@ -53,7 +52,7 @@ class _View:
             extra = field.json_schema_extra
             structural = extra.get("structural", ()) if isinstance(extra, dict) else ()
             fields[name] = self.of(getattr(model, name), f"{path}/{name}", structural, name)
-        return SimpleNamespace(**fields)
+        return type(model).model_construct(**fields)
 
     def of(self, value: Any, path: str, structural: Any, field: str) -> Any:
         if isinstance(value, BaseModel):

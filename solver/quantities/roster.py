@@ -1,16 +1,18 @@
-"""Fields of documents that name a member of a roster, as the roster is when they are read.
+"""Fields of documents that choose a member of a roster, as the roster is when they are read.
 
 A roster is a mutable mapping: who adds a member to it, from whatever file, has it admitted by name
-and listed in JSON Schemas, without a change anywhere else.
+and described in JSON Schemas, without a change anywhere else.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import CoreSchema, PydanticKnownError, core_schema
+from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationError
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticKnownError, core_schema
+
+JsonSchema = dict[str, Any]
 
 
 class NameIn:
@@ -24,20 +26,60 @@ class NameIn:
         """Every string that is allowed by now."""
         return [*self.further, *self.roster]
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
+    def __get_pydantic_core_schema__(self, _source: Any, _: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self._check)
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, _: CoreSchema, _h: GetJsonSchemaHandler) -> JsonSchema:
         return {"type": "string", "enum": self.names}
 
     def _check(self, value: Any) -> str:
         if isinstance(value, str) and value in self.names:
             return value
         raise PydanticKnownError("literal_error", {"expected": quoted(self.names)})
+
+
+class MemberOf:
+    """Annotation of an object whose tag names the model of a roster that it is.
+
+    Without a tag it is the roster's first member. Errors lie at the member's own fields, as if
+    there were no choice.
+    """
+
+    def __init__(self, roster: Mapping[str, type[BaseModel]], tag: str) -> None:
+        self.roster, self.tag = roster, tag
+
+    def __get_pydantic_core_schema__(self, _source: Any, _: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._chosen)
+
+    def __get_pydantic_json_schema__(
+        self, _: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchema:
+        members = {name: _referred(model) for name, model in self.roster.items()}
+        return handler(core_schema.tagged_union_schema(members, self.tag))
+
+    def _chosen(self, value: Any) -> BaseModel:
+        first = next(iter(self.roster))
+        tagged = value if isinstance(value, Mapping) else vars(value) if _is_model(value) else {}
+        name = tagged.get(self.tag, first)
+        if not isinstance(name, str) or name not in self.roster:
+            error = InitErrorDetails(
+                type="literal_error",
+                loc=(self.tag,),
+                input=name,
+                ctx={"expected": quoted(list(self.roster))},
+            )
+            raise ValidationError.from_exception_data(self.tag, [error])
+        return self.roster[name].model_validate(value)
+
+
+def _referred(model: type[BaseModel]) -> CoreSchema:
+    """Return a model's schema so that JSON Schemas define it once, under its name."""
+    name = f"{model.__module__}.{model.__qualname__}:{id(model)}"
+    return cast(CoreSchema, {**model.__pydantic_core_schema__, "ref": name})
+
+
+def _is_model(value: Any) -> bool:
+    return isinstance(value, BaseModel)
 
 
 def quoted(names: list[str]) -> str:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
-from jointplay.solver.scene.document import Revolute, Scene
-from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import clearances
 
 Floats = NDArray[np.float64]
 
@@ -67,13 +67,9 @@ def start_scales(scene: Scene, coordinates: Sequence[str], period: float) -> tup
     Positions in the finest clearance, m; angles in the turn, rad, that moves the end of the longest
     body that far; speeds in the same per period/2 pi (s). Without clearance: the shortest link.
     """
-    clearances = [
-        joint.clearance.radial_clearance
-        for joint in scene.joints.values()
-        if isinstance(joint, Revolute) and joint.clearance is not None and has_play(joint)
-    ]
     length = shortest_link(scene)
-    finest = min(clearances, default=length)
+    play = [clearance.radial_clearance for clearance in clearances(scene).values()]
+    finest = min(play, default=length)
     turn = finest / mechanism_size(scene, length)
     position = np.array([turn if name.endswith(".theta") else finest for name in coordinates])
     return position, position * (2.0 * math.pi / period)

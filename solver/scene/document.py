@@ -8,8 +8,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
+from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
+from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.units import (
     Acceleration,
     Angle,
@@ -51,8 +54,8 @@ class Clearance(Strict):
 
     radial_clearance: RadialClearance
     bearing_radius: Radius
-    contact: ContactLaw
-    friction: FrictionLaw | None = None
+    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
+    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
 
 
 class Revolute(Strict):

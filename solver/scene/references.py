@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
-from jointplay.solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Clearance, Fixed, Joint, Prismatic, Revolute, Scene
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
 
@@ -27,6 +27,21 @@ def has_play(joint: Joint) -> bool:
         and joint.clearance is not None
         and joint.clearance.radial_clearance > 0.0
     )
+
+
+def clearances(scene: Scene) -> dict[str, Clearance]:
+    """Return the clearance of each joint with play, by its name, in the order of the document."""
+    return {
+        name: joint.clearance
+        for name, joint in scene.joints.items()
+        if has_play(joint) and isinstance(joint, Revolute) and joint.clearance is not None
+    }
+
+
+def tangent_obstacle(scene: Scene) -> str:
+    """Return why no tangent vector can follow a scene's motion, and the remedy; empty: one can."""
+    laws = [law for c in clearances(scene).values() for law in (c.contact, c.friction) if law]
+    return next((law.tangent_obstacle for law in laws if law.tangent_obstacle), "")
 
 
 def reference_problems(scene: Scene) -> Iterator[Problem]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean
+from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.scene.unions import is_form
 
 JOINTS = frozenset({"revolute", "prismatic", "fixed"})
@@ -98,7 +98,6 @@ def _no_such_field(field: str, known: frozenset[str]) -> str:
     return f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
 
 
-@cache
 def vocabulary(root: type[BaseModel]) -> tuple[frozenset[str], dict[str, str]]:
     """Return all field names below a model, and the unit of those that have one."""
     units: dict[str, str] = {}
@@ -120,14 +119,17 @@ def _extras(metadata: list[Any]) -> Iterator[Any]:
 
 def _models(root: type[BaseModel]) -> Iterator[type[BaseModel]]:
     waiting: list[Any] = [root]
-    seen: set[Any] = set()
+    seen: set[type[BaseModel]] = set()
     while waiting:
         item = waiting.pop()
-        if item in seen:
-            continue
         if isinstance(item, type) and issubclass(item, BaseModel):
+            if item in seen:
+                continue
             seen.add(item)
             yield item
-            waiting.extend(field.annotation for field in item.model_fields.values())
+            for field in item.model_fields.values():
+                waiting.extend([field.annotation, *field.metadata])
+        elif isinstance(item, MemberOf):
+            waiting.extend(item.roster.values())
         else:
-            waiting.extend(getattr(item, "__args__", ()))
+            waiting.extend([*getattr(item, "__args__", ()), *getattr(item, "__metadata__", ())])

@@ -1,15 +1,9 @@
-"""Numbers of a scene that must fit each other, as rules that hold for one scene or for columns.
-
-A rule reads numbers by name and answers whether it is broken: for a scene a truth value, for
-columns of numbers, one row a point of a study, an array of them.
-"""
+"""Numbers of a scene that must fit each other: for one scene, or for columns of numbers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from types import SimpleNamespace
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,48 +11,16 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from jointplay.records.failure import Problem
+from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.scene.document import Joint, Prismatic, Revolute, Scene
-
-
-@dataclass(frozen=True)
-class Rule:
-    """What must not be: `broken` of the numbers of a joint, at a place below it."""
-
-    place: str
-    broken: Callable[[Any], Any]
-    sentence: Callable[[Any], str]
-
 
 CLEARANCE = (
     Rule(
-        "clearance/radial_clearance",
-        lambda joint: joint.clearance.radial_clearance >= joint.clearance.bearing_radius,
-        lambda joint: (
-            f"A radial clearance of {joint.clearance.radial_clearance:g} m leaves no journal in a"
-            f" bearing of radius {joint.clearance.bearing_radius:g} m; it must be smaller."
-        ),
-    ),
-    Rule(
-        "clearance/contact/exponent",
-        lambda joint: (
-            (joint.clearance.contact.exponent != 1.5) & (joint.clearance.contact.stiffness is None)
-        ),
-        lambda _joint: (
-            "Eq. 9 gives a stiffness for the exponent 1.5 only; with another exponent give a"
-            " stiffness (N/m^n)."
-        ),
-    ),
-)
-FRICTION = (
-    Rule(
-        "clearance/friction/static_velocity",
-        lambda joint: (
-            joint.clearance.friction.static_velocity > joint.clearance.friction.dynamic_velocity
-        ),
-        lambda joint: (
-            f"The static limit velocity ({joint.clearance.friction.static_velocity:g} m/s) is above"
-            f" the dynamic one ({joint.clearance.friction.dynamic_velocity:g} m/s); it may at most"
-            " equal it."
+        "radial_clearance",
+        lambda clearance: clearance.radial_clearance >= clearance.bearing_radius,
+        lambda clearance: (
+            f"A radial clearance of {clearance.radial_clearance:g} m leaves no journal in a"
+            f" bearing of radius {clearance.bearing_radius:g} m; it must be smaller."
         ),
     ),
 )
@@ -93,9 +55,9 @@ def size_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what does not fit; pointers begin at the scene."""
     yield from _unreachable(scene)
     for name, joint in scene.joints.items():
-        for rule in rules(joint):
-            if rule.broken(joint):
-                yield Problem(f"/joints/{name}/{rule.place}", rule.sentence(joint))
+        for place, rule, part in rules(joint, joint):
+            if rule.broken(part):
+                yield Problem(f"/joints/{name}{place}/{rule.field}", rule.sentence(part))
 
 
 def ill_sized(
@@ -115,20 +77,28 @@ def ill_sized(
         place, start = f"/joints/{name}", f"/start/joints/{name}"
         if any(path.startswith((f"{place}/", f"{start}/")) for path in columns):
             seen = _seen(joint, place, columns)
-            for rule in rules(joint):
-                broken |= rule.broken(seen)
+            for _, rule, part in rules(joint, seen):
+                broken |= rule.broken(part)
             if name in scene.start.joints:
                 broken |= out_of_reach(_seen(scene.start.joints[name], start, columns), seen)
     return broken
 
 
-def rules(joint: Joint) -> tuple[Rule, ...]:
-    """Return the rules for a joint."""
+def rules(joint: Joint, seen: Any) -> Iterator[tuple[str, Rule, Any]]:
+    """Yield the place below a joint, the rule and the part that it is about.
+
+    `seen` is the joint, or the joint with columns for numbers.
+    """
     if isinstance(joint, Prismatic):
-        return GUIDE
+        yield from (("", rule, seen) for rule in GUIDE)
     if not isinstance(joint, Revolute) or joint.clearance is None:
-        return ()
-    return CLEARANCE + (FRICTION if joint.clearance.friction is not None else ())
+        return
+    yield from (("/clearance", rule, seen.clearance) for rule in CLEARANCE)
+    for field in ("contact", "friction"):
+        law = getattr(joint.clearance, field)
+        part = getattr(seen.clearance, field)
+        if law is not None:
+            yield from ((f"/clearance/{field}", rule, part) for rule in law.rules)
 
 
 def _seen(node: Any, path: str, columns: Mapping[str, NDArray[np.float64]]) -> Any:
@@ -137,7 +107,7 @@ def _seen(node: Any, path: str, columns: Mapping[str, NDArray[np.float64]]) -> A
     if isinstance(node, BaseModel):
         fields = type(node).model_fields
         inner = {name: _seen(getattr(node, name), f"{path}/{name}", columns) for name in fields}
-        return SimpleNamespace(**inner)
+        return type(node).model_construct(**inner)
     if isinstance(node, list):
         return [_seen(item, f"{path}/{index}", columns) for index, item in enumerate(node)]
     return node

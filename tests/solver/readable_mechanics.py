@@ -16,6 +16,7 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import clearances
 
 
 def preset(name: str, **parameters: float | str) -> Scene:
@@ -80,5 +81,5 @@ def at_start(scene: Scene) -> Instant:
         dict(zip(tree.coordinates, speed, strict=True)),
         {name: driver.position for name, driver in scene.drivers.items()},
         dict.fromkeys(tree.play, 0.0),
-        {name: scene.joints[name].clearance.contact.impact_rate_floor for name in tree.play},  # type: ignore[union-attr]
+        {name: play.contact.least_impact_rate for name, play in clearances(scene).items()},
     )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,7 @@ from jointplay.solver.kernels.layout import LANES, Layout
 from jointplay.solver.kernels.record import kinks
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import Recorder
-from jointplay.solver.laws.friction.modified_coulomb import friction_force
+from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
 
 
 def slopes_over_steps(
@@ -25,8 +23,8 @@ def slopes_over_steps(
     """
     recorder = Recorder()
     slip, along = recorder.variable("slip"), recorder.variable("along")
-    law = SimpleNamespace(coefficient=1.0, static_velocity=static, dynamic_velocity=dynamic)
-    force = friction_force(law, recorder.variable("normal_force"), slip)
+    law = ModifiedCoulomb(coefficient=1.0, static_velocity=static, dynamic_velocity=dynamic)
+    force = law.friction_force(recorder.variable("normal_force"), slip)
     bends = tuple(recorder.kinks.items())
     derivative = Derivative({"slip": along})
     kinks.bend(derivative, bends)

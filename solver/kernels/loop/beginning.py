@@ -13,6 +13,7 @@ from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.tangent import start_tangent
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import tangent_obstacle
 
 if TYPE_CHECKING:
     from jointplay.solver.kernels.loop.bundle import Bundle
@@ -73,7 +74,7 @@ def begin(bundle: Bundle, lane: int, problem: LaneProblem) -> None:
 def _start_tangent(bundle: Bundle, lane: int, scene: Scene) -> None:
     """Give a lane its first tangent; its state is in the stage still.
 
-    Where friction jumps there is none: the tangent is not a number, and neither is its growth.
+    Where a law jumps there is none: the tangent is NaN, and so is its growth.
     """
     assert bundle.tangents is not None  # noqa: S101  (asked before)
     start_tangent(lane, bundle.slots, bundle.work)
@@ -81,6 +82,5 @@ def _start_tangent(bundle: Bundle, lane: int, scene: Scene) -> None:
         bundle.tangents.module.kinks(bundle.work)
         rows = 3 * bundle.tangents.kinks
         bundle.table("kink_start0", rows)[:, lane] = bundle.table("kink_end0", rows)[:, lane]
-    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
-    if any(c.friction is not None and c.friction.jumps for c in clearances if c is not None):
+    if tangent_obstacle(scene):
         bundle.table("tangent0", bundle.kernel.states)[:, lane] = math.nan

@@ -13,8 +13,9 @@ from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.kernels.loop.state import Counter, SectionKind, Setting
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
-from jointplay.solver.scene.document import Clearance, Revolute, Scene
+from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.periods import characteristic_time, common_period
+from jointplay.solver.scene.references import clearances
 
 if TYPE_CHECKING:
     from jointplay.solver.kernels.loop.bundle import Bundle
@@ -78,13 +79,14 @@ def _scale(bundle: Bundle, lane: int, problem: LaneProblem, length: float, unit:
     """Set what a lane's errors and first steps in contact are measured by."""
     kernel, scene = bundle.kernel, problem.scene
     count = len(kernel.coordinates)
-    clearances = [scene.joints[name].clearance for name in kernel.play]  # type: ignore[union-attr]
-    finest = min((c.radial_clearance for c in clearances if c), default=math.inf)
+    fits = list(clearances(scene).values())
+    finest = min((fit.radial_clearance for fit in fits), default=math.inf)
     reach = mechanism_size(scene, length)
     radian = unit / (2.0 * math.pi)
     acceleration = math.hypot(*scene.gravity) + length / radian**2
     crossing = ACROSS * math.sqrt(acceleration * finest) / length
-    steepest = RESOLVED * min((ramp_of(c) for c in clearances if c), default=math.inf)
+    laws = [fit.friction for fit in fits if fit.friction is not None and not fit.friction.is_off]
+    steepest = RESOLVED * min((law.full_slip_speed for law in laws), default=math.inf)
     for i, name in enumerate(kernel.coordinates):
         angle = name.endswith(".theta")
         scale = 1.0 if angle else length
@@ -93,19 +95,10 @@ def _scale(bundle: Bundle, lane: int, problem: LaneProblem, length: float, unit:
         slow = scale * min(1.0 / radian, crossing)
         slow = min(slow, steepest / problem.tolerance / (reach if angle else 1.0))
         bundle.table(f"weight{count + i}")[0, lane] = 1.0 / (problem.tolerance * slow)
-    for j, clearance in enumerate(clearances):
-        assert clearance is not None  # noqa: S101  (joints with play have one; narrows the type)
-        bundle.table(f"impact_floor{j}")[0, lane] = clearance.contact.impact_rate_floor
-        restart = RESTART * clearance.radial_clearance if problem.step is None else math.inf
+    for j, fit in enumerate(fits):
+        bundle.table(f"impact_floor{j}")[0, lane] = fit.contact.least_impact_rate
+        restart = RESTART * fit.radial_clearance if problem.step is None else math.inf
         bundle.table(f"restart{j}")[0, lane] = restart
-
-
-def ramp_of(clearance: Clearance) -> float:
-    """Return the slip velocity at which a joint's friction is full, m/s; infinite without any."""
-    friction = clearance.friction
-    if friction is None or friction.coefficient == 0.0:
-        return math.inf
-    return friction.dynamic_velocity
 
 
 def _clock(bundle: Bundle, lane: int, problem: LaneProblem, period: float, common: bool) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Prismatic, Scene
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +40,7 @@ def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[flo
     numbers = view(scene)
     mechanism = AbsoluteMechanism(scene, numbers, close_play=False)
     joint = numbers.joints[spanning_tree(scene).branch(body).joint]
+    assert isinstance(joint, Prismatic)  # noqa: S101  (narrows the type)
     guide = mechanism.marker(joint.guide, pose, velocity)
     slider = mechanism.marker(joint.slider, pose, velocity)
     ux, uy = mechanism.axis(joint, guide.body, pose)

@@ -1,12 +1,8 @@
-"""Normal contact laws: one file a law; this roster names them.
+"""Normal contact laws: one file a law; this roster names them, the default first."""
 
-A law module offers `contact_stiffness`, `normal_force` and `elastic_energy` on abstract scalars.
-"""
-
-from types import ModuleType
-
-from jointplay.solver.laws.contact import lankarani_nikravesh
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
+from jointplay.solver.laws.contact.law import ContactLaw
 
-ContactLaw = LankaraniNikravesh
-LAWS: dict[str, ModuleType] = {"lankarani-nikravesh": lankarani_nikravesh}
+LAWS: dict[str, type[ContactLaw]] = {"lankarani-nikravesh": LankaraniNikravesh}
+
+__all__ = ["LAWS", "ContactLaw"]

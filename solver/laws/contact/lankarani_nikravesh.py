@@ -1,15 +1,15 @@
 """Hertz contact with Lankarani-Nikravesh damping: the paper's eqs 8-10."""
 
-from types import SimpleNamespace
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from jointplay.solver.laws.contact.law import ContactLaw, Fit
+from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power, sqrt
-from jointplay.solver.quantities.units import Strict
 
 
-class LankaraniNikravesh(Strict):
+class LankaraniNikravesh(ContactLaw):
     """F_n = K δ^n + D δ̇ with D = 3 K (1 - c_e^2) δ^n / (4 δ̇⁻), never pulling.
 
     δ is the penetration depth (m), δ̇ its rate (positive while approaching, m/s), δ̇⁻ the rate at
@@ -50,33 +50,41 @@ class LankaraniNikravesh(Strict):
         ),
     ] = 1e-3
 
+    rules: ClassVar[tuple[Rule, ...]] = (
+        Rule(
+            "exponent",
+            lambda law: (law.exponent != 1.5) & (law.stiffness is None),
+            lambda _law: (
+                "Eq. 9 gives a stiffness for the exponent 1.5 only; with another exponent give a"
+                " stiffness (N/m^n)."
+            ),
+        ),
+    )
 
-def contact_stiffness(
-    law: SimpleNamespace, bearing_radius: Scalar, radial_clearance: Scalar
-) -> Scalar:
-    """K of eq. 9 for a journal of radius R_j = R_i - c, or the stiffness given; N/m^n."""
-    if law.stiffness is not None:
-        return law.stiffness
-    compliance = (1.0 - law.poisson_ratio * law.poisson_ratio) / law.youngs_modulus
-    journal_radius = bearing_radius - radial_clearance
-    radii = bearing_radius * journal_radius / radial_clearance
-    return 4.0 / (3.0 * (compliance + compliance)) * sqrt(radii)  # eq. (9)
+    def contact_stiffness(self, fit: Fit) -> Scalar:
+        """Return K, N/m^n: as given, or of eq. 9 for a journal of radius R_j = R_i - c."""
+        if self.stiffness is not None:
+            return self.stiffness
+        compliance = (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus
+        journal_radius = fit.bearing_radius - fit.radial_clearance
+        radii = fit.bearing_radius * journal_radius / fit.radial_clearance
+        return 4.0 / (3.0 * (compliance + compliance)) * sqrt(radii)  # eq. (9)
 
+    def elastic_force(self, fit: Fit, depth: Scalar) -> Scalar:
+        """Return K δ^n, N."""
+        return self.contact_stiffness(fit) * power(positive_part(depth), self.exponent)
 
-def normal_force(
-    law: SimpleNamespace, stiffness: Scalar, depth: Scalar, rate: Scalar, impact_rate: Scalar
-) -> tuple[Scalar, Scalar]:
-    """Return the normal force F_n and its elastic part K δ^n, N.
+    def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:
+        """Return F_n of eqs (8) and (10), N."""
+        elastic = self.elastic_force(fit, depth)
+        hysteresis = 0.75 * (1.0 - self.restitution * self.restitution)
+        return positive_part(elastic * (1.0 + hysteresis * rate / impact_rate))
 
-    `depth` is the penetration where positive, m; `rate` its derivative, m/s; `impact_rate` the
-    latched rate at onset, at least the floor, m/s.
-    """
-    elastic = stiffness * power(positive_part(depth), law.exponent)
-    hysteresis = 0.75 * (1.0 - law.restitution * law.restitution)
-    force = elastic * (1.0 + hysteresis * rate / impact_rate)  # eqs (8) and (10)
-    return positive_part(force), elastic
+    def elastic_energy(self, fit: Fit, depth: Scalar) -> Scalar:
+        """Return K δ^(n+1) / (n + 1), J."""
+        return self.elastic_force(fit, depth) * positive_part(depth) / (self.exponent + 1.0)
 
-
-def elastic_energy(law: SimpleNamespace, elastic: Scalar, depth: Scalar) -> Any:
-    """Return the energy stored at a depth, K δ^(n+1) / (n + 1), J."""
-    return elastic * positive_part(depth) / (law.exponent + 1.0)
+    @property
+    def least_impact_rate(self) -> float:
+        """The floor, m/s."""
+        return self.impact_rate_floor

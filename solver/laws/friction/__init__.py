@@ -1,12 +1,8 @@
-"""Friction laws: one file a law; this roster names them.
+"""Friction laws: one file a law; this roster names them, the default first."""
 
-A law module offers `friction_force` on abstract scalars.
-"""
-
-from types import ModuleType
-
-from jointplay.solver.laws.friction import modified_coulomb
+from jointplay.solver.laws.friction.law import FrictionLaw
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
 
-FrictionLaw = ModifiedCoulomb
-LAWS: dict[str, ModuleType] = {"modified-coulomb": modified_coulomb}
+LAWS: dict[str, type[FrictionLaw]] = {"modified-coulomb": ModifiedCoulomb}
+
+__all__ = ["LAWS", "FrictionLaw"]

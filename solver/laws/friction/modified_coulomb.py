@@ -1,10 +1,12 @@
 """Modified Coulomb friction: the paper's eqs 11-12."""
 
-from types import SimpleNamespace
-from typing import Annotated, Literal
+from collections.abc import Sequence
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from jointplay.solver.laws.friction.law import FrictionLaw
+from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import (
     Scalar,
     absolute,
@@ -13,13 +15,12 @@ from jointplay.solver.quantities.scalars import (
     minimum,
     sign,
 )
-from jointplay.solver.quantities.units import Strict
 
 STEEPEST_RAMP = 1e300
 """Slope (s/m) that stands for the step at equal limit velocities; finite, so 0 * slope is 0."""
 
 
-class ModifiedCoulomb(Strict):
+class ModifiedCoulomb(FrictionLaw):
     """F_t = -c_f c_d F_n sgn(v_t), c_d = (|v_t| - v_0) / (v_1 - v_0) limited to 0..1.
 
     c_f is the friction coefficient, v_t the slip velocity (m/s), v_0 and v_1 the static and
@@ -50,21 +51,51 @@ class ModifiedCoulomb(Strict):
             )
         ),
     ] = "material"
+    rules: ClassVar[tuple[Rule, ...]] = (
+        Rule(
+            "static_velocity",
+            lambda law: law.static_velocity > law.dynamic_velocity,
+            lambda law: (
+                f"The static limit velocity ({law.static_velocity:g} m/s) is above the dynamic one"
+                f" ({law.dynamic_velocity:g} m/s); it may at most equal it."
+            ),
+        ),
+    )
+
+    def ramp_slope(self) -> Scalar:
+        """Return 1 / (v_1 - v_0), s/m, bounded so that equal limit velocities are a step."""
+        width = self.dynamic_velocity - self.static_velocity
+        return minimum(1.0 / (width + 1.0 / STEEPEST_RAMP), STEEPEST_RAMP)
+
+    def friction_force(
+        self, normal_force: Scalar, slip: Scalar, inner: Sequence[Scalar] = ()
+    ) -> Scalar:
+        """Return F_t of eqs (11) and (12), N."""
+        ramp = (absolute(slip) - self.static_velocity) * self.ramp_slope()
+        direction = kinked(clamp_to_unit(ramp) * sign(slip), slip)
+        return -(self.coefficient * direction * normal_force)
 
     @property
-    def jumps(self) -> bool:
-        """Whether the force jumps with the slip: then no tangent vector follows a held joint."""
-        return self.coefficient > 0.0 and self.dynamic_velocity <= self.static_velocity
+    def is_off(self) -> bool:
+        """Whether the coefficient is zero, and not data of a run."""
+        return self.coefficient == 0.0
 
+    @property
+    def full_slip_speed(self) -> float:
+        """v_1, m/s."""
+        return self.dynamic_velocity
 
-def ramp_slope(law: SimpleNamespace) -> Scalar:
-    """1 / (v_1 - v_0), s/m, bounded so that equal limit velocities are a step."""
-    width = law.dynamic_velocity - law.static_velocity
-    return minimum(1.0 / (width + 1.0 / STEEPEST_RAMP), STEEPEST_RAMP)
+    @property
+    def slips_with_material(self) -> bool:
+        """Whether `slip_velocity` says so."""
+        return self.slip_velocity == "material"
 
-
-def friction_force(law: SimpleNamespace, normal_force: Scalar, slip: Scalar) -> Scalar:
-    """Return F_t on the journal along t, N; it opposes the slip velocity (m/s)."""
-    ramp = (absolute(slip) - law.static_velocity) * ramp_slope(law)
-    direction = kinked(clamp_to_unit(ramp) * sign(slip), slip)
-    return -(law.coefficient * direction * normal_force)  # eqs (11), (12)
+    @property
+    def tangent_obstacle(self) -> str:
+        """Equal limit velocities: the force jumps with the slip."""
+        if self.is_off or self.dynamic_velocity > self.static_velocity:
+            return ""
+        return (
+            "Friction jumps where its limit velocities are equal: a tangent has no derivative"
+            " there. Choose a dynamic_velocity above the static_velocity."
+        )

@@ -25,7 +25,8 @@ from jointplay.solver.runs.certificate.estimate import (
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.spread import BINS, histogram
 from jointplay.solver.runs.starts import start_scales
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import clearances, tangent_obstacle
 
 Floats = NDArray[np.float64]
 
@@ -132,7 +133,9 @@ def certify(
         f" {CONVERGED:g} of its range",
         "safety": SAFETY,
         "exponent": None if exponent is None else asdict(exponent),
-        "exponent_note": "" if exponent is not None else _no_exponent(scene),
+        "exponent_note": ""
+        if exponent is not None
+        else tangent_obstacle(scene) or "No window of the run was long enough.",
         "energy_residual": energy["residual"],
         "gross_work": gross,
         "energy_error": abs(energy["residual"]) / gross if gross > 0.0 else None,
@@ -154,12 +157,7 @@ def certify(
 
 def _motion(scene: Scene) -> dict[str, str]:
     """Return channels whose errors say how long the trajectory is known, with their units."""
-    found = {
-        f"{name}.{part}": "m"
-        for name, joint in scene.joints.items()
-        if _clearance(scene, name) > 0.0
-        for part in JOURNAL[:2]
-    }
+    found = {f"{name}.{part}": "m" for name in clearances(scene) for part in JOURNAL[:2]}
     for body in scene.bodies:
         found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
     return found
@@ -175,21 +173,14 @@ def _scales(values: Floats, names: Sequence[str], units: Sequence[str], scene: S
     largest = np.array([ranges[of_unit == unit].max() for unit in units])
     scales: Floats = np.maximum(ranges, HARDLY * largest)
     finest = start_scales(scene, names, 1.0)[0]  # of positions and angles, where there is play
-    play = any(_clearance(scene, name) > 0.0 for name in scene.joints)
+    play = clearances(scene)
     for column, name in enumerate(names):
         owner, _, quantity = name.partition(".")
         if quantity in JOURNAL:
-            scales[column] = 2.0 * _clearance(scene, owner)
+            scales[column] = 2.0 * play[owner].radial_clearance
         elif play and quantity in COORDINATES:
             scales[column] = max(scales[column], finest[column])
     return scales
-
-
-def _clearance(scene: Scene, name: str) -> float:
-    joint = scene.joints[name]
-    if not isinstance(joint, Revolute) or joint.clearance is None:
-        return 0.0
-    return joint.clearance.radial_clearance
 
 
 def _extremes(companions: Companions, names: Sequence[str]) -> Floats:
@@ -208,16 +199,6 @@ def _violation(largest: Floats | None) -> dict[str, Any]:
         note = "Zero by construction: joint coordinates satisfy the constraints."
         return {"position": 0.0, "angle": 0.0, "note": note}
     return {"position": float(largest[0]), "angle": float(largest[1]), "note": ""}
-
-
-def _no_exponent(scene: Scene) -> str:
-    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
-    if any(c.friction is not None and c.friction.jumps for c in clearances if c is not None):
-        return (
-            "Friction jumps where its limit velocities are equal: a tangent has no derivative"
-            " there. Choose a dynamic_velocity above the static_velocity."
-        )
-    return "No window of the run was long enough."
 
 
 def _lane(companions: Companions, lane: int, tolerance: float) -> dict[str, Any]:

@@ -147,7 +147,7 @@ def test_what_goes_into_contacts_is_the_work_of_their_forces(instant: Instant) -
         assert abs(balance) <= ROUNDING * scale
         assert contact.normal_force >= 0.0
         if instant.mode[name] == 0.0:
-            assert contact.force_on_journal == (0.0, 0.0)
+            assert contact.interaction.force_on_second == (0.0, 0.0)
 
 
 @given(st.one_of(anywhere, presets_near_start))

@@ -1,0 +1,53 @@
+"""What every contact law offers."""
+
+from abc import abstractmethod
+from typing import ClassVar, Protocol
+
+from jointplay.solver.quantities.rule import Rule
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import Strict
+
+
+class Fit(Protocol):
+    """A journal in its bearing."""
+
+    @property
+    def bearing_radius(self) -> Scalar:
+        """Of the bearing, m."""
+
+    @property
+    def radial_clearance(self) -> Scalar:
+        """The bearing's radius less the journal's, m."""
+
+
+class ContactLaw(Strict):
+    """The force along the normal where a journal touches its bearing.
+
+    Depth is the penetration where positive, m; its rate is positive while approaching, m/s. The
+    force must vanish with the depth, or name that as the obstacle to tangents.
+    """
+
+    law: str
+    rules: ClassVar[tuple[Rule, ...]] = ()
+    """What the parameters must not be."""
+
+    @abstractmethod
+    def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:
+        """Return the normal force, N, never negative.
+
+        `impact_rate` is the rate at the onset of this contact, at least `least_impact_rate`, m/s.
+        """
+
+    @abstractmethod
+    def elastic_energy(self, fit: Fit, depth: Scalar) -> Scalar:
+        """Return the energy stored at a depth, J: what the force at rest gives back."""
+
+    @property
+    def least_impact_rate(self) -> float:
+        """Floor under the impact rate that an onset latches, m/s; 0 for laws without memory."""
+        return 0.0
+
+    @property
+    def tangent_obstacle(self) -> str:
+        """Why no tangent vector can follow a run with this law, and the remedy; empty: one can."""
+        return ""
