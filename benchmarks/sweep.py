@@ -82,8 +82,8 @@ def in_kernels() -> tuple[float, float, float]:
         for piece in run.slices():
             for end in piece.ended:
                 useful += end.statistics["steps"] + end.statistics["rejections"]
-        assert run.bundle is not None
-        attempts += 8.0 * run.bundle.attempts
+        assert run.group is not None
+        attempts += 8.0 * run.group.bundle.attempts
     total = time.perf_counter() - begun
     Bundle.advance = original  # type: ignore[method-assign]
     return spent[0], total, useful / attempts

@@ -21,7 +21,6 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.kinds import Admission, Study, admit
-from jointplay.solver.runs.study.outputs import own_meanings
 from jointplay.storage.catalogue import BlockState, Catalogue, Claim
 from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.storage.settings import Settings
@@ -233,7 +232,7 @@ class Worker:
             0.7,
             np.full_like(peaks, np.nan) if failed else peaks,
             {"steps": 1000.0 + point}
-            | ({} if failed else dict.fromkeys(own_meanings(study), 0.5 * point)),
+            | ({} if failed else dict.fromkeys(study.own_outputs(), 0.5 * point)),
             indicators if study.indicators and not failed else {},
         )
 

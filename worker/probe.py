@@ -20,7 +20,6 @@ from typing import Any
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.simulate import Simulation
-from jointplay.solver.runs.work_precision.run import TradeRun
 from jointplay.storage.results.certificate_group import CERTIFICATE
 from jointplay.worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
 from jointplay.worker.study_block import computation_of
@@ -158,23 +157,12 @@ def _of_study(study: Study) -> Cost:
 
 def _run_block(study: Study, index: int, budget: float) -> tuple[list[Mark], str | None]:
     run = computation_of(study, index)
-    marks, ended, failure = [], 0.0, None
-    began = time.process_time()
+    marks, failure = [], None
     for piece in run.slices():
         for point in piece.ended:
-            ended += point.statistics.get("steps", 0.0)
             failure = failure or (f"Point {point.point}: {point.detail}" if point.code else None)
-        going = 0.0
-        if isinstance(run, TradeRun):  # it compiles as it goes, which does not count
-            marks.append(Mark(run.seconds, piece.fraction, run.steps))
-            if run.seconds > budget:
-                break
-            continue
-        if run.bundle is not None:
-            made = run.bundle.table("steps")[0]
-            going = float(sum(made[lane] for lane, one in enumerate(run.lanes) if one is not None))
-        marks.append(Mark(time.process_time() - began, piece.fraction, ended + going))
-        if marks[-1].seconds > budget:
+        marks.append(Mark(run.seconds, piece.fraction, run.steps))
+        if run.seconds > budget:
             break
     return marks, failure
 

@@ -14,12 +14,11 @@ from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
-from jointplay.solver.runs.study.outputs import MEANINGS, own_meanings
+from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.run import StudyRun
-from jointplay.solver.runs.work_precision.plan import KIND as ACCURACY_STUDY
-from jointplay.solver.runs.work_precision.plan import runs_in
-from jointplay.solver.runs.work_precision.run import TradeRun
+from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
+from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.results import ResultsError
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
@@ -51,8 +50,7 @@ class StudyProgress:
 
 def layout_of(study: Study) -> StudyLayout:
     """Return what a study's store holds."""
-    declared, own = study.point_scene(0).parameters, own_meanings(study)
-    runs = [run.document() for run in runs_in(study)] if study.kind == ACCURACY_STUDY else []
+    declared, own = study.point_scene(0).parameters, study.own_outputs()
     return StudyLayout(
         parameters=tuple(
             Channel(name, unit, declared[name].help)
@@ -71,9 +69,9 @@ def layout_of(study: Study) -> StudyLayout:
             "verdicts": sorted(VERDICTS, key=VERDICTS.__getitem__),
             "settlings": sorted(SETTLINGS, key=SETTLINGS.__getitem__),
             **({"meanings": own} if own else {}),
-            **({"runs": runs} if runs else {}),
+            **study.attributes(),
         },
-        meanings={name: Channel(name, *meaning) for name, meaning in (MEANINGS | own).items()},
+        meanings={name: Channel(name, *meaning) for name, meaning in (OUTPUTS | own).items()},
     )
 
 
@@ -94,10 +92,11 @@ def create_store(study: Study, folder: Path) -> None:
 
 def computation_of(
     study: Study, index: int, checkpoint: bytes | None = None
-) -> StudyRun | TradeRun:
-    """Return what computes a block, from where a restart point was made if there is one."""
-    kind = TradeRun if study.kind == ACCURACY_STUDY else StudyRun
-    return kind(study, index, checkpoint)
+) -> StudyRun | WorkPrecisionRun:
+    """Return the computation of a block, from where a restart point was made if there is one."""
+    if isinstance(study, WorkPrecisionStudy):
+        return WorkPrecisionRun(study, index, checkpoint)
+    return StudyRun(study, index, checkpoint)
 
 
 def run_block(

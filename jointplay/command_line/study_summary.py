@@ -42,10 +42,10 @@ def summary_of(source: "StudySource") -> dict[str, Any]:
 
 def units(source: "StudySource") -> dict[str, str]:
     """Return the units of the statistics and indicators of points, by name."""
-    from jointplay.solver.runs.study.outputs import MEANINGS
+    from jointplay.solver.runs.study.outputs import OUTPUTS
 
     own = source.attributes.get("meanings", {})
-    return {name: unit for name, (unit, _) in {**MEANINGS, **own}.items()}
+    return {name: unit for name, (unit, _) in {**OUTPUTS, **own}.items()}
 
 
 def print_points(source: "StudySource") -> None:

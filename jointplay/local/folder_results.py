@@ -15,8 +15,7 @@ from jointplay.local.folder import results_in, store_in
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.impact import IMPACT_UNITS
-from jointplay.solver.runs.work_precision.plan import KIND
-from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
 
@@ -93,9 +92,9 @@ class FolderResults:
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys."""
         study = self.study(None, None, None)
-        if study.kind != KIND:
+        if "runs" not in study.attributes:
             raise _missing(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
-        return Trade.of(study).document()
+        return WorkPrecision.of(study).document()
 
     def study(
         self,

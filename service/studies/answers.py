@@ -20,7 +20,7 @@ from jointplay.service.studies.queries import (
     points_of,
     sections_of,
 )
-from jointplay.solver.runs.study.outputs import MEANINGS
+from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
@@ -135,7 +135,7 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
 
 
 def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
-    meanings = {**MEANINGS, **store.meanings}
+    meanings = {**OUTPUTS, **store.meanings}
     return {
         name: Series.model_construct(
             unit=meanings.get(name, NO_MEANING)[0],

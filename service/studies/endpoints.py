@@ -11,7 +11,7 @@ from jointplay.service.results.as_json import as_json
 from jointplay.service.results.stores import open_study
 from jointplay.service.studies import answers, schemas
 from jointplay.service.studies.queries import BifurcationQuery, SweepQuery
-from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",
@@ -59,5 +59,5 @@ def show_accuracy(job: JobOfThePath, settings: SettingsDependency) -> Response:
     are those of the machine and the moment.
     """
     insist(job, "accuracy")
-    trade = Trade.of(open_study(job, settings))
-    return as_json(schemas.Accuracy.model_validate(trade.document()))
+    found = WorkPrecision.of(open_study(job, settings))
+    return as_json(schemas.Accuracy.model_validate(found.document()))

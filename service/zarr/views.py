@@ -10,7 +10,7 @@ from jointplay.records.channel import Channel
 from jointplay.service.jobs.results_of_kinds import is_study
 from jointplay.service.results.stores import committed_so_far
 from jointplay.service.zarr.content import Content
-from jointplay.solver.runs.study.outputs import MEANINGS
+from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.catalogue import Catalogue, Job
 from jointplay.storage.results import NotAStore
 from jointplay.storage.results.layout import MANIFEST
@@ -21,7 +21,7 @@ from jointplay.storage.studies.live import LiveStudy
 
 _FRESH: Final = 0.5
 """Seconds for which the parts of a running study are not read again."""
-_MEANINGS: Final = {name: Channel(name, *meaning) for name, meaning in MEANINGS.items()}
+_OUTPUTS: Final = {name: Channel(name, *meaning) for name, meaning in OUTPUTS.items()}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
 
@@ -61,7 +61,7 @@ def _live_study(folder: Path) -> LiveStudy:
 
 @lru_cache(maxsize=4)
 def _study_at(folder: Path, moment: float) -> LiveStudy:
-    return LiveStudy(folder, _MEANINGS)
+    return LiveStudy(folder, _OUTPUTS)
 
 
 def former_content(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -14,14 +13,17 @@ from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.kind import Kind
-from jointplay.solver.kinds.limits import BYTES_PER_POINT, LONGEST_ACCURACY_STUDY
+from jointplay.solver.kinds.limits import LONGEST_ACCURACY_STUDY
 from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
 from jointplay.solver.kinds.points import one_point
 from jointplay.solver.kinds.studies import make_study
 from jointplay.solver.quantities.roster import NameIn
-from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, runs_of
+from jointplay.solver.runs.work_precision.plan import (
+    WITHOUT_PERIOD,
+    WorkPrecisionStudy,
+    runs_of,
+)
 
 TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 
@@ -68,7 +70,7 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
     document = AccuracyStudyJob
     results: ClassVar = ("accuracy", "figures", "zarr")
 
-    def admit(self, job: AccuracyStudyJob) -> Study:
+    def admit(self, job: AccuracyStudyJob) -> WorkPrecisionStudy:
         """Check and fill in; see `Kind.admit`."""
         chosen = {
             "methods": [name for name in METHODS if name in job.methods],
@@ -89,7 +91,7 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
         filled = documents.filled(job, checked.document, checked.echo, **found)
         return _study(filled, checked, units)
 
-    def plan(self, job: AccuracyStudyJob, filled: dict[str, Any]) -> Study:
+    def plan(self, job: AccuracyStudyJob, filled: dict[str, Any]) -> WorkPrecisionStudy:
         """Return what `admit` returned; see `Kind.plan`."""
         placed = place_points(job, one_point(len(runs_of(filled, 1.0))))
         return _study(filled, placed, periods(placed.scenes))
@@ -99,14 +101,16 @@ def _unit(units: Periods) -> float:
     return WITHOUT_PERIOD if units.notes else float(units.seconds[0])
 
 
-def _study(filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> Study:
+def _study(filled: dict[str, Any], placed: PlacedPoints, units: Periods) -> WorkPrecisionStudy:
     count = placed.points.count
+    period = _unit(units)
     study = make_study(
         filled,
         placed,
-        period=np.full(count, _unit(units)),
+        period=np.full(count, period),
         offset=np.zeros(count),
         settle=np.zeros(count),
         duration=np.full(count, filled["duration"]),
     )
-    return replace(study, blocks=((0, count),), stored_bytes=int(BYTES_PER_POINT * count))
+    own = {"blocks": ((0, count),), "runs": runs_of(filled, period)}
+    return WorkPrecisionStudy(**(vars(study) | own))

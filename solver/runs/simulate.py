@@ -23,6 +23,7 @@ from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.ideal.run import IdealRun
@@ -40,11 +41,6 @@ from jointplay.solver.runs.stiff_method import (
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import section_offset
 
-SLICE_SECONDS = 0.1
-"""Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
-FIRST_BUDGET = 2000
-LARGEST_BUDGET = 200_000
-"""Attempted steps a call."""
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -143,16 +139,18 @@ class DynamicRun:
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
-        budget = FIRST_BUDGET
+        budget = SliceBudget()
         held: list[Slice] = []
         while self._runs():
-            begun = time.perf_counter()
-            allowed = min(budget, attempts_left(self.bundle)) if self.open else budget
+            begun, before = time.perf_counter(), self.bundle.attempts
+            allowed = budget.attempts
+            if self.open:
+                allowed = min(allowed, attempts_left(self.bundle))
             (self.survey or self.bundle).advance(allowed)
             found = self._slice()
             spent = time.perf_counter() - begun
             self.seconds += spent
-            budget = int(min(max(budget * SLICE_SECONDS / spent, 100), LARGEST_BUDGET, 4 * budget))
+            budget.adapt(self.bundle.attempts - before, spent)
             if self.open:
                 held.append(found)
                 if attempts_left(self.bundle):

@@ -11,20 +11,20 @@ from jointplay.records.channel import Channel
 from jointplay.solver.statistics.of_channels import OF_CHANNELS
 from jointplay.solver.statistics.of_contacts import OF_CONTACTS
 
-__all__ = ["OF_CHANNELS", "OF_CONTACTS", "Meaning", "meanings"]
+__all__ = ["OF_CHANNELS", "OF_CONTACTS", "Output", "outputs_of"]
 
-Meaning = tuple[str, str]
+Output = tuple[str, str]
 """Unit and long name."""
 
 
-def meanings(
+def outputs_of(
     chosen: tuple[str, ...], channels: tuple[Channel, ...], joints: tuple[str, ...]
-) -> dict[str, Meaning]:
-    """Return what the chosen statistics of channels and of joints with clearance mean, by name.
+) -> dict[str, Output]:
+    """Return unit and long name of chosen statistics of channels and joints with clearance.
 
     They are named after both: ``A.normal_force.mean``, ``A.contact_share``.
     """
-    found: dict[str, Meaning] = {}
+    found: dict[str, Output] = {}
     for channel in channels:
         for name in chosen:
             if name in OF_CHANNELS:

@@ -6,7 +6,7 @@ from jointplay.service.estimates.prober import Prober
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
-from jointplay.solver.runs.work_precision.run import TradeRun
+from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.scene import presets
 
 LONG = {"bouncing-journal": 2000.0, "pendulum": 2000.0, "seven-bar-press": 400.0}
@@ -63,7 +63,7 @@ def test_an_estimate_of_a_short_accuracy_study_is_exact(http):
     estimate = estimated(http, study)
     admitted = admit(study)
     assert isinstance(admitted, Study)
-    ended = [end for piece in TradeRun(admitted, 0).slices() for end in piece.ended]
+    ended = [end for piece in WorkPrecisionRun(admitted, 0).slices() for end in piece.ended]
     assert estimate["steps"] == sum(end.statistics["steps"] for end in ended)
     assert (estimate["points"], estimate["blocks"]) == (admitted.points, 1)
     assert (estimate["exact"], estimate["failure"]) == (True, None)

@@ -19,7 +19,7 @@ from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.kinds.simulate import sample_count
 from jointplay.solver.mechanics.tree import spanning_tree
-from jointplay.solver.runs import simulate
+from jointplay.solver.runs import budget as slice_budget
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
 from tests.solver.completed_runs import CASE_3, Run, collect
@@ -295,7 +295,7 @@ def test_a_certificate_does_not_depend_on_slices(monkeypatch: pytest.MonkeyPatch
     admission = job(duration=200.0, output_step=1.0)
     found = []
     for most in (20_000, 997):
-        monkeypatch.setattr(simulate, "LARGEST_BUDGET", most)
+        monkeypatch.setattr(slice_budget, "LARGEST", most)
         simulation = Simulation(admission)
         assert len(list(simulation.slices())) > 10
         found.append(simulation.certificate())

@@ -8,7 +8,7 @@ import pytest
 import zarr
 
 from jointplay.solver.kinds import Study, admit
-from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.execute import Answer
 from jointplay.worker.study_block import StudyProgress, run_block, seal_store
@@ -40,7 +40,7 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Study
 
 def repeatable(reader: StudyReader) -> dict[str, Any]:
     """All that does not depend on the clock."""
-    found = Trade.of(reader).document()
+    found = WorkPrecision.of(reader).document()
     return found | {"points": [one | {"seconds": 0.0} for one in found["points"]]}
 
 
@@ -53,7 +53,7 @@ def test_what_is_stored_has_units_and_says_what_failed(undisturbed: StudyReader)
     assert isinstance(numbers, zarr.Group)
     units = {name: numbers[name].attrs["units"] for name in ("error", "window", "seconds")}
     assert units == {"error": "1", "window": "s", "seconds": "s"}
-    found = Trade.of(undisturbed).document()
+    found = WorkPrecision.of(undisturbed).document()
     assert len(found["points"]) == 9
     assert found["advice"].startswith("The default, tsitouras at 1e-06")
 
@@ -94,5 +94,5 @@ def test_a_cancelled_study_keeps_what_was_measured_and_recommends_nothing(
         report=lambda done: Answer.cancel if done.watermark == 4 else Answer.go_on,
     )
     assert outcome.state == "cancelled"
-    found = Trade.of(StudyReader(tmp_path)).document()
+    found = WorkPrecision.of(StudyReader(tmp_path)).document()
     assert (found["complete"], len(found["points"]), found["advice"]) == (False, 2, None)

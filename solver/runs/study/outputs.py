@@ -1,11 +1,4 @@
-"""What the numbers mean that a point has beside its sections and peaks: unit and long name."""
-
-from __future__ import annotations
-
-from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.work_precision import plan as trade
-from jointplay.solver.scene.document import Revolute
-from jointplay.solver.statistics import Meaning, meanings
+"""Numbers that every point has beside its sections and peaks: unit and long name."""
 
 STATISTICS = {
     "steps": ("1", "accepted steps"),
@@ -34,16 +27,4 @@ INDICATORS = {
     "flatness": ("1", "flatness of the spectrum: 0 lines, 1 white noise"),
     "verdict": ("1", "a position in the attribute verdicts"),
 }
-MEANINGS = STATISTICS | INDICATORS
-
-
-def own_meanings(study: Study) -> dict[str, Meaning]:
-    """Return what numbers mean that not every study has: chosen statistics, costs and errors."""
-    if study.kind == trade.KIND:
-        return dict(trade.MEANINGS)
-    joints = tuple(
-        name
-        for name, joint in study.point_scene(0).joints.items()
-        if isinstance(joint, Revolute) and joint.clearance is not None
-    )
-    return meanings(study.statistics, study.channels, joints)
+OUTPUTS = STATISTICS | INDICATORS

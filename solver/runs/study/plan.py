@@ -12,7 +12,8 @@ from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.statistics import Output, outputs_of
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -87,6 +88,19 @@ class Study:
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.tolerance)
+
+    def own_outputs(self) -> dict[str, Output]:
+        """Return unit and long name of numbers a point that not every study has."""
+        joints = tuple(
+            name
+            for name, joint in self.point_scene(0).joints.items()
+            if isinstance(joint, Revolute) and joint.clearance is not None
+        )
+        return outputs_of(self.statistics, self.channels, joints)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return facts that a store keeps of this study beside its job and scene."""
+        return {}
 
     def scene_document(self) -> dict[str, Any]:
         """Return the scene of the first point as stores keep it."""

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
 from jointplay.solver.statistics.of_channels import Grid
-
-if TYPE_CHECKING:
-    from jointplay.solver.runs.study.point_run import PointRun
 
 Floats = NDArray[np.float64]
 SAME = 1e-5

@@ -8,8 +8,8 @@ from typing import Any
 
 from jointplay.solver.integrators import AUTO, COARSE, METHODS
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import Output
 
-KIND = "accuracy-study"
 REFERENCES = (AUTO.name, COARSE.name)
 """Methods of the two reference runs: those of highest order."""
 REFERENCE = 1e-13
@@ -22,7 +22,7 @@ GRID = 1e-4
 """Longest fixed step, of a period: the 0.2 ms grid on a press that turns in 2 s."""
 FINER = (1, 2, 4, 10, 20, 40)
 
-MEANINGS = {
+OUTPUTS = {
     "error": (
         "1",
         "root mean square error of coordinates and speeds over the window, relative to the scales"
@@ -78,6 +78,20 @@ def runs_of(job: Mapping[str, Any], period: float) -> tuple[Run, ...]:
     return tuple(found if default in found else [*found, default])
 
 
-def runs_in(study: Study) -> tuple[Run, ...]:
-    """Return the runs that an accuracy-study's points stand for."""
-    return runs_of(study.job, float(study.period[0]))
+@dataclass(frozen=True, eq=False)
+class WorkPrecisionStudy(Study):
+    """A study whose points are runs of several methods, computed one after the other.
+
+    Their seconds can be compared, since one worker computes them all: there is one block.
+    """
+
+    runs: tuple[Run, ...]
+    """By point; the first are the references."""
+
+    def own_outputs(self) -> dict[str, Output]:
+        """Return unit and long name of costs and errors."""
+        return dict(OUTPUTS)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the runs as a store keeps them."""
+        return {"runs": [run.document() for run in self.runs]}

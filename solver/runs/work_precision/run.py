@@ -13,9 +13,8 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.records.point import PointEnd, StudySlice
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, runs_in
-from jointplay.solver.runs.work_precision.timed_run import Passage
+from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, WorkPrecisionStudy
+from jointplay.solver.runs.work_precision.timed_run import TimedRun
 
 Floats = NDArray[np.float64]
 
@@ -27,7 +26,7 @@ FEWEST = 1e7
 NO_PEAKS = np.empty((0, 4))
 
 
-class TradeRun:
+class WorkPrecisionRun:
     """The block of an accuracy-study; `slices` computes it, `checkpoint` keeps the runs that ended.
 
     But for their seconds, runs give the same whenever and wherever they are computed: a run is
@@ -35,10 +34,12 @@ class TradeRun:
     anew, so that its seconds are those of one machine.
     """
 
-    def __init__(self, study: Study, block: int, checkpoint: bytes | None = None) -> None:
+    def __init__(
+        self, study: WorkPrecisionStudy, block: int, checkpoint: bytes | None = None
+    ) -> None:
         """Begin the block, or take up after the last run that ended; see `StudyRun`."""
         self.study = study
-        self.runs = runs_in(study)
+        self.runs = study.runs
         self.seconds = 0.0
         """Spent computing since this object was made."""
         self.steps = 0
@@ -74,17 +75,17 @@ class TradeRun:
                 continue
             if run.method not in kernels:
                 kernels[run.method] = ready_kernel(scene, study.job["formulation"], run.method)
-            passage = Passage(scene, kernels[run.method], run, self._until)
+            timed = TimedRun(scene, kernels[run.method], run, self._until)
             yield self._slice(0.0, started=(point,))
             while True:
-                before = passage.seconds, passage.steps
-                going = passage.advance()
-                self.seconds += passage.seconds - before[0]
-                self.steps += passage.steps - before[1]
-                if not going or passage.evaluations > self._most:
+                before = timed.seconds, timed.steps
+                going = timed.advance()
+                self.seconds += timed.seconds - before[0]
+                self.steps += timed.steps - before[1]
+                if not going or timed.evaluations > self._most:
                     break
-                yield self._slice(passage.fraction)
-            end = self._ended(point, run, passage, going=going)
+                yield self._slice(timed.fraction)
+            end = self._ended(point, run, timed, going=going)
             self._next += 1
             yield self._slice(0.0, ended=(end,))
 
@@ -111,19 +112,19 @@ class TradeRun:
             done += under_way * float(self._weights[self._next])
         return StudySlice(min(done / float(self._weights.sum()), 1.0), started, (), ended)
 
-    def _ended(self, point: int, run: Run, passage: Passage, *, going: bool) -> PointEnd:
+    def _ended(self, point: int, run: Run, timed: TimedRun, *, going: bool) -> PointEnd:
         """Return how a run ended; a reference is kept, and the window cut to what both know."""
-        found = passage.cost()
-        time, states = passage.samples()
+        found = timed.cost()
+        time, states = timed.samples()
         if going:
-            failure: SimulationFailed | None = _given_up(run, passage)
+            failure: SimulationFailed | None = _given_up(run, timed)
             if run.admitted:  # what jobs may not ask for says nothing of tighter tolerances
                 self._given_up.append(run.method)
         else:
-            failure = passage.failure()
+            failure = timed.failure()
         if point == 0:
-            self._most = max(MOST_REFERENCES * passage.evaluations, FEWEST)
-            self._time, self._reference, self._scales = time, states, passage.scales()
+            self._most = max(MOST_REFERENCES * timed.evaluations, FEWEST)
+            self._time, self._reference, self._scales = time, states, timed.scales()
         elif point < len(REFERENCES):
             known = min(len(states), len(self._reference))
             apart = np.abs(states[:known] - self._reference[:known]) / self._scales
@@ -148,14 +149,14 @@ class TradeRun:
         return float(self.study.job["duration"])
 
 
-def _given_up(run: Run, passage: Passage | None = None) -> SimulationFailed:
-    if passage is None:
+def _given_up(run: Run, timed: TimedRun | None = None) -> SimulationFailed:
+    if timed is None:
         sentence = f"Left out: '{run.method}' was given up at a looser tolerance or a longer step."
         return SimulationFailed("left-out", sentence, 0.0)
-    at = passage.bundle.time(0)
+    at = timed.bundle.time(0)
     return SimulationFailed(
         "given-up",
-        f"Given up at t = {at:.9g} s after {passage.evaluations} evaluations, many times what the"
+        f"Given up at t = {at:.9g} s after {timed.evaluations} evaluations, many times what the"
         " reference takes. Another method is better here.",
         at,
     )

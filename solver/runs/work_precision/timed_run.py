@@ -24,7 +24,7 @@ BUDGET = 20_000
 """Attempted steps between returns."""
 
 
-class Passage:
+class TimedRun:
     """Runs a scene with the kernel of a method, also as jobs may not ask for it."""
 
     def __init__(self, scene: Scene, kernel: Kernel, run: Run, duration: float) -> None:

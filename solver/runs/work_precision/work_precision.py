@@ -31,7 +31,7 @@ class Found(Protocol):
 
     @property
     def statistics(self) -> Mapping[str, Floats]:
-        """(points,) by the names of `solver.runs.work_precision.plan.MEANINGS`, and "steps"."""
+        """(points,) by the names of `solver.runs.work_precision.plan.OUTPUTS`, and "steps"."""
         ...
 
     @property
@@ -41,7 +41,7 @@ class Found(Protocol):
 
 
 @dataclass(frozen=True)
-class Trade:
+class WorkPrecision:
     """A work-precision study as far as it has come.
 
     `window` : s from the start in which the reference is known; `uncertainty` : how far the two
@@ -56,7 +56,7 @@ class Trade:
     """The runs that were computed, without the references."""
 
     @classmethod
-    def of(cls, found: Found) -> Trade:
+    def of(cls, found: Found) -> WorkPrecision:
         """Return the study that a store holds."""
         runs, columns = found.attributes["runs"], found.statistics
 

@@ -10,7 +10,7 @@ import pytest
 
 from jointplay.records.point import PointEnd
 from jointplay.solver.kinds import Admission, Study, admit
-from jointplay.solver.runs import simulate
+from jointplay.solver.runs import budget
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
@@ -101,9 +101,8 @@ def test_every_value_ends_with_its_sections_at_whole_periods(diagram: Computed) 
 def test_interrupted_anywhere_and_resumed_it_gives_the_same_bits(
     diagram: Computed, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulate, "FIRST_BUDGET", 300)
-    for name, value in (("FIRST_BUDGET", 311), ("LARGEST_BUDGET", 977)):
-        monkeypatch.setattr(f"jointplay.solver.runs.study.run.{name}", value)
+    monkeypatch.setattr(budget, "FIRST", 311)
+    monkeypatch.setattr(budget, "LARGEST", 977)
     disturbed = Computed.__new__(Computed)
     disturbed.study = diagram.study
     disturbed.ends, disturbed.rows, disturbed.times = {}, defaultdict(list), defaultdict(list)

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.kinds.statistics import StatisticName
-from jointplay.solver.runs import simulate
+from jointplay.solver.runs import budget
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
@@ -165,9 +165,8 @@ def test_a_journal_that_bounces_for_ever_is_carried_by_its_impacts() -> None:
 def test_interrupted_anywhere_and_resumed_they_have_the_same_bits(
     press: Computed, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(simulate, "FIRST_BUDGET", 300)
-    for name, value in (("FIRST_BUDGET", 311), ("LARGEST_BUDGET", 977)):
-        monkeypatch.setattr(f"jointplay.solver.runs.study.run.{name}", value)
+    monkeypatch.setattr(budget, "FIRST", 311)
+    monkeypatch.setattr(budget, "LARGEST", 977)
     ends: dict[int, str] = {}
     checkpoint: bytes | None = None
     for most in (1, 3, 7, 10**9):

@@ -15,10 +15,9 @@ from jointplay.records.point import PointEnd
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.advice import advice, cheapest
-from jointplay.solver.runs.work_precision.plan import runs_in
 from jointplay.solver.runs.work_precision.point import Point
-from jointplay.solver.runs.work_precision.run import KNOWN, TradeRun
-from jointplay.solver.runs.work_precision.work_precision import Trade
+from jointplay.solver.runs.work_precision.run import KNOWN, WorkPrecisionRun
+from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
 PRESS = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}}
 FEW = PRESS | {"duration": 0.003, "methods": ["tsitouras", "rk4"], "tolerances": [1e-4, 1e-8]}
@@ -37,7 +36,7 @@ class Collected:
     """What a store would hold of the runs that ended."""
 
     def __init__(self, study: Study, ends: list[PointEnd]) -> None:
-        runs = [run.document() for run in runs_in(study)]
+        runs = [run.document() for run in study.runs]
         self.attributes: dict[str, Any] = {"job": study.job, "runs": runs}
         self.complete = len(ends) == study.points
         self.failures = {end.point: Failed(end.code, end.detail) for end in ends if end.code}
@@ -54,7 +53,9 @@ def admitted(job: dict[str, Any]) -> Study:
     return study
 
 
-def ends_of(run: TradeRun, until: Callable[[PointEnd], bool] = lambda end: False) -> list[PointEnd]:
+def ends_of(
+    run: WorkPrecisionRun, until: Callable[[PointEnd], bool] = lambda end: False
+) -> list[PointEnd]:
     found = []
     for piece in run.slices():
         assert 0.0 <= piece.fraction <= 1.0
@@ -66,7 +67,7 @@ def ends_of(run: TradeRun, until: Callable[[PointEnd], bool] = lambda end: False
 
 def measured(job: dict[str, Any]) -> Collected:
     study = admitted(job)
-    return Collected(study, ends_of(TradeRun(study, 0)))
+    return Collected(study, ends_of(WorkPrecisionRun(study, 0)))
 
 
 def repeatable(ends: list[PointEnd]) -> list[dict[str, Any]]:
@@ -78,27 +79,29 @@ def repeatable(ends: list[PointEnd]) -> list[dict[str, Any]]:
 
 
 @pytest.fixture(scope="module")
-def trade() -> Trade:
+def found() -> WorkPrecision:
     """The press up to a few milliseconds after its first impact."""
-    return Trade.of(measured(PRESS | {"duration": 0.015}))
+    return WorkPrecision.of(measured(PRESS | {"duration": 0.015}))
 
 
-def series(trade: Trade, method: str) -> list[Point]:
-    return [point for point in trade.points if point.method == method]
+def series(found: WorkPrecision, method: str) -> list[Point]:
+    return [point for point in found.points if point.method == method]
 
 
-def test_every_method_is_measured_against_a_reference_that_is_known(trade: Trade) -> None:
-    assert trade.complete
-    assert {point.method for point in trade.points} == set(METHODS)
-    assert trade.uncertainty is not None
-    assert trade.uncertainty < KNOWN
-    assert trade.window is not None
-    assert 0.0 < trade.window <= trade.duration == 0.015
+def test_every_method_is_measured_against_a_reference_that_is_known(
+    found: WorkPrecision,
+) -> None:
+    assert found.complete
+    assert {point.method for point in found.points} == set(METHODS)
+    assert found.uncertainty is not None
+    assert found.uncertainty < KNOWN
+    assert found.window is not None
+    assert 0.0 < found.window <= found.duration == 0.015
 
 
 @pytest.mark.parametrize("method", [name for name, each in METHODS.items() if each.error])
-def test_a_tighter_tolerance_costs_more_and_errs_less(trade: Trade, method: str) -> None:
-    points = {point.tolerance: point for point in series(trade, method)}
+def test_a_tighter_tolerance_costs_more_and_errs_less(found: WorkPrecision, method: str) -> None:
+    points = {point.tolerance: point for point in series(found, method)}
     coarse, fine = points[1e-5], points[1e-9]
     assert coarse.error is not None
     assert fine.error is not None
@@ -107,41 +110,45 @@ def test_a_tighter_tolerance_costs_more_and_errs_less(trade: Trade, method: str)
     assert fine.evaluations > coarse.evaluations
 
 
-def test_steps_of_a_press_over_ten_thousand_fail_at_the_first_impact(trade: Trade) -> None:
-    longest = series(trade, "rk4")[0]
+def test_steps_of_a_press_over_ten_thousand_fail_at_the_first_impact(
+    found: WorkPrecision,
+) -> None:
+    longest = series(found, "rk4")[0]
     assert longest.step == pytest.approx(2e-4)
     assert longest.error is None
     assert longest.failure is not None
     assert "smaller 'step'" in longest.failure
 
 
-def test_tolerances_that_jobs_may_not_ask_for_are_marked(trade: Trade) -> None:
-    for point in trade.points:
+def test_tolerances_that_jobs_may_not_ask_for_are_marked(found: WorkPrecision) -> None:
+    for point in found.points:
         if point.tolerance is not None:
             limit = METHODS[point.method].largest_tolerance
             assert point.admitted == (point.tolerance <= limit)
 
 
-def test_the_cheapest_admitted_run_is_recommended(trade: Trade) -> None:
-    best = cheapest(trade.points, 1e-3)
+def test_the_cheapest_admitted_run_is_recommended(found: WorkPrecision) -> None:
+    best = cheapest(found.points, 1e-3)
     assert best is not None
-    able = [p for p in trade.points if p.admitted and p.error is not None and p.error <= 1e-3]
+    able = [p for p in found.points if p.admitted and p.error is not None and p.error <= 1e-3]
     assert best.evaluations == min(point.evaluations for point in able)
-    assert cheapest(trade.points, 0.0) is None
-    told = trade.document()["advice"]
+    assert cheapest(found.points, 0.0) is None
+    told = found.document()["advice"]
     assert told.startswith("The default, tsitouras at 1e-06, makes an error of")
 
 
-def test_a_default_as_accurate_as_the_reference_leaves_nothing_to_choose(trade: Trade) -> None:
-    assert "nothing to choose" in advice(trade.points, 1.0)
+def test_a_default_as_accurate_as_the_reference_leaves_nothing_to_choose(
+    found: WorkPrecision,
+) -> None:
+    assert "nothing to choose" in advice(found.points, 1.0)
 
 
-def test_nothing_is_recommended_before_all_runs_have_ended(trade: Trade) -> None:
-    assert replace(trade, complete=False).document()["advice"] is None
+def test_nothing_is_recommended_before_all_runs_have_ended(found: WorkPrecision) -> None:
+    assert replace(found, complete=False).document()["advice"] is None
 
 
 def test_the_default_is_measured_whatever_is_asked_for() -> None:
-    found = Trade.of(measured(FEW | {"methods": ["rk4"]}))
+    found = WorkPrecision.of(measured(FEW | {"methods": ["rk4"]}))
     assert [point.method for point in found.points] == ["rk4"] * 6 + ["tsitouras"]
     assert found.document()["advice"] is not None
 
@@ -151,10 +158,10 @@ def test_a_study_that_goes_on_keeps_what_was_measured_and_repeats_but_for_second
     ended: int,
 ) -> None:
     study = admitted(FEW)
-    undisturbed = ends_of(TradeRun(study, 0))
-    begun = TradeRun(study, 0)
+    undisturbed = ends_of(WorkPrecisionRun(study, 0))
+    begun = WorkPrecisionRun(study, 0)
     first = ends_of(begun, lambda end: end.point == ended)
-    rest = ends_of(TradeRun(study, 0, begun.checkpoint()))
+    rest = ends_of(WorkPrecisionRun(study, 0, begun.checkpoint()))
     assert [end.point for end in (*first, *rest)] == list(range(study.points))
     assert repeatable([*first, *rest]) == repeatable(undisturbed)
 
@@ -170,7 +177,7 @@ def test_a_method_that_takes_too_many_evaluations_is_given_up(
     # 0.003 s in steps of 0.2 ms, 0.1 ms, 50 us: 60, 120, 240 evaluations
     codes = {point: one.code for point, one in found.failures.items()}
     assert codes == {4: "given-up", 5: "left-out", 6: "left-out", 7: "left-out"}
-    points = Trade.of(found).points
+    points = WorkPrecision.of(found).points
     assert [point.error is None for point in points] == [False, False, True, False]
     assert points[2].evaluations > 150
     assert points[2].failure is not None

@@ -1,0 +1,21 @@
+"""Attempted steps that kernels make between two returns to Python."""
+
+from __future__ import annotations
+
+SLICE_SECONDS = 0.1
+"""Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
+FIRST = 2000
+LARGEST = 200_000
+FEWEST = 100
+
+
+class SliceBudget:
+    """Attempts of the next slice, from the pace of those before; no result depends on them."""
+
+    def __init__(self) -> None:
+        self.attempts = FIRST
+
+    def adapt(self, made: int, seconds: float) -> None:
+        """Take note of a slice: how many attempts it made, and in which time."""
+        fitting = max(max(made, 1) * SLICE_SECONDS / seconds, FEWEST)
+        self.attempts = int(min(fitting, LARGEST, 4 * self.attempts))

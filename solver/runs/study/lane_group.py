@@ -1,0 +1,214 @@
+"""The lanes that compute points of one structure, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import astuple
+from typing import Any
+
+import numpy as np
+
+from jointplay.records.failure import SimulationFailed
+from jointplay.records.point import PointEnd, SectionRows
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.failures import contacts_of, failure_of, peaks_of, statistics_of
+from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.runs.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.problem import (
+    ENDLESS,
+    WINDOW,
+    most_settling,
+    problem_of,
+    scales_of,
+)
+from jointplay.solver.runs.study.window import statistics_in, take_contacts, take_samples
+
+Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
+"""Sections, points that ended, and those that may follow them."""
+
+
+class LaneGroup:
+    """A kernel's lanes, each with the point that it computes, or free."""
+
+    def __init__(self, study: Study, structure: int) -> None:
+        """Compile or load the kernel of a structure, and its tangents where they are wanted.
+
+        Raises
+        ------
+        LimitExceeded
+            The scene's equations are too long to compile.
+        """
+        point = int(np.flatnonzero(study.structure == structure)[0])
+        kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
+        tangents = compile_tangents(kernel) if "lyapunov" in study.indicators else None
+        self.study = study
+        self.structure = structure
+        self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
+        self.lanes: list[PointRun | None] = [None] * LANES
+        self.columns, self.sampled = (
+            np.array([kernel.rows.index(channel.name) for channel in chosen], dtype=np.int64)
+            for chosen in (study.observables, study.channels)
+        )
+        """Rows of the observables, and of the channels, in the kernel's block of channels."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether a lane computes a point."""
+        return any(run is not None for run in self.lanes)
+
+    @property
+    def steps(self) -> float:
+        """Accepted steps of the points under way."""
+        made = self.bundle.table("steps")[0]
+        return float(sum(made[lane] for lane, run in enumerate(self.lanes) if run is not None))
+
+    def under_way(self) -> float:
+        """Return how many points the parts of those under way amount to."""
+        return sum(
+            min(self.bundle.time(lane) / float(self.study.duration[run.point]), 1.0)
+            for lane, run in enumerate(self.lanes)
+            if run is not None
+        )
+
+    def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
+        """Give free lanes waiting points of this structure; return those points."""
+        started = []
+        for lane in range(LANES):
+            if self.lanes[lane] is not None:
+                continue
+            fitting = (run for run in waiting if self.study.structure[run.point] == self.structure)
+            run = next(fitting, None)
+            if run is None:
+                break
+            waiting.remove(run)
+            self.lanes[lane] = run
+            self.bundle.load(lane, problem_of(self.study, self.bundle.kernel, run))
+            started.append(run.point)
+        return tuple(started)
+
+    def collect(self) -> Collected:
+        """Take the rows of all lanes and free those whose points are over."""
+        sections: list[SectionRows] = []
+        ended: list[PointEnd] = []
+        following: list[PointRun] = []
+        for lane, run in enumerate(self.lanes):
+            if run is None:
+                continue
+            if run.settled >= 0:
+                run.growth.append(self.bundle.growth(lane).copy())
+            sections += self._rows(lane, run)
+            if run.tallies:
+                self._tally(lane, run)
+            status = Status(self.bundle.counters[Counter.STATUS, lane])
+            if status == Status.DONE and self._goes_on(lane, run):
+                continue
+            if status != Status.RUNNING:
+                end = self._end(lane, run, status)
+                ended.append(end)
+                following += self._following(lane, run, end)
+                self.lanes[lane] = None
+        return sections, ended, following
+
+    def _rows(self, lane: int, run: PointRun) -> list[SectionRows]:
+        """Return a lane's new sections, if they are to be recorded."""
+        bundle = self.bundle
+        rows = bundle.section_rows[lane, : bundle.counters[Counter.SECTION_ROWS, lane]]
+        if not len(rows):
+            return []
+        times = rows[:, 0] * float(self.study.period[run.point]) + rows[:, 1]
+        if run.settled < 0 or (self.study.indicators and run.taken < MOST_SECTIONS):
+            first_state = 2 + 2 * len(bundle.kernel.drivers)
+            run.seen.append(rows[:, first_state : first_state + bundle.kernel.states].copy())
+        if run.settled < 0:
+            return []
+        values = bundle.observe(lane, rows, self.columns)
+        first = run.taken
+        run.taken += len(rows)
+        return [SectionRows(run.point, first, times, values)]
+
+    def _tally(self, lane: int, run: PointRun) -> None:
+        """Take a lane's new samples, and the contacts that ended after settling."""
+        bundle, study = self.bundle, self.study
+        rows = bundle.sample_rows[lane, : bundle.counters[Counter.SAMPLE_ROWS, lane]]
+        if len(rows):
+            take_samples(study, run, bundle.observe(lane, rows, self.sampled))
+        if run.settled >= 0 and bundle.counters[Counter.IMPACT_ROWS, lane]:
+            take_contacts(study, run, contacts_of(bundle, lane))
+
+    def _goes_on(self, lane: int, run: PointRun) -> bool:
+        """Whether a lane at the end of a leg was given the next one."""
+        if run.settled >= 0:
+            return False
+        study, point, bundle = self.study, run.point, self.bundle
+        if study.record == 0:
+            run.settled = 0
+            bundle.extend(lane, float(study.duration[point]), 0, forget=True)
+            return True
+        period = float(study.period[point])
+        most = most_settling(study, point)
+        scales, angles = scales_of(study, bundle.kernel, point)
+        if run.reached < most and not run.has_settled(scales, angles, most):
+            run.reached = min(run.reached + WINDOW, most)
+            bundle.extend(lane, run.reached * period, ENDLESS)
+            return True
+        run.settled = run.reached
+        run.seen = []
+        left = float(study.duration[point] - study.settle[point])
+        taken = int(bundle.counters[Counter.SECTION, lane])
+        bundle.extend(lane, run.settled * period + left, taken + study.record)
+        return True
+
+    def _end(self, lane: int, run: PointRun, status: Status) -> PointEnd:
+        """Close a point."""
+        bundle, study = self.bundle, self.study
+        failure: SimulationFailed | None = None
+        if status != Status.DONE:
+            failure = failure_of(bundle, lane, study.tolerance)
+        names = [channel.name for channel in study.channels]
+        peaks = peaks_of(bundle, lane, names).values()
+        return PointEnd(
+            run.point,
+            failure.code if failure else "",
+            failure.detail if failure else "",
+            bundle.time(lane),
+            np.array([astuple(peak) for peak in peaks]).reshape(-1, 4),
+            self._statistics(lane, run, whole=failure is None),
+            {} if failure or not study.indicators else self._indicators(run),
+        )
+
+    def _following(self, lane: int, run: PointRun, end: PointEnd) -> Iterator[PointRun]:
+        """Yield the next point of a chain, which starts where this one came to."""
+        order, position = self.study.chain_order[run.chain], run.position + 1
+        if position < len(order):
+            start = None if end.code else self.bundle.state_of(lane)
+            yield PointRun(order[position], run.chain, position, start)
+
+    def _indicators(self, run: PointRun) -> dict[str, float]:
+        kernel, study = self.bundle.kernel, self.study
+        states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
+        scales, angles = scales_of(study, kernel, run.point)
+        period = float(study.period[run.point])
+        growth = np.concatenate([np.zeros((0, 2)), *run.growth])
+        by_period = growth_by_period(growth, period, run.settled)
+        return indicators_of(study.indicators, states, scales, angles, by_period, period)
+
+    def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
+        """Return what every point has; those of channels and contacts too if it ran to its end."""
+        found: dict[str, Any] = statistics_of(self.bundle, lane)
+        energy = found.pop("energy")
+        found["smallest_step"] = found["smallest_step"] or float("nan")
+        chosen = ("driver_work", "contact_loss", "friction_loss", "gross_work", "residual")
+        found |= {f"energy_{name}" if name == "residual" else name: energy[name] for name in chosen}
+        found |= {
+            "settled_periods": max(run.settled, 0) if self.study.record else float("nan"),
+            "settling": run.settling.result.code if run.settling and run.settling.result else 0,
+            "from_neighbour": float(run.start is not None),
+        }
+        if run.tallies and whole:
+            found |= statistics_in(self.study, run, self.bundle.kernel.play)
+        return {name: float(value) for name, value in found.items()}

@@ -1,0 +1,127 @@
+"""The problem that a lane gets of a point: all of it, or the time until the point settles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.start import start_state
+from jointplay.solver.kernels.loop.state import SectionKind
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.window import begin_tallies, window_of
+
+Floats = NDArray[np.float64]
+
+ENDLESS = 2**62
+"""More sections than any run takes."""
+WINDOW = 16
+"""Periods between two looks at whether a point has settled."""
+
+
+def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
+    """Return what a lane computes first of a point: all of it, or the time until it settles."""
+    point, period = run.point, float(study.period[run.point])
+    scene = study.point_scene(point)
+    start = run.start
+    if study.perturbation is not None:
+        start = _perturbed(study, kernel, point, study.perturbation)
+    if study.record == 0:
+        run.reached = 0
+        settle = float(study.settle[point])
+        first_leg = settle if settle > 0.0 else float(study.duration[point])
+        run.settled = 0 if settle == 0.0 else -1
+        step, samples, first = first_leg, 0, 0
+        if study.statistics:
+            begin_tallies(study, run, len(kernel.play))
+            window = window_of(study, point)
+            step, first = window.step, window.first
+            samples = first + window.grid.samples + 1  # the last one is taken at the end
+        return LaneProblem(
+            scene,
+            first_leg,
+            study.tolerance,
+            step,
+            samples,
+            0,
+            0.0,
+            start=start,
+            first_sample=first,
+        )
+    event = _event(study, kernel, point)
+    waits = study.job["settle"] == "auto"
+    if waits:
+        run.reached = min(WINDOW, most_settling(study, point))
+        duration, sections, first = run.reached * period, ENDLESS, 1
+    else:
+        run.settled = int(study.job["settle"])
+        duration, first = float(study.duration[point]), run.settled + 1
+        sections = first + study.record
+    if event is not None:
+        first, sections = 0, ENDLESS if waits else study.record
+    return LaneProblem(
+        scene,
+        duration,
+        study.tolerance,
+        duration,
+        0,
+        sections,
+        float(study.offset[point]),
+        first,
+        event,
+        start,
+    )
+
+
+def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return what counts as one in each state, and which states are angles, (states,) each."""
+    position, speed = start_scales(
+        study.point_scene(point), kernel.coordinates, float(study.period[point])
+    )
+    angles = np.array([name.endswith(".theta") for name in kernel.coordinates], dtype=bool)
+    return np.concatenate([position, speed]), np.concatenate([angles, np.zeros_like(angles)])
+
+
+def most_settling(study: Study, point: int) -> int:
+    """Return how many periods a point may take to settle."""
+    return max(1, round(float(study.settle[point] / study.period[point])))
+
+
+def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
+    section: Mapping[str, Any] = study.job["section"]
+    waits = study.job["settle"] == "auto"
+    not_before = 0.0 if waits else float(study.settle[point])
+    if "onset" in section:
+        joint = kernel.play.index(section["onset"])
+        return Event(SectionKind.ONSET, joint, not_before=not_before)
+    if "channel" not in section:
+        return None
+    name, value = section["channel"], float(section["value"])
+    sense = 1.0 if section["direction"] == "up" else -1.0
+    if name in kernel.rows.multiples:
+        name, factor, offset = kernel.rows.multiples[name]
+        value, sense = (value - offset) / factor, sense if factor > 0.0 else -sense
+    row = kernel.rows.index(name)
+    return Event(SectionKind.CROSSING, row, value, sense, not_before)
+
+
+def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbation) -> LaneStart:
+    """Return the start of a member of an ensemble."""
+    scene = study.point_scene(point)
+    assembly = assemble(scene)
+    position, speed = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+    state = perturbed_start(
+        np.array(position),
+        np.array(speed),
+        start_scales(scene, kernel.coordinates, float(study.period[point])),
+        perturbation,
+        point,
+    )
+    return LaneStart(np.concatenate(state))
