@@ -1,8 +1,8 @@
 """Figures of runs and studies, as a journal would print them; PNG and SVG from the same code.
 
-A family: one figure a file, the rosters below. Every figure takes a `records.run.Source`, or
-a `records.study.StudySource`, and a `Selection`. Importing this package does not load
-matplotlib; drawing does, without touching pyplot or the caller's settings.
+A family: one figure a file, and a line in a roster below. Every figure takes a
+`records.run.Source`, or a `records.study.StudySource`, and a `Selection`. Importing this package
+does not load matplotlib; drawing does, without pyplot or a change of the caller's settings.
 
 >>> from jointplay import figures
 >>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
@@ -10,16 +10,16 @@ matplotlib; drawing does, without touching pyplot or the caller's settings.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from jointplay.figures import page, scene_facts, study_facts
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.certificate import CERTIFICATE
-from jointplay.figures.choosing import select
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
-from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study
+from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study, select
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.page import Form, warm_up
@@ -56,18 +56,23 @@ __all__ = [
     "warm_up",
 ]
 
-ROSTER: Final[tuple[RunFigure, ...]] = (
-    OUTPUTS,
-    CONTACT_FORCE,
-    ORBIT,
-    PHASE_PORTRAIT,
-    SPECTRUM,
-    MECHANISM,
-    TIME_HISTORY,
-    CERTIFICATE,
-)
-"""Figures of one run."""
-STUDY_ROSTER: Final[tuple[StudyFigure, ...]] = (BIFURCATION, SWEEP, SECTION, WORK_PRECISION)
+ROSTER: Final[dict[str, RunFigure]] = {
+    figure.name: figure
+    for figure in (
+        OUTPUTS,
+        CONTACT_FORCE,
+        ORBIT,
+        PHASE_PORTRAIT,
+        SPECTRUM,
+        MECHANISM,
+        TIME_HISTORY,
+        CERTIFICATE,
+    )
+}
+"""Figures of one run, in the order of lists."""
+STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
+    figure.name: figure for figure in (BIFURCATION, SWEEP, SECTION, WORK_PRECISION)
+}
 """Figures of a study."""
 
 
@@ -85,7 +90,8 @@ def available(source: Source | StudySource) -> tuple[Listed, ...]:
     its name. Besides these, the name of any stored channel is a figure: its time history, its
     bifurcation diagram, or its extremes over the parameters; and so is a statistic of a sweep.
     """
-    listed = [Listed(kind.name, kind.title) for kind in _roster(source) if _drawable(kind, source)]
+    roster = _roster(source).values()
+    listed = [Listed(kind.name, kind.title) for kind in roster if _drawable(kind, source)]
     if not is_study(source):
         named = {channel.name: channel.long_name for channel in source.channels}
         listed += [Listed(name, named[name]) for name in scene_facts.outputs(source)]
@@ -145,13 +151,13 @@ def _find(
     source: Source | StudySource, name: str, selection: Selection | None
 ) -> tuple[FigureKind[Any], Selection]:
     selection = selection or Selection()
-    for kind in _roster(source):
-        if kind.name == name:
-            kind.check(selection)
-            return kind, selection
+    roster = _roster(source)
+    if name in roster:
+        roster[name].check(selection)
+        return roster[name], selection
     found = _of_channel(source, name)
     if found is None:
-        raise UnknownFigure(name, [kind.name for kind in _roster(source)])
+        raise UnknownFigure(name, list(roster))
     if selection.channels:
         raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
     found.check(selection)
@@ -169,7 +175,7 @@ def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | No
     return SWEEP if any(one.name == name for one in over_points) else None
 
 
-def _roster(source: Source | StudySource) -> tuple[FigureKind[Any], ...]:
+def _roster(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:
     return STUDY_ROSTER if is_study(source) else ROSTER
 
 

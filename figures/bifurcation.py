@@ -154,7 +154,7 @@ def _legend(diagram: _Diagram, verdicts: tuple[Group, ...]) -> dict[str, tuple[s
 BIFURCATION = StudyFigure(
     name="bifurcation",
     title="Bifurcation diagram: observables at the sections over the parameter",
-    uses=("channels", "first", "last"),
+    uses=("channels", "start", "stop"),
     channels=_chosen,
     draw=_draw,
 )

@@ -1,12 +1,13 @@
-"""What every figure of the family provides."""
+"""A member of the family of figures, and the selection of what it shows."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from jointplay.figures.errors import NotDrawable
+from jointplay.records.channel_choice import choose
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
@@ -19,7 +20,7 @@ Results = TypeVar("Results", Source, StudySource)
 
 @dataclass(frozen=True)
 class Selection:
-    """What of the results to draw; nothing given means all that the figure is about.
+    """Part of the results to draw; by default all that the figure is about.
 
     Parameters
     ----------
@@ -28,17 +29,14 @@ class Selection:
     joints
         Names of clearance joints, where a figure draws one panel a joint.
     start, stop
-        Window of time [s], both ends included.
-    first, last
-        Points of a study, both ends included.
+        Window of time [s], both ends included; of a study the first point, and the one before
+        which to end.
     """
 
     channels: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     start: float | None = None
     stop: float | None = None
-    first: int | None = None
-    last: int | None = None
 
     def given(self) -> list[str]:
         """Name what was chosen."""
@@ -86,3 +84,34 @@ StudyFigure = FigureKind[StudySource]
 def is_study(source: Source | StudySource) -> TypeIs[StudySource]:
     """Tell whether results are those of a study, and not of one run."""
     return hasattr(source, "observables")
+
+
+def select(
+    source: Source | StudySource,
+    channels: Sequence[str] = (),
+    joints: Sequence[str] = (),
+    start: float | None = None,
+    stop: float | None = None,
+) -> Selection:
+    """Return what to draw of a run or a study.
+
+    Parameters
+    ----------
+    source
+        The results.
+    channels
+        Names or globs; all that the figure is about if empty.
+    joints
+        Names of clearance joints.
+    start, stop
+        Window of time [s]; of a study the first point, and the one before which to end.
+
+    Raises
+    ------
+    NoSuchChannel
+        A name or glob matches nothing.
+    """
+    offered = (*source.observables, *source.channels) if is_study(source) else source.channels
+    known = [channel.name for channel in offered]
+    chosen = choose(",".join(channels), known) if channels else ()
+    return Selection(tuple(chosen), tuple(joints), start, stop)

@@ -30,7 +30,7 @@ def _pairs(source: StudySource, selection: Selection) -> list[tuple[str, str]]:
     points = study_facts.chosen_points(source, selection)
     if source.parameters and points.stop - points.start > 1:
         raise NotDrawable(
-            "Choose one point of the study: its sections differ from those of the others.", "first"
+            "Choose one point of the study: its sections differ from those of the others.", "start"
         )
     names = study_facts.chosen_observables(source, selection)
     if selection.joints and names:
@@ -59,7 +59,7 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
     pairs = _pairs(source, selection)
     points = study_facts.chosen_points(source, selection)
     if not source.counts[points].any():
-        raise NotDrawable("No section was recorded there yet.", "first")
+        raise NotDrawable("No section was recorded there yet.", "start")
     everything = study_facts.Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
     verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
     columns = min(_COLUMNS, len(pairs))
@@ -109,7 +109,7 @@ def _short(name: str) -> str:
 SECTION = StudyFigure(
     name="section",
     title="Poincaré sections: positions against their rates",
-    uses=("channels", "joints", "first", "last"),
+    uses=("channels", "joints", "start", "stop"),
     channels=_channels,
     draw=_draw,
 )

@@ -91,15 +91,18 @@ def chosen_points(source: StudySource, selection: Selection) -> slice:
     NotDrawable
         There are none in this range.
     """
-    first = 0 if selection.first is None else selection.first
-    last = source.points - 1 if selection.last is None else selection.last
-    if not 0 <= first <= last < source.points:
+    for name, value in (("start", selection.start), ("stop", selection.stop)):
+        if value is not None and (value < 0 or not float(value).is_integer()):
+            raise NotDrawable(f"{name} is {value:g}; points of a study are counted from 0.", name)
+    first = int(selection.start or 0)
+    end = source.points if selection.stop is None else int(selection.stop)
+    if not first < end <= source.points:
         raise NotDrawable(
-            f"The study has points 0 to {source.points - 1}; choose a range of them, not "
-            f"{first} to {last}.",
-            "last" if selection.first is None or first < source.points else "first",
+            f"The study has points 0 to {source.points - 1}; choose a range of them, not from"
+            f" {first} to before {end}.",
+            "start" if selection.start is not None and first >= source.points else "stop",
         )
-    return slice(first, last + 1)
+    return slice(first, end)
 
 
 def directions(source: StudySource) -> tuple[Group, ...]:

@@ -49,7 +49,7 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
         raise NotDrawable(
             f"{parameters} vary; a picture shows one or two parameters. Choose a range of points "
             "in which no more vary, or export the table.",
-            "first",
+            "start",
         )
     most = _MOST_CURVES if len(varying) == 1 else _MOST_MAPS
     names = study_facts.chosen_over_points(source, selection)
@@ -200,7 +200,7 @@ def _map(
 SWEEP = StudyFigure(
     name="sweep",
     title="Extremes of channels, or statistics, over the parameters",
-    uses=("channels", "first", "last"),
+    uses=("channels", "start", "stop"),
     channels=_chosen,
     draw=_draw,
 )

@@ -11,15 +11,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from jointplay.client import Job
-    from jointplay.local.second_drawer import SecondDrawer
+    from jointplay.local.drawing_process import DrawingProcess
 
 Form = Literal["png", "svg"]
 
 _LONGEST: Final = ("certificate", "spectrum", "phase-portrait", "outputs", "contact-force", "orbit")
-"""Figures that take longest to draw: begun first, so that nobody waits for one at the end."""
+"""Figures that take longest to draw, begun first."""
 
 
-def draw_all(job: "Job", folder: Path, second: "SecondDrawer | None" = None) -> None:
+def draw_all(job: "Job", folder: Path, second: "DrawingProcess | None" = None) -> None:
     """Draw every kind of figure that the results allow into a folder.
 
     A single output is not drawn once more on its own: the figure of all outputs shows it.
@@ -27,7 +27,7 @@ def draw_all(job: "Job", folder: Path, second: "SecondDrawer | None" = None) -> 
     Parameters
     ----------
     job
-        Its results are there; with a second drawer, in a folder.
+        Its results are there; with a second process, in a folder.
     folder
         Made if it is missing.
     second
@@ -35,8 +35,7 @@ def draw_all(job: "Job", folder: Path, second: "SecondDrawer | None" = None) -> 
     """
     from jointplay import figures
 
-    kinds = {kind.name for kind in figures.ROSTER} | {kind.name for kind in figures.STUDY_ROSTER}
-    names = [name for name in job.figures if name in kinds]
+    names = [name for name in job.figures if name in {**figures.ROSTER, **figures.STUDY_ROSTER}]
     folder.mkdir(parents=True, exist_ok=True)
     with progress("figures") as report:
         drawn = set() if second is None else _draw_shared(job, folder, names, second, report)
@@ -51,7 +50,7 @@ def _draw_shared(
     job: "Job",
     folder: Path,
     names: Sequence[str],
-    second: "SecondDrawer",
+    second: "DrawingProcess",
     report: "Callable[[float, str], None]",
 ) -> set[str]:
     """Draw with a second process, and return what is drawn.

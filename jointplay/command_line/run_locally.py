@@ -11,7 +11,7 @@ from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job
-    from jointplay.local.second_drawer import SecondDrawer
+    from jointplay.local.drawing_process import DrawingProcess
 
 
 def run(
@@ -58,7 +58,7 @@ def run(
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
     from jointplay.local import load
-    from jointplay.local.second_drawer import second_drawer
+    from jointplay.local.drawing_process import drawing_process
     from jointplay.progress import progress
     from jointplay.solver.kinds import Study, admit
     from jointplay.worker.local.computing import compute
@@ -96,7 +96,7 @@ def run(
     if processes is not None and not isinstance(admission, Study):
         raise Stopped(Exit.BAD_INPUT, "--processes is of studies; this is one simulation.")
     _make(output)
-    with second_drawer(admission) as second:
+    with drawing_process(admission) as second:
         with progress(output.name) as report:
             compute(admission, output, processes, report)
         job = load(output)
@@ -124,7 +124,7 @@ def _make(output: Path) -> None:
 
 
 def _of_simulation(
-    job: "Job", output: Path, second: "SecondDrawer | None", as_json: bool
+    job: "Job", output: Path, second: "DrawingProcess | None", as_json: bool
 ) -> dict[str, Any]:
     """Write figures and peaks, and tell the peaks."""
     from jointplay.command_line.certificate import print_headline

@@ -1,51 +1,126 @@
-"""The process that draws beside another one: `python -m jointplay.local.drawing_process QUEUE`.
+"""A second process that draws figures: it loads matplotlib while the job is computed.
 
-It loads what draws, and waits for one line on its standard input that says what there is to draw.
-The queue is an open pipe: a byte of it is a figure that this process is to draw now.  Each figure
-that is in its file goes to standard output, as the same byte.
+Loading takes as long as drawing half of the figures of a short run, and computing that leaves a
+core free.  Both processes claim figures one by one from a pipe, a byte a figure, as `make` hands
+out its jobs.
 """
 
-import gc
 import json
 import os
+import select
+import subprocess
 import sys
-from contextlib import suppress
-from queue import Empty, SimpleQueue
-from threading import Thread
-from typing import Final
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, cast
 
-_PATIENCE: Final = 60.0
-"""Seconds without an order: after a run that long, nobody minds the time that figures take."""
+from jointplay.solver.runs.processes import cores
+
+if TYPE_CHECKING:
+    from jointplay.solver.kinds import Admission, Study
+
+PROGRAM = "jointplay.local.drawing_program"
+_FEW = 3
+"""Figures that one process has drawn before it would have shared them."""
+_LONGEST = 60.0  # s without a figure, after which a process is lost
 
 
-def main(queue: int) -> None:
-    """Get ready, wait for the order, draw what is left, and end without looking back."""
-    gc.disable()  # a few figures, then it ends
-    told = os.dup(1)
-    os.dup2(2, 1)  # what others print is no news
-    orders: SimpleQueue[bytes] = SimpleQueue()
-    Thread(target=_listen, args=(orders,), daemon=True).start()
+class DrawingProcess:
+    """A process that draws the figures that are offered to it.
+
+    The caller draws what this process did not, for whatever reason.  Ctrl-C does not reach it; it
+    ends when `end` is called or its parent is gone.
+    """
+
+    def __init__(self) -> None:
+        queue, offers = os.pipe()
+        with ExitStack() as opened:  # closed again if there is no process to be had
+            self._queue = opened.enter_context(open(queue, "rb", 0))
+            self._offers = opened.enter_context(open(offers, "wb", 0))
+            self._process = subprocess.Popen(  # noqa: S603 - our own program
+                [sys.executable, "-P", "-m", PROGRAM, str(queue)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,  # the caller tries again, and reports
+                bufsize=0,
+                env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+                pass_fds=(queue,),
+                process_group=0,
+            )
+            opened.pop_all()
+        self._orders = cast("IO[bytes]", self._process.stdin)
+        self._news = cast("IO[bytes]", self._process.stdout)
+
+    @property
+    def pid(self) -> int:
+        """Process id."""
+        return self._process.pid
+
+    def share(self, results: Path, folder: Path, names: Sequence[str]) -> Iterator[int]:
+        """Offer figures to both processes, and yield which of them the caller is to draw.
+
+        Parameters
+        ----------
+        results
+            Folder of a run.
+        folder
+            Where figures go.
+        names
+            Of figures, those that take longest first.
+        """
+        self._offers.write(bytes(range(len(names))))
+        self._offers.close()
+        order = {"results": str(results), "folder": str(folder), "names": list(names)}
+        with suppress(OSError):  # it is gone: the caller draws all
+            self._orders.write(json.dumps(order).encode() + b"\n")
+        while claim := self._queue.read(1):
+            yield claim[0]
+
+    def drawn(self) -> set[int]:
+        """Wait until the other process has nothing left to draw; tell what it has drawn."""
+        found: set[int] = set()
+        while select.select([self._news], [], [], _LONGEST)[0] and (news := self._news.read(64)):
+            found.update(news)
+        self.end()
+        return found
+
+    def end(self) -> None:
+        """End the process, wherever it is; again changes nothing."""
+        self._process.kill()
+        self._process.wait()
+        for pipe in (self._orders, self._news, self._queue, self._offers):
+            pipe.close()
+
+
+@contextmanager
+def drawing_process(admission: "Admission | Study") -> Iterator[DrawingProcess | None]:
+    """Start a process for the figures of a job, if it has many and a core is free."""
+    if os.name != "posix" or cores() < 2 or _figures(admission) <= _FEW:
+        yield None
+        return
+    try:
+        process = DrawingProcess()
+    except OSError:  # no process to be had
+        yield None
+        return
+    try:
+        yield process
+    finally:
+        process.end()
+
+
+def _figures(admission: "Admission | Study") -> int:
+    """Count the figures that a job will have; none of a study, which leaves no core free."""
+    import numpy as np
+
     from jointplay import figures
-    from jointplay.local import folder_results, load  # noqa: F401 - loaded while there is time
+    from jointplay.records.channel import Channel
+    from jointplay.records.run_in_memory import Dataset
+    from jointplay.solver.kinds import Admission
 
-    figures.warm_up()
-    with suppress(Empty):
-        order = json.loads(orders.get(timeout=_PATIENCE))
-        job = load(order["results"])
-        while claim := os.read(queue, 1):
-            name = order["names"][claim[0]]
-            with suppress(Exception):  # who asked draws it again, and tells why that cannot be
-                job.figure(name).save(f"{order['folder']}/{name}")
-                os.write(told, claim)
-    os._exit(0)
-
-
-def _listen(orders: SimpleQueue[bytes]) -> None:
-    """Pass the order on; end as soon as the process that could give one is gone."""
-    orders.put(sys.stdin.buffer.readline())
-    sys.stdin.buffer.read()
-    os._exit(0)
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    if not isinstance(admission, Admission):
+        return 0
+    channels = [Channel(one.name, one.unit) for one in admission.channels]
+    planned = Dataset({"scene": admission.scene_document()}, channels, np.zeros(1), {})
+    return sum(listed.name in figures.ROSTER for listed in figures.available(planned))

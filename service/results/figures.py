@@ -6,6 +6,7 @@ from fastapi import APIRouter, Path, Query, Response
 from pydantic import Field
 
 from jointplay import figures
+from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
@@ -16,10 +17,9 @@ from jointplay.service.jobs.results_of_kinds import insist, is_study
 from jointplay.service.jobs.schemas import address
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
 from jointplay.service.problems.document import clipped
-from jointplay.service.results.queries import Selection, chosen_channels
+from jointplay.service.results.queries import Selection, unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import open_store, open_study
-from jointplay.service.studies.queries import whole_point
 from jointplay.storage.catalogue import Catalogue, Job
 from jointplay.storage.results import ResultReader
 from jointplay.storage.settings import Settings
@@ -40,8 +40,6 @@ router = APIRouter(
 
 
 _MEDIA_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
-_PARAMETERS = {"first": "start", "last": "stop"}
-"""What figures call otherwise."""
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The figure.",
@@ -109,36 +107,26 @@ def draw_figure(
         sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
         raise _refused(kinds.UNKNOWN_FIGURE, "form", sentence)
     store = _results(job, settings, catalogue)
-    chosen = _selection(store, selection)
+    if isinstance(store, ResultReader):
+        selection.checked()
+    channels, joints = (
+        [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
+    )
     try:
+        chosen = figures.select(store, channels, joints, selection.start, selection.stop)
         picture = figures.render(store, name, cast("figures.Form", form), chosen)
     except figures.UnknownFigure as error:
         raise _refused(kinds.UNKNOWN_FIGURE, "name", str(error)) from None
     except figures.NotDrawable as error:
-        cause = _PARAMETERS.get(error.cause, error.cause)
-        raise _refused(kinds.NOT_DRAWABLE, cause, str(error)) from None
+        raise _refused(kinds.NOT_DRAWABLE, error.cause, str(error)) from None
+    except NoSuchChannel as error:
+        raise unknown_channels(error) from None
     return Response(picture, media_type=_MEDIA_TYPES[form])
 
 
 def _results(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader | StudyReader:
     insist(job, "figures")
     return open_study(job, settings) if is_study(job) else open_store(job, settings, catalogue)
-
-
-def _selection(store: ResultReader | StudyReader, asked: FigureSelection) -> figures.Selection:
-    """Return what to draw: times of a simulation, points of a study."""
-    joints = () if asked.joints is None else tuple(asked.joints.split(","))
-    if isinstance(store, ResultReader):
-        start, stop = asked.checked()
-        known = [channel.name for channel in store.channels]
-        channels = () if asked.channels is None else chosen_channels(asked.channels, known)
-        return figures.Selection(tuple(channels), joints, start, stop)
-    known = [channel.name for channel in (*store.observables, *store.channels)]
-    channels = () if asked.channels is None else chosen_channels(asked.channels, known)
-    first, end = whole_point("start", asked.start), whole_point("stop", asked.stop)
-    return figures.Selection(
-        tuple(channels), joints, first=first, last=None if end is None else end - 1
-    )
 
 
 def _refused(kind: kinds.Kind, parameter: str, sentence: str) -> RequestRefused:

@@ -65,8 +65,13 @@ def chosen_channels(text: str | None, names: list[str]) -> list[str]:
     try:
         return choose(text, names)
     except NoSuchChannel as error:
-        errors = [ErrorDetail(parameter="channels", detail=one) for one in error.sentences]
-        raise RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors) from None
+        raise unknown_channels(error) from None
+
+
+def unknown_channels(error: NoSuchChannel) -> RequestRefused:
+    """Return the refusal of names or globs that match nothing."""
+    errors = [ErrorDetail(parameter="channels", detail=one) for one in error.sentences]
+    return RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
 
 
 def check_size(rows: int, columns: int, what: str, seconds: float) -> None:

@@ -30,7 +30,7 @@ CASES = {
     ),
     "one value": (bifurcation(points=1), "bifurcation", None),
     "section": (one_point(record=100), "section", None),
-    "section of a value": (bifurcation(points=30), "section", Selection(first=29, last=29)),
+    "section of a value": (bifurcation(points=30), "section", Selection(start=29, stop=30)),
     "section of an ensemble": (
         one_point("ensemble", 9, record=50),
         "section",
@@ -211,7 +211,7 @@ def test_values_spaced_by_ratio_have_a_logarithmic_axis():
 
 def test_a_range_of_points_is_a_part_of_the_diagram():
     source = bifurcation(points=60)
-    (axes,) = drawn_with(source, "block.x", Selection(first=10, last=19)).axes
+    (axes,) = drawn_with(source, "block.x", Selection(start=10, stop=20)).axes
     (marks,) = marks_of(axes).values()
     np.testing.assert_allclose(np.unique(marks[:, 0]), source.values[10:20, 0] * 1e3)
 
@@ -282,7 +282,7 @@ def test_a_range_in_which_two_parameters_vary_is_a_map():
     source = sweep((4, 3, 5))
     with pytest.raises(NotDrawable, match="play, friction, speed vary"):
         figures.draw(source, "sweep")
-    assert figures.render(source, "sweep", "png", Selection(first=0, last=14))
+    assert figures.render(source, "sweep", "png", Selection(start=0, stop=15))
 
 
 @pytest.mark.parametrize(
@@ -305,9 +305,9 @@ def test_a_range_in_which_two_parameters_vary_is_a_map():
             r"did you mean left\.contact_share",
             "channels",
         ),
-        (bifurcation(points=3), "section", None, "Choose one point", "first"),
-        (bifurcation(points=3), "bifurcation", Selection(first=3), "points 0 to 2", "first"),
-        (bifurcation(points=3), "bifurcation", Selection(last=3), "points 0 to 2", "last"),
+        (bifurcation(points=3), "section", None, "Choose one point", "start"),
+        (bifurcation(points=3), "bifurcation", Selection(start=3), "points 0 to 2", "start"),
+        (bifurcation(points=3), "bifurcation", Selection(stop=4), "points 0 to 2", "stop"),
         (
             bifurcation(points=3),
             "bifurcation",
@@ -316,7 +316,7 @@ def test_a_range_in_which_two_parameters_vary_is_a_map():
             "channels",
         ),
         (bifurcation(points=3), "bifurcation", Selection(joints=("left",)), "joints", "joints"),
-        (bifurcation(points=3), "bifurcation", Selection(start=1.0), "start", "start"),
+        (bifurcation(points=3), "bifurcation", Selection(start=1.5), "from 0", "start"),
         (one_point(), "section", Selection(joints=("right",)), "joint 'right'", "joints"),
         (one_point(), "section", Selection(channels=("block.x",)), "two channels", "channels"),
     ],

@@ -11,8 +11,8 @@ import pytest
 import jointplay
 from jointplay import jobs
 from jointplay.command_line.drawing import draw_all
-from jointplay.local import second_drawer
-from jointplay.local.second_drawer import SecondDrawer
+from jointplay.local import drawing_process
+from jointplay.local.drawing_process import DrawingProcess
 from jointplay.solver.kinds import admit
 from tests.waiting import until
 
@@ -35,7 +35,7 @@ def alone(job, tmp_path_factory):
 
 @pytest.fixture
 def second():
-    drawer = SecondDrawer()
+    drawer = DrawingProcess()
     yield drawer
     drawer.end()
 
@@ -97,7 +97,7 @@ def test_a_drawer_that_is_gone_before_leaves_all_figures_here(job, alone, second
 
 
 def test_a_drawer_that_says_nothing_is_not_waited_for(job, alone, second, tmp_path, monkeypatch):
-    monkeypatch.setattr(second_drawer, "_LONGEST", 0.1)
+    monkeypatch.setattr(drawing_process, "_LONGEST", 0.1)
     os.kill(second.pid, signal.SIGSTOP)
     draw_all(job, tmp_path, second)
     assert contents(tmp_path) == alone
@@ -116,9 +116,9 @@ def test_a_figure_that_cannot_be_drawn_says_why_as_one_alone_does(second, tmp_pa
 
 
 def test_an_interruption_ends_the_second_process(monkeypatch):
-    monkeypatch.setattr(second_drawer, "cores", lambda: 2)
+    monkeypatch.setattr(drawing_process, "cores", lambda: 2)
     admission = admit(jobs.simulate("slider-crank", **CRANK))
-    with pytest.raises(KeyboardInterrupt), second_drawer.second_drawer(admission) as second:
+    with pytest.raises(KeyboardInterrupt), drawing_process.drawing_process(admission) as second:
         raise KeyboardInterrupt
     with pytest.raises(ProcessLookupError):
         os.kill(second.pid, 0)
@@ -128,8 +128,8 @@ def test_an_interruption_ends_the_second_process(monkeypatch):
 def test_it_ends_with_the_process_that_started_it():
     program = (
         "import time\n"
-        "from jointplay.local.second_drawer import SecondDrawer\n"
-        "print(SecondDrawer().pid, flush=True)\n"
+        "from jointplay.local.drawing_process import DrawingProcess\n"
+        "print(DrawingProcess().pid, flush=True)\n"
         "time.sleep(600)\n"
     )
     with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE) as process:
@@ -151,8 +151,8 @@ def test_it_ends_with_the_process_that_started_it():
     ids=["many figures", "one core", "few figures", "few channels", "a study"],
 )
 def test_it_is_started_where_it_is_of_use(document, cores, wanted, monkeypatch):
-    monkeypatch.setattr(second_drawer, "cores", lambda: cores)
-    with second_drawer.second_drawer(admit(document)) as second:
+    monkeypatch.setattr(drawing_process, "cores", lambda: cores)
+    with drawing_process.drawing_process(admit(document)) as second:
         assert (second is not None) == wanted
 
 
@@ -160,18 +160,18 @@ def test_a_machine_that_has_no_process_left_draws_alone(monkeypatch):
     def refuse(*arguments, **more):
         raise BlockingIOError
 
-    monkeypatch.setattr(second_drawer, "cores", lambda: 2)
+    monkeypatch.setattr(drawing_process, "cores", lambda: 2)
     monkeypatch.setattr(subprocess, "Popen", refuse)
     admission = admit(jobs.simulate("slider-crank", **CRANK))
-    with second_drawer.second_drawer(admission) as second:
+    with drawing_process.drawing_process(admission) as second:
         assert second is None
 
 
 def test_it_does_not_wait_for_an_order_for_ever():
     program = (
-        "from jointplay.local import drawing_process\n"
-        "drawing_process._PATIENCE = 0.1\n"
-        "drawing_process.main(0)\n"
+        "from jointplay.local import drawing_program\n"
+        "drawing_program._PATIENCE = 0.1\n"
+        "drawing_program.main(0)\n"
     )
     with subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE) as process:
         assert process.wait(PATIENCE) == 0
