@@ -1,6 +1,8 @@
-"""A printed number and ours, as one row of a table of the report."""
+"""Printed numbers beside ours: the tables of the report."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Final
 
 SAME: Final = 0.02
@@ -11,7 +13,7 @@ ORDER: Final = 0.5
 
 @dataclass(frozen=True)
 class Cell:
-    """What one variant gives: a main line, smaller ones below, and ours over the printed one."""
+    """One reading's result: a main line, smaller ones below, and ours over the printed one."""
 
     main: str
     details: tuple[str, ...] = ()
@@ -45,16 +47,42 @@ class Row:
     causes: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True)
+class Table:
+    """A table of comparisons.
+
+    Parameters
+    ----------
+    columns
+        Titles of the columns for ours.
+    first
+        Titles of the columns for case, quantity and printed numbers.
+    """
+
+    caption: str
+    columns: Sequence[str]
+    rows: Sequence[Row]
+    first: Sequence[str] = ("case", "quantity", "printed")
+
+    @property
+    def titles(self) -> list[str]:
+        """The titles of all columns."""
+        return [*self.first, *self.columns, "why"]
+
+    @property
+    def groups(self) -> list[list[Row]]:
+        """The rows, those of one case together."""
+        return [list(rows) for _, rows in groupby(self.rows, lambda row: row.case)]
+
+
 def milliseconds(time: float) -> str:
     """Return a time [s] in ms."""
     return f"{1e3 * time:.4g} ms"
 
 
 def small(value: float, bound: float, digits: str = ".2g") -> str:
-    """Return a number, or 0 if its magnitude is below a bound that nobody would notice."""
-    if abs(value) < bound:
-        return "0"
-    return signed(value, digits)
+    """Return a number, or 0 if its magnitude is below a bound."""
+    return "0" if abs(value) < bound else signed(value, digits)
 
 
 def signed(value: float, digits: str) -> str:

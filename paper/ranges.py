@@ -1,31 +1,19 @@
 """Ranges of the phase portraits, in a window soon after the start and in one long after it."""
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Final, NamedTuple
 
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, signed
+from jointplay.paper.stores import Stores
 from jointplay.paper.variants import Variant
-from jointplay.storage.studies import StudyReader
 
 WINDOWS: Final = ("early", "late")
-
-
-class Quantity(NamedTuple):
-    """A quantity of a phase portrait: channel of the joint, words, unit (1e-3 in SI), digits."""
-
-    channel: str
-    words: str
-    unit: str
-    digits: str
-
-
 QUANTITIES: Final = {
-    "x": Quantity("eccentricity_x", "eccentricity x", "mm", ".4f"),
-    "v": Quantity("eccentricity_rate_x", "rate x", "mm/s", ".2f"),
+    "x": ("eccentricity_x", "eccentricity x", "mm", ".4f"),
+    "v": ("eccentricity_rate_x", "rate x", "mm/s", ".2f"),
 }
-"""By key of `phase_ranges`."""
+"""By key of `phase_ranges`: channel of the joint, words, unit (1e-3 in SI), digits."""
 
 
 class Range(NamedTuple):
@@ -34,29 +22,28 @@ class Range(NamedTuple):
     low: float
     high: float
 
+    @property
+    def width(self) -> float:
+        """Largest less smallest value."""
+        return self.high - self.low
 
-def found(folder: Path, window: str, variant: Variant, case: int, channel: str) -> Range:
-    """Return the range of a channel in an entry of `phase_ranges`."""
-    peaks = StudyReader(folder / cases.ranges(window, variant)).peaks(channel)
+
+def found(stores: Stores, window: str, variant: Variant, case: int, joint: str, key: str) -> Range:
+    """Return the range of a quantity in an entry of `phase_ranges`."""
+    peaks = stores.study("ranges", window, variant).peaks(f"{joint}.{QUANTITIES[key][0]}")
     return Range(float(peaks.minimum[case]), float(peaks.maximum[case]))
 
 
-def rows(folder: Path, variants: Sequence[Variant]) -> Iterator[Row]:
+def rows(stores: Stores, variants: Sequence[Variant]) -> Iterator[Row]:
     """Compare all ranges; the ratio is that of their widths, in the early window."""
     for case, entry in enumerate(reported.document()["phase_ranges"]):
         for joint in cases.JOINTS:
-            for key, (quantity, words, unit, digits) in QUANTITIES.items():
-                printed = Range(*entry[joint][key])
-                channel = f"{joint}.{quantity}"
-                cells = [
-                    _cell(
-                        printed,
-                        found(folder, "early", variant, case, channel),
-                        found(folder, "late", variant, case, channel),
-                        digits,
-                    )
-                    for variant in variants
-                ]
+            for key, (_, words, unit, digits) in QUANTITIES.items():
+                printed, cells = Range(*entry[joint][key]), []
+                for variant in variants:
+                    early, late = (found(stores, one, variant, case, joint, key) for one in WINDOWS)
+                    details = (f"late {_shown(late, digits)}",)
+                    cells.append(Cell(_shown(early, digits), details, early.width / printed.width))
                 pointer = f"/phase_ranges/{case}/{joint}/{key}"
                 yield Row(
                     (f"{pointer}/0", f"{pointer}/1"),
@@ -68,9 +55,13 @@ def rows(folder: Path, variants: Sequence[Variant]) -> Iterator[Row]:
                 )
 
 
-def _cell(printed: Range, early: Range, late: Range, digits: str) -> Cell:
-    ratio = (early.high - early.low) / (printed.high - printed.low)
-    return Cell(_shown(early, digits), (f"late {_shown(late, digits)}",), ratio)
+def widths(stores: Stores, variant: Variant, key: str) -> list[float]:
+    """Return the widths of ranges in the early window over the printed ones."""
+    return [
+        found(stores, "early", variant, case, joint, key).width / Range(*entry[joint][key]).width
+        for case, entry in enumerate(reported.document()["phase_ranges"])
+        for joint in cases.JOINTS
+    ]
 
 
 def _shown(one: Range, digits: str) -> str:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from jointplay.paper import cases, pictures, report, runs
 from jointplay.paper.size import Size
+from jointplay.paper.stores import Stores
 from jointplay.solver.runs.processes import cores, processes
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.interruption import interruption
@@ -39,7 +40,7 @@ def reproduce(folder: Path, size: Size, count: int | None, progress: Report) -> 
             pool,
             lambda done, note: progress(_DRAWING_FROM * done, note),
         )
-        drawn = pictures.pictures(stores, size)
+        drawn = pictures.pictures(Stores(stores), size)
         images = pool.make(
             [picture.call for picture in drawn],
             lambda done, ended, note: progress(

@@ -1,4 +1,4 @@
-"""The figures that compare runs; all of column width, drawn on the page of `jointplay.figures`.
+"""Figures that compare runs, all of column width, drawn on the page of `jointplay.figures`.
 
-One figure a file, each with a function that takes the folder of stores and returns PNG bytes.
+Each member draws one kind of figure from stores and returns the bytes of a PNG file.
 """
