@@ -54,7 +54,7 @@ def page(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]]) ->
     }
     text = resources.files("jointplay.paper").joinpath("template.html").read_text("utf-8")
     runs = cases.runs(size)
-    return environment.from_string(text).render(
+    rendered: str = environment.from_string(text).render(
         findings.findings(stores, size),
         title=f"{printed['scene'].replace('-', ' ').capitalize()}: published and computed",
         printed=printed,
@@ -71,6 +71,7 @@ def page(folder: Path, size: Size, pictures: Sequence[tuple[Picture, bytes]]) ->
         experiment=Table("Printed of the experiment", ("ours",), list(findings.experiment())),
         jobs=Counter((run.name.split("-")[0], run.job["kind"]) for run in runs),
     )
+    return rendered
 
 
 def _sections(stores: Stores, size: Size) -> Iterator[Section]:
