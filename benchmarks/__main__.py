@@ -8,7 +8,6 @@ ALL = (
     "press",
     "certificate",
     "peers",
-    "adams",
     "accuracy",
     "stiffness",
     "exponent",

@@ -8,7 +8,7 @@ import numpy as np
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import Status
 
 PRESSES = 64
 CLEARANCES = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, PRESSES)]
@@ -30,15 +30,10 @@ def busy_lanes(
         begun = time.process_time()
         running = bundle.advance(10_000_000) > 0
         seconds += time.process_time() - begun
-        for lane in np.flatnonzero(bundle.counters[Counter.STATUS] != Status.RUNNING):
+        for lane in np.flatnonzero(bundle.runs["status"] != Status.RUNNING):
             if waiting:
-                made += attempts(bundle, lane)
+                made += bundle.lane(lane).attempts
                 bundle.load(int(lane), waiting.pop(0))
                 running = True
-    made += sum(attempts(bundle, lane) for lane in range(8))
+    made += sum(bundle.lane(lane).attempts for lane in range(8))
     return seconds / len(problems), made / len(problems)
-
-
-def attempts(bundle: Bundle, lane: int) -> float:
-    """Return the steps that a lane tried, but for those redone at onsets and openings, some 2 %."""
-    return float(bundle.table("steps")[0, lane] + bundle.counters[Counter.REJECTIONS, lane])

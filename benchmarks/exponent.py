@@ -13,7 +13,8 @@ import numpy as np
 from numba import float64, int64, njit, types, void
 
 from benchmarks.press import compiled, problem
-from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
+from jointplay.solver.kernels.emit.functions import OVER_LANES, WORK, address_of, over_lanes
+from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 
@@ -24,19 +25,19 @@ REPEATS = 15
 LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 
 
-@njit(void(LANE_FUNCTION, float64[::1], int64))
-def repeat(function: Any, work: Any, count: int) -> None:
+@njit(void(int64, WORK, int64))
+def repeat(address: int, work: Any, count: int) -> None:
     """Call a lane function many times."""
     for _ in range(count):
-        function(work)
+        over_lanes(address)(work)
 
 
 def calls(function: Any, bundle: Bundle, count: int) -> float:
     """Return the seconds of so many calls of a lane function, the best of repeated tenths."""
-    address, seconds = CompiledAddress(function), []
+    address, seconds = address_of(function, OVER_LANES), []
     for _ in range(REPEATS):
         begun = time.thread_time()
-        repeat(address, bundle.work, count // 10)
+        repeat(address, bundle.groups[0].work, count // 10)
         seconds.append(time.thread_time() - begun)
     return 10.0 * min(seconds)
 

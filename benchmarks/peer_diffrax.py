@@ -152,11 +152,11 @@ def measure_diffrax(
         return None
     jax.config.update("jax_enable_x64", True)
     bundle = Bundle(kernel, problems, watch=False)
-    count, joints, drivers = len(problems), len(kernel.play), len(kernel.drivers)
-    start = bundle.table("y0", kernel.states).T[:count]
-    floor = bundle.table("impact_floor0", joints).T[:count]
+    count = len(problems)
+    start = bundle.block("y").T[:count]
+    floor = bundle.block("impact_floor").T[:count]
     fixed = np.array([kernel.fixed_values(each.scene) for each in problems])
-    numbers = np.concatenate([fixed, bundle.table("phase0", drivers).T[:count]], axis=1)
+    numbers = np.concatenate([fixed, bundle.block("phase").T[:count]], axis=1)
     run = solver_of(kernel, problems[0].tolerance)
     at_check = np.asarray(run(start, numbers, floor, check_time)[0])  # compiles, too
     begun = time.process_time()

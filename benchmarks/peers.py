@@ -86,34 +86,26 @@ class CompiledEquations:
         self.bundle = Bundle(kernel, [problem(5e-4, 1e-6, REVOLUTION)])
         self.states, self.joints = kernel.states, len(kernel.play)
         self.start = self.bundle.state_of(0).state
-        self._stage = self.bundle.table("stage0", self.states)
-        self._time = self.bundle.table("stage_time")
-        self._mode = self.bundle.table("mode0", self.joints)
-        self._rate = self.bundle.table("impact_rate0", self.joints)
-        self._slope = self.bundle.table("slope0", self.states)
-        self._gaps = [self.bundle.table(f"gap{j}") for j in range(self.joints)]
-        self._rates = [self.bundle.table(f"gap_rate{j}") for j in range(self.joints)]
+        self.lane = self.bundle.lane(0)
         self._evaluate = kernel.module.right_hand_side
         self.evaluations = 0
-        self.floor = self.bundle.table("impact_floor0", self.joints)[:, 0].copy()
+        self.floor = self.lane["impact_floor"].copy()
 
     def slope(self, t: float, y: np.ndarray, mode: np.ndarray, rate: np.ndarray) -> np.ndarray:
         """Return the slopes of coordinates and speeds."""
         self.evaluations += 1
-        self._stage[:, 0], self._time[0, 0] = y, t
-        self._mode[:, 0], self._rate[:, 0] = mode, rate
-        self._evaluate(self.bundle.work)
-        return self._slope[:, 0].copy()
+        lane = self.lane
+        lane["stage"], lane["stage_time"] = y, t
+        lane["mode"], lane["impact_rate"] = mode, rate
+        self._evaluate(lane.work)
+        return lane["slope"].copy()
 
     def gaps(
         self, t: float, y: np.ndarray, mode: np.ndarray, rate: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return the penetration of each joint and its rate."""
         self.slope(t, y, mode, rate)
-        return (
-            np.array([gap[0, 0] for gap in self._gaps]),
-            np.array([rate[0, 0] for rate in self._rates]),
-        )
+        return self.lane["gap"].copy(), self.lane["gap_rate"].copy()
 
 
 Leg = Callable[[float, np.ndarray, float, np.ndarray, np.ndarray], tuple[float, np.ndarray, int]]
@@ -220,7 +212,7 @@ def at_check(kernel: Kernel, tolerance: float) -> np.ndarray:
     bundle = Bundle(kernel, [problem(5e-4, tolerance, CHECK_TIME)], watch=False)
     while bundle.advance(10_000_000):
         pass
-    return bundle.table("y0", kernel.states)[:, 0].copy()
+    return bundle.lane(0)["y"].copy()
 
 
 def errors(found: np.ndarray, reference: np.ndarray) -> tuple[float, float]:

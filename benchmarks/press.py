@@ -17,7 +17,6 @@ from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter
 from jointplay.solver.kinds import admit
 from jointplay.solver.mechanics.tree import spanning_tree
 
@@ -78,7 +77,7 @@ def state_at_check(kernel: Kernel, tolerance: float) -> np.ndarray:
     """Return coordinates and speeds at 0.03 s."""
     bundle = Bundle(kernel, [problem(5e-4, tolerance, CHECK_TIME)])
     bundle.advance(10_000_000)
-    return bundle.table("y0", kernel.states)[:, 0].copy()
+    return bundle.lane(0)["y"].copy()
 
 
 def main() -> None:
@@ -95,11 +94,10 @@ def main() -> None:
         silent = [replace(press, output_step=2.0, samples=0) for press in presses]
         bare = together(kernel, silent, watch=False)
         error = np.abs(state_at_check(kernel, tolerance) - reference)
-        steps = bundle.table("steps")[0, 0] + bundle.counters[Counter.REJECTIONS, 0]
         print(
             f"{tolerance:8.0e} {1e3 * min(alone):11.2f} {1e3 * statistics.median(alone):7.2f}"
             f" {1e3 * min(busy):13.2f} {1e3 * statistics.median(busy):7.2f}"
-            f" {1e3 * statistics.median(bare):7.2f} {steps:8.0f}"
+            f" {1e3 * statistics.median(bare):7.2f} {bundle.lane(0).attempts:8.0f}"
             f" {error[:half].max():11.1e} {error[half:].max():9.1e}"
         )
     long = together(kernel, [problem(c, 1e-6, 20.0) for c in CLEARANCES[::4]])

@@ -13,10 +13,10 @@ from typing import Any
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.failures import ledger_of
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.runs.lane_results import ledger_of
 from jointplay.solver.runs.stiff_method import EXPLICIT, IMPLICIT, TIGHTER
 
 COLUMNS = ((EXPLICIT, 1.0), (IMPLICIT, 1.0), (IMPLICIT, TIGHTER))
@@ -55,7 +55,7 @@ def measured(name: str, parameters: dict[str, Any], method: str, asked: float, s
     while bundle.advance(10_000) and spent < PATIENCE:
         spent = time.process_time() - begun
     spent = time.process_time() - begun
-    if bundle.counters[Counter.STATUS, 0] != Status.DONE:
+    if bundle.lane(0).status != Status.DONE:
         return f"over {spent:4.0f} s {'':7}"
     energy = ledger_of(bundle, 0)
     return f"{1e3 * spent:9.1f} {abs(energy['residual']) / (asked * energy['gross_work']):9.2g}"

@@ -18,13 +18,14 @@ from jointplay.solver.calibration.problem import Calibration, CheckedCase
 from jointplay.solver.calibration.windows import Windows
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.failures import peaks_of
+from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.kernels.loop.start import start_state
-from jointplay.solver.kernels.loop.state import Counter, Status
 from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs.lane_results import peaks_of
 from jointplay.solver.runs.study.fields import geometry_columns, structure_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
@@ -110,9 +111,9 @@ class CaseMeasure:
     ) -> Iterator[_Run]:
         """Yield the runs that came to their end, in the order in which they did."""
         waiting = deque(runs)
-        lanes: list[_Run | None] = [None] * LANES
+        lanes: list[_Run | None] = [None] * BUNDLE
         while waiting or any(lanes):
-            for lane in range(LANES):
+            for lane in range(BUNDLE):
                 if lanes[lane] is None and waiting:
                     begun = lanes[lane] = waiting.popleft()
                     bundle.load(lane, self._problem(bundle.kernel, form, begun.scene))
@@ -121,13 +122,13 @@ class CaseMeasure:
                 if run is None:
                     continue
                 self._read(bundle, lane, run)
-                status = Status(bundle.counters[Counter.STATUS, lane])
-                costly = self._steps(bundle, lane) > self.most_steps
-                if status == Status.RUNNING:
+                at = bundle.lane(lane)
+                costly = at.attempts > self.most_steps
+                if at.running:
                     if not costly:
                         continue
-                    _abandon(bundle, lane)
-                elif status == Status.DONE and not costly:
+                    stop(Status.STEP_LIMIT, at.index, at.run, at.places[0], at.work)
+                elif at.status == Status.DONE and not costly:
                     if self._goes_on(bundle, lane, run):
                         continue
                     yield run
@@ -143,11 +144,6 @@ class CaseMeasure:
             return False
         bundle.extend(lane, self.windows.stops[run.stops], 0, forget=ended)
         return True
-
-    @staticmethod
-    def _steps(bundle: Bundle, lane: int) -> int:
-        """Return the attempts of a lane: its own, whatever the other lanes do."""
-        return int(bundle.table("steps")[0, lane] + bundle.counters[Counter.REJECTIONS, lane])
 
     def _problem(self, kernel: Kernel, form: tuple[int, ...], scene: Scene) -> LaneProblem:
         windows = self.windows
@@ -175,15 +171,9 @@ class CaseMeasure:
 
     def _read(self, bundle: Bundle, lane: int, run: _Run) -> None:
         """Observe the samples that a lane has handed out."""
-        rows = bundle.sample_rows[lane, : bundle.counters[Counter.SAMPLE_ROWS, lane]]
+        rows = bundle.rows(SAMPLES, lane)
         if len(rows) and len(run.columns):
             run.samples.append(bundle.observe(lane, rows, run.columns))
-
-
-def _abandon(bundle: Bundle, lane: int) -> None:
-    """Take a lane out of the running, as the driving loop does at its own limit of steps."""
-    bundle.counters[Counter.STATUS, lane] = Status.STEP_LIMIT
-    bundle.table("active")[0, lane] = bundle.table("accept")[0, lane] = 0.0
 
 
 def _forms(scenes: PointScenes) -> list[tuple[int, ...]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay.solver.calibration.measure import Floats, Measure, Measurement
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.runs.processes import Advance, Call, Processes, processes
 
 
@@ -41,7 +41,7 @@ class _Dealt:
         self.pool, self.count, self.constants = pool, count, (document, every)
 
     def __call__(self, candidates: Floats) -> Floats:
-        parts = min(self.count, -(-len(candidates) // LANES))
+        parts = min(self.count, -(-len(candidates) // BUNDLE))
         shares = np.array_split(candidates, max(parts, 1))
         calls = [Call(_measure, (*self.constants, share)) for share in shares]
         return np.concatenate(self.pool.make(calls))

@@ -14,7 +14,7 @@ from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.advance import advance
-from jointplay.solver.kernels.loop.observation import observe_rows
+from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene

@@ -1,21 +1,27 @@
-"""Where each quantity lives in the flat work array: W[slot * LANES + lane]."""
+"""Names of the rows of a work array, ``work[slot, lane]``, in their order."""
 
 from __future__ import annotations
 
 LANES = 8
-"""Parameter sets that a kernel advances at once: one AVX-512 register of floats."""
+"""Runs that a kernel advances at once: as many as there are floats in a vector register."""
+INSTANTS = 8
+"""Instants of one step that are looked at together, however many lanes there are."""
+BUNDLE = 8
+"""Runs side by side in a bundle, however many lanes there are."""
 
 
 class Layout:
-    """Hands out slots by name, in order."""
+    """Hands out slots by name, in order; single ones, and blocks of consecutive ones."""
 
     def __init__(self) -> None:
         self._slots: dict[str, int] = {}
+        self._blocks: dict[str, slice] = {}
 
     def copy(self) -> Layout:
         """Return a layout that begins with the same slots."""
         copied = Layout()
         copied._slots.update(self._slots)
+        copied._blocks.update(self._blocks)
         return copied
 
     @property
@@ -23,18 +29,40 @@ class Layout:
         """Number of slots."""
         return len(self._slots)
 
-    def add(self, *names: str) -> int:
-        """Give consecutive slots to names that have none; return the first one's."""
-        first = self.size
-        for name in names:
-            if name in self._slots:
-                raise KeyError(f"slot '{name}' is taken")
-            self._slots[name] = self.size
-        return first
+    def add(self, *names: str) -> None:
+        """Give a slot to each name.
 
-    def add_block(self, name: str, count: int) -> int:
-        """Give `count` consecutive slots ``name0, name1, …``; return the first one's number."""
-        return self.add(*(f"{name}{i}" for i in range(count)))
+        Raises
+        ------
+        KeyError
+            A name has one already.
+        """
+        for name in names:
+            if name in self._blocks:
+                raise KeyError(f"slot '{name}' is taken")
+            self._blocks[name] = slice(self.size, self.size + 1)
+            self._slots[name] = self.size
+
+    def add_block(self, name: str, count: int) -> None:
+        """Give consecutive slots to ``name0, name1, …``; `count` may be 0."""
+        if name in self._blocks:
+            raise KeyError(f"block '{name}' is taken")
+        self._blocks[name] = slice(self.size, self.size + count)
+        for i in range(count):
+            if f"{name}{i}" in self._slots:
+                raise KeyError(f"slot '{name}{i}' is taken")
+            self._slots[f"{name}{i}"] = self.size
+
+    def block(self, name: str) -> slice:
+        """Return the slots of a block, or the one of a single name.
+
+        Raises
+        ------
+        KeyError
+            Nothing has that name.
+        """
+        found = self._blocks.get(name)
+        return slice(self._slots[name], self._slots[name] + 1) if found is None else found
 
     def __getitem__(self, name: str) -> int:
         return self._slots[name]

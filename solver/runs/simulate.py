@@ -12,21 +12,15 @@ import numpy as np
 
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.failures import (
-    contacts_of,
-    failure_of,
-    out_of_time,
-    peaks_of,
-    statistics_of,
-)
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Setting, Status
+from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.ideal.run import IdealRun
+from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Floats, Slice, Summary
 from jointplay.solver.runs.stiff_method import (
     IMPLICIT,
@@ -158,8 +152,7 @@ class DynamicRun:
                     continue
                 found = joined(held) if self._goes_on() else withheld(found)
             yield found
-        status = Status(self.bundle.counters[Counter.STATUS, LANE])
-        if status != Status.DONE:
+        if self.bundle.lane(LANE).status != Status.DONE:
             raise failure_of(self.bundle, LANE, self.admission.tolerance)
 
     def _goes_on(self) -> bool:
@@ -222,15 +215,15 @@ class DynamicRun:
     def _runs(self) -> bool:
         if self.survey is not None:
             return self.survey.goes_on
-        return bool(self.bundle.counters[Counter.STATUS, LANE] == Status.RUNNING)
+        return self.bundle.lane(LANE).running
 
     def _slice(self) -> Slice:
-        samples, sample_time = self._observe(self.bundle.sample_rows, Counter.SAMPLE_ROWS)
-        sections, section_time = self._observe(self.bundle.section_rows, Counter.SECTION_ROWS)
+        samples, sample_time = self._observe(SAMPLES)
+        sections, section_time = self._observe(SECTIONS)
         first_sample, first_section = self.samples_done, self.sections_done
         self.samples_done += len(samples)
         self.sections_done += len(sections)
-        reached = self.bundle.time(LANE)
+        reached = self.bundle.lane(LANE).time
         duration = self.admission.job["duration"]
         if self.samples_done == self.admission.samples:
             sample_time[-1:] = reached = duration
@@ -244,13 +237,12 @@ class DynamicRun:
             first_section,
             section_time,
             sections,
-            contacts_of(self.bundle, LANE),
+            self.bundle.impacts(LANE),
         )
 
-    def _observe(self, buffer: Floats, counter: Counter) -> tuple[Floats, Floats]:
-        rows = buffer[LANE, : self.bundle.counters[counter, LANE]]
-        out = self.bundle.observe(LANE, rows, self.columns)
-        return out, rows[:, 0] * self.bundle.settings[Setting.PERIOD, LANE] + rows[:, 1]
+    def _observe(self, kind: int) -> tuple[Floats, Floats]:
+        rows = self.bundle.rows(kind, LANE)
+        return self.bundle.observe(LANE, rows, self.columns), self.bundle.times(LANE, rows)
 
 
 _Run = DynamicRun | IdealRun

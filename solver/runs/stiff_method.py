@@ -17,8 +17,8 @@ import numpy as np
 from jointplay.solver.integrators import AUTO, STIFF
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Setting, Status
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.results import Slice
 
@@ -55,8 +55,8 @@ def reason_for(admission: Admission) -> str:
 
 def attempts_left(bundle: Bundle) -> int:
     """Return how many attempts show more about an explicit run; 0: it is over, fast or slow."""
-    running = bundle.counters[Counter.STATUS, LANE] == Status.RUNNING
-    return ATTEMPTS - _attempts(bundle) if running and _is_early(bundle) else 0
+    lane = bundle.lane(LANE)
+    return ATTEMPTS - lane.attempts if lane.running and _is_early(lane) else 0
 
 
 def tightened(problem: LaneProblem) -> LaneProblem:
@@ -74,20 +74,22 @@ def stiff(bundle: Bundle, problem: LaneProblem, formulation: str) -> str:
     LimitExceeded
         The scene's equations are too long to compile for it.
     """
-    if _attempts(bundle) < ATTEMPTS or not _is_early(bundle):
+    lane = bundle.lane(LANE)
+    if lane.attempts < ATTEMPTS or not _is_early(lane):
         return ""
-    reached = bundle.time(LANE)
+    reached = lane.time
     kernel = ready_kernel(problem.scene, formulation, IMPLICIT)
     bare = replace(tightened(problem), output_step=problem.duration, samples=0, sections=0)
-    trial = Bundle(kernel, [bare], watch=False)
-    while trial.time(LANE) < reached:
-        left = ATTEMPTS // FEWER - _attempts(trial)
-        if left <= 0 or trial.counters[Counter.STATUS, LANE] != Status.RUNNING:
+    bundle = Bundle(kernel, [bare], watch=False)
+    trial = bundle.lane(LANE)
+    while trial.time < reached:
+        left = ATTEMPTS // FEWER - trial.attempts
+        if left <= 0 or not trial.running:
             return ""
-        trial.advance(min(left, PIECE))
+        bundle.advance(min(left, PIECE))
     return (
         f"stiff: to {reached:.3g} s, '{EXPLICIT}' attempts {ATTEMPTS} steps and '{IMPLICIT}'"
-        f" {_attempts(trial)} at {bare.tolerance:.2g}, the tolerance that keeps energy as well"
+        f" {trial.attempts} at {bare.tolerance:.2g}, the tolerance that keeps energy as well"
     )
 
 
@@ -114,10 +116,5 @@ def joined(slices: list[Slice]) -> Slice:
     )
 
 
-def _attempts(bundle: Bundle) -> int:
-    rejections = int(bundle.counters[Counter.REJECTIONS, LANE])
-    return int(bundle.table("steps")[0, LANE]) + rejections
-
-
-def _is_early(bundle: Bundle) -> bool:
-    return bundle.time(LANE) < SHARE * float(bundle.settings[Setting.PERIOD, LANE])
+def _is_early(lane: Lane) -> bool:
+    return lane.time < SHARE * float(lane.run["period"])

@@ -10,9 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle, aligned_zeros
-from jointplay.solver.kernels.loop.state import Counter, Status
 
 Floats = NDArray[np.float64]
 
@@ -26,28 +25,25 @@ class Companion:
     def __init__(self, base: Bundle) -> None:
         self.base, self.kernel = base, base.kernel
         self.states, self.joints = self.kernel.states, len(self.kernel.play)
-        self.work = aligned_zeros(self.kernel.layout.size * LANES)
-        self._lanes = self.work.reshape(-1, LANES)
-        self._lanes[:] = base.work.reshape(-1, LANES)[: len(self._lanes), [0]]
+        self.work = aligned_zeros(self.kernel.layout.size, LANES)
+        self.work[:] = base.groups[0].work[: len(self.work), [0]]
         for name in ("largest_step", "end", "next_due", "pace_at"):
             self._set(name, np.inf)
         self._set("active", 1.0)
 
     def _set(self, name: str, value: float) -> None:
-        self._lanes[self.kernel.layout[name]] = value
+        self.work[self.kernel.layout[name]] = value
 
     def _get(self, name: str) -> float:
-        return float(self._lanes[self.kernel.layout[name], 0])
+        return float(self.work[self.kernel.layout[name], 0])
 
     def _put(self, name: str, values: Floats) -> None:
-        first = self.kernel.layout[f"{name}0"]
-        self._lanes[first : first + len(values)] = values[:, None]
+        self.work[self.kernel.layout.block(name)] = values[:, None]
 
     @property
     def state(self) -> Floats:
         """Coordinates and speeds."""
-        first = self.kernel.layout["y0"]
-        return self._lanes[first : first + self.states, 0].copy()
+        return self.work[self.kernel.layout.block("y"), 0].copy()
 
     @property
     def impact_rates(self) -> Floats:
@@ -56,36 +52,33 @@ class Companion:
 
     def is_like_base(self) -> bool:
         """Whether the same joints are in contact."""
-        modes = self.base.table("mode0", self.joints)[:, 0] if self.joints else []
+        modes = self.base.lane(0)["mode"]
         return all(self._get(f"mode{j}") == mode for j, mode in enumerate(modes))
 
     def start(self, away: Floats, rates_away: Floats) -> None:
         """Stand beside the base: `away` in its state, `rates_away` in its latched rates."""
-        table = self.base.table
-        self._set("time", table("time")[0, 0])
-        state = table("y0", self.states)[:, 0] + away
+        base = self.base.lane(0)
+        self._set("time", base.number("time"))
+        state = base["y"] + away
         self._put("y", state)
         self._put("stage", state)
-        self._set("stage_time", table("time")[0, 0])
-        if self.joints:
-            self._put("mode", table("mode0", self.joints)[:, 0])
-            self._put("impact_rate", table("impact_rate0", self.joints)[:, 0] + rates_away)
+        self._set("stage_time", base.number("time"))
+        self._put("mode", base["mode"])
+        self._put("impact_rate", base["impact_rate"] + rates_away)
         self.kernel.module.right_hand_side(self.work)
-        first = self.kernel.layout["slope0"]
-        self._put("k1_", self._lanes[first : first + self.states, 0].copy())
+        self._put("k1_", self.work[self.kernel.layout.block("slope"), 0].copy())
 
     def follow(self) -> bool:
         """Let the base attempt a step, and take it, too; whether it took one."""
         base = self.base
-        before, steps = base.table("time")[0, 0], base.table("steps")[0, 0]
-        phases = [base.table(f"phase{k}")[0, 0] for k in range(len(self.kernel.drivers))]
+        before, steps = base.lane(0).number("time"), base.lane(0).number("steps")
+        phases = base.lane(0)["phase"].copy()
         base.advance(1)
-        if base.table("steps")[0, 0] == steps:
+        if base.lane(0).number("steps") == steps:
             return False
         self._set("time", before)
-        for k, phase in enumerate(phases):
-            self._set(f"phase{k}", phase)
-        left = float(base.table("before_step")[0, 0])
+        self._put("phase", phases)
+        left = float(base.lane(0).number("before_step"))
         while left > 0.0:
             left -= self._part(left)
         return True
@@ -141,26 +134,25 @@ def companion_growth(base: Bundle, distance: float, most: float) -> list[tuple[f
     along its own direction when it is `most` times farther away.
     """
     companion = Companion(base)
-    table, states, joints = base.table, companion.states, companion.joints
-    weights = table("weight0", states)[:, 0].copy()
+    lane = base.lane(0)
+    weights = lane["weight"].copy()
 
     def beside_tangent() -> None:
-        rates = table("tangent_impact_rate0", joints)[:, 0] if joints else np.zeros(0)
-        companion.start(distance * table("tangent0", states)[:, 0], distance * rates)
+        companion.start(distance * lane["tangent"], distance * lane["tangent_impact_rate"])
 
     beside_tangent()
     grown, found = 0.0, []
-    while base.counters[Counter.STATUS, 0] == Status.RUNNING:
+    while lane.running:
         if not companion.follow():
             continue
-        away = companion.state - table("y0", states)[:, 0]
+        away = companion.state - lane["y"]
         length = float(np.linalg.norm(away * weights)) / distance
-        if base.counters[Counter.GROWTH_ROWS, 0]:
-            found.append((float(base.growth_rows[0, 0, 0]), grown + np.log(length)))
+        if len(base.growth(0)):
+            found.append((float(base.growth(0)[0, 0]), grown + np.log(length)))
             grown = 0.0
             beside_tangent()
         elif not 1.0 / most < length < most and companion.is_like_base():
             grown += np.log(length)
-            rates = table("impact_rate0", joints)[:, 0].copy() if joints else np.zeros(0)
+            rates = lane["impact_rate"].copy()
             companion.start(away / length, (companion.impact_rates - rates) / length)
     return found

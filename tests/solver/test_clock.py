@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.loop.clock import product_difference
+from jointplay.solver.kernels.loop.periods import product_difference
 from tests.solver.completed_runs import run
 
 times = st.floats(1e-9, 1e9)

@@ -15,7 +15,7 @@ from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import IMPACT, SAMPLES, SECTIONS, Status
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.kinds.simulate import sample_count
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -52,6 +52,7 @@ PROBLEMS = [
         )
     )
 ]
+RECORDS = ("highest", "lowest", "highest_time", "lowest_time")
 """Eight runs of the press that end at different times, at different tolerances and speeds."""
 
 
@@ -62,7 +63,7 @@ def bundle_of(problems: list[LaneProblem]) -> Bundle:
 
 def finish(bundle: Bundle, budgets: Iterable[int]) -> list[dict[str, bytes]]:
     """Advance until all lanes are done; return, per lane, the bytes of all that it gave."""
-    lanes = [int(i) for i in np.flatnonzero(bundle.counters[Counter.STATUS] != Status.IDLE)]
+    lanes = [int(i) for i in np.flatnonzero(bundle.runs["status"] != Status.IDLE)]
     handed_out: list[dict[str, list[bytes]]] = [
         {"samples": [], "sections": [], "impacts": []} for _ in lanes
     ]
@@ -72,32 +73,17 @@ def finish(bundle: Bundle, budgets: Iterable[int]) -> list[dict[str, bytes]]:
             break
         running = bundle.advance(budget) > 0
         for lane in lanes:
-            for kind, rows, counter in (
-                ("samples", bundle.sample_rows, Counter.SAMPLE_ROWS),
-                ("sections", bundle.section_rows, Counter.SECTION_ROWS),
-                ("impacts", bundle.impact_rows, Counter.IMPACT_ROWS),
-            ):
-                count = bundle.counters[counter, lane]
-                handed_out[lane][kind].append(rows[lane, :count].tobytes())
-    count, rows = bundle.kernel.states, bundle.kernel.rows.scanned
+            handed_out[lane]["samples"].append(bundle.rows(SAMPLES, lane).tobytes())
+            handed_out[lane]["sections"].append(bundle.rows(SECTIONS, lane).tobytes())
+            handed_out[lane]["impacts"].append(bundle.impacts(lane).tobytes())
     found = []
     for lane in lanes:
-        assert bundle.counters[Counter.STATUS, lane] == Status.DONE
+        assert bundle.runs["status"][lane] == Status.DONE
         kept = {name: b"".join(parts) for name, parts in handed_out[lane].items()}
-        for name, size in (
-            ("time", 1),
-            ("steps", 1),
-            ("smallest_step", 1),
-            ("y0", count),
-            ("total0", 3 + len(bundle.kernel.play)),
-            ("highest0", rows),
-            ("lowest0", rows),
-            ("highest_time0", rows),
-            ("lowest_time0", rows),
-        ):
-            kept[name] = bundle.table(name, size)[:, lane].tobytes()
-        for counter in (Counter.PERIOD, Counter.SAMPLE, Counter.REJECTIONS, Counter.ONSETS):
-            kept[counter.name] = bundle.counters[counter, lane].tobytes()
+        for name in ("time", "steps", "smallest_step", "y", "total", *RECORDS):
+            kept[name] = bundle.lane(lane)[name].tobytes()
+        for name in ("periods", "next", "rejections", "onsets"):
+            kept[name] = bundle.runs[name][lane].tobytes()
         found.append(kept)
     return found
 
@@ -109,10 +95,10 @@ def alone() -> list[dict[str, bytes]]:
 
 
 def test_the_eight_runs_are_different_and_worth_comparing(alone: list[dict[str, bytes]]) -> None:
-    assert len({kept["y0"] for kept in alone}) == 8
+    assert len({kept["y"] for kept in alone}) == 8
     for kept in alone:
-        assert np.frombuffer(kept["ONSETS"], dtype=np.int64)[0] >= 3
-        assert len(kept["impacts"]) >= 2 * 6 * 8
+        assert np.frombuffer(kept["onsets"], dtype=np.int64)[0] >= 3
+        assert len(kept["impacts"]) >= 2 * IMPACT.itemsize
         assert len(kept["samples"]) > 38 * 8
 
 
@@ -257,19 +243,17 @@ def test_a_lane_loaded_while_others_run_gives_the_bits_of_a_run_of_its_own(
     """Sweeps refill lanes: the newcomer starts in the midst of its companions' steps."""
     bundle = bundle_of([PROBLEMS[0], PROBLEMS[1]])
     bundle.advance(700)
-    bundle.counters[Counter.STATUS, 1] = Status.IDLE
+    bundle.runs["status"][1] = Status.IDLE
     bundle.load(1, PROBLEMS[5])
     bundle.load(4, PROBLEMS[3])
     while bundle.advance(900):
         pass
     for lane, problem in ((1, 5), (4, 3), (0, 0)):
-        states = bundle.kernel.states
-        assert bundle.table("y0", states)[:, lane].tobytes() == alone[problem]["y0"]
-        rows = bundle.kernel.rows.scanned
-        for name in ("highest0", "lowest0", "highest_time0", "lowest_time0"):
-            assert bundle.table(name, rows)[:, lane].tobytes() == alone[problem][name]
-        assert bundle.table("steps")[0, lane].tobytes() == alone[problem]["steps"]
-        assert bundle.counters[Counter.ONSETS, lane].tobytes() == alone[problem]["ONSETS"]
+        assert bundle.lane(lane)["y"].tobytes() == alone[problem]["y"]
+        for name in RECORDS:
+            assert bundle.lane(lane)[name].tobytes() == alone[problem][name]
+        assert bundle.lane(lane)["steps"].tobytes() == alone[problem]["steps"]
+        assert bundle.runs["onsets"][lane].tobytes() == alone[problem]["onsets"]
 
 
 def test_a_lane_used_before_keeps_no_marks_of_rows_that_are_not_there() -> None:
@@ -279,14 +263,14 @@ def test_a_lane_used_before_keeps_no_marks_of_rows_that_are_not_there() -> None:
     rows = bundle.kernel.rows.scanned
     assert rows % 8
     problem = LaneProblem(scene, 1.0, 1e-6, 1.0, 2, 0, 0.0)
-    bundle.table("marked0", -(-rows // 64)).view(np.uint8)[:] = 0xFF
+    bundle.groups[0].work[bundle.kernel.layout.block("marked")].view(np.uint8)[:] = 0xFF
     bundle.load(0, problem)
     alone = bundle_of([problem])
     for each in (bundle, alone):
         while each.advance(1000):
             pass
-    for name in ("highest0", "lowest0", "highest_time0", "lowest_time0"):
-        found, expected = (each.table(name, rows)[:, 0] for each in (bundle, alone))
+    for name in RECORDS:
+        found, expected = (each.lane(0)[name] for each in (bundle, alone))
         assert found.tobytes() == expected.tobytes(), name
 
 

@@ -15,7 +15,7 @@ import pytest
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import LOSSES, Kernel, compile_kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
@@ -57,25 +57,27 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         else:
             q = [instant.position[name] for name in kernel.coordinates]
             v = [instant.speed[name] for name in kernel.coordinates]
-        bundle.table("stage0", 2 * count)[:, lane] = [*q, *v]
-        bundle.table("stage_time")[0, lane] = 0.25
+        at = bundle.lane(lane)
+        at["stage"], at["stage_time"] = np.array([*q, *v]), 0.25
         for k, name in enumerate(kernel.drivers):
             moved = instant.scene.drivers[name].speed * 0.25
-            bundle.table(f"phase{k}")[0, lane] = instant.driven[name] - moved
+            at["phase"][k] = instant.driven[name] - moved
         for j, name in enumerate(kernel.play):
-            bundle.table(f"mode{j}")[0, lane] = instant.mode[name]
-            bundle.table(f"impact_rate{j}")[0, lane] = instant.impact_rate[name]
-    kernel.module.right_hand_side(bundle.work)
-    kernel.module.observe(bundle.work)
-    kernel.module.observe_rest(bundle.work)
+            at["mode"][j] = instant.mode[name]
+            at["impact_rate"][j] = instant.impact_rate[name]
+    for group in bundle.groups:
+        kernel.module.right_hand_side(group.work)
+        kernel.module.observe(group.work)
+        kernel.module.observe_rest(group.work)
     names = kernel.rows.names
     found = []
     for lane in range(len(instants)):
-        values = dict(zip(names, bundle.table("channel0", len(names))[:, lane], strict=True))
-        values |= {f"a{i}": bundle.table(f"slope{count + i}")[0, lane] for i in range(count)}
-        values |= {f"v{i}": bundle.table(f"slope{i}")[0, lane] for i in range(count)}
+        at = bundle.lane(lane)
+        values = dict(zip(names, at["channel"], strict=True))
+        values |= {f"a{i}": at["slope"][count + i] for i in range(count)}
+        values |= {f"v{i}": at["slope"][i] for i in range(count)}
         ledger = LOSSES + len(kernel.drivers) + len(kernel.play)
-        values |= {f"ledger{i}": bundle.table(f"ledger{i}")[0, lane] for i in range(ledger)}
+        values |= {f"ledger{i}": at["ledger"][i] for i in range(ledger)}
         values.pop("stored")
         found.append(values)
     return found
@@ -112,7 +114,7 @@ def test_kernels_of_the_press_equal_the_readable_reference(formulation: str) -> 
                 "speed": (-1.0) ** lane * 3.0,
             },
         )
-        for lane in range(LANES)
+        for lane in range(BUNDLE)
     ]
     kernel = kernel_of(scenes[0], formulation)
     for _ in range(4):
@@ -181,7 +183,7 @@ CACHE_STATISTICS = """
 import json
 from jointplay.solver.kinds import admit
 from jointplay.solver.kernels.loop.advance import advance
-from jointplay.solver.kernels.loop.observation import observe_rows
+from jointplay.solver.kernels.loop.dense_rows import observe_rows
 from jointplay.solver.runs.simulate import Simulation
 
 simulation = Simulation(admit({"kind": "simulate", "scene": {"preset": "bouncing-journal"},

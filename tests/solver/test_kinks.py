@@ -7,7 +7,8 @@ import pytest
 
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
-from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record import kinks
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import Recorder
@@ -40,17 +41,16 @@ def slopes_over_steps(
         ]
     )
     module = load(source)
-    work = np.zeros(layout.size * LANES)
-    lanes = work.reshape(-1, LANES)
-    lanes[layout["along"]] = lanes[layout["normal_force"]] = 1.0
+    work = np.zeros((layout.size, LANES))
+    work[layout["along"]] = work[layout["normal_force"]] = 1.0
     for end in range(2):
-        lanes[layout["slip"], : len(steps)] = [step[end] for step in steps]
+        work[layout["slip"], : len(steps)] = [step[end] for step in steps]
         start, memory = layout["kink_start0"], layout["kink_end0"]
         module.kinks(work)
         if end == 0:
-            lanes[start : start + kinks.MEMORY] = lanes[memory : memory + kinks.MEMORY]
+            work[start : start + kinks.MEMORY] = work[memory : memory + kinks.MEMORY]
     module.follow(work)
-    return [float(x) for x in lanes[layout["slope"], : len(steps)]]
+    return [float(x) for x in work[layout["slope"], : len(steps)]]
 
 
 def test_a_step_that_passes_no_kink_has_the_slope_where_it_is() -> None:

@@ -11,10 +11,11 @@ from numba import njit
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.judging import RELEASE
 from jointplay.solver.kernels.emit.kernel import compile_kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.emit.places import DTYPE
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.bundle import aligned_zeros
 from jointplay.solver.kernels.loop.openings import dip, falling_root
-from jointplay.solver.kernels.slots import Slot
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 
@@ -49,23 +50,23 @@ def test_a_straight_line_is_met_at_once(start: float, speed: float) -> None:
 @njit
 def gaps_of_a_parabola(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
     """Gaps below zero in the second half of a step, but not at its end."""
-    for i in range(LANES):
-        share = spare[i]
-        spare[LANES + i] = (share - 0.6) * (share - 0.9)
+    for i in range(INSTANTS):
+        share = spare[0, i]
+        spare[1, i] = (share - 0.6) * (share - 0.9)
 
 
 @njit
 def no_gaps(work: np.ndarray, spare: np.ndarray, lane: int) -> None:
-    for i in range(LANES):
-        spare[LANES + i] = 1.0
+    for i in range(INSTANTS):
+        spare[1, i] = 1.0
 
 
 def test_a_gap_that_opens_and_closes_inside_a_step_is_found() -> None:
-    slots = np.zeros(len(Slot), dtype=np.int64)
-    slots[Slot.THETA], slots[Slot.GAP] = 0, 1
-    work, spare = np.zeros(2 * LANES), np.zeros(2 * LANES)
-    assert dip(0, 3, slots, work, spare, gaps_of_a_parabola) == 5.0 / 8.0
-    assert dip(0, 3, slots, work, spare, no_gaps) == 1.0
+    places = np.zeros(1, DTYPE)
+    places["theta"], places["gap"] = 0, 1
+    work, spare = np.zeros((2, LANES)), np.zeros((2, INSTANTS))
+    assert dip(0, 3, places[0], work, spare, gaps_of_a_parabola) == 5.0 / 8.0
+    assert dip(0, 3, places[0], work, spare, no_gaps) == 1.0
 
 
 @pytest.mark.parametrize(
@@ -83,12 +84,11 @@ def test_a_step_in_contact_asks_for_a_look_where_its_gap_may_have_opened(
 ) -> None:
     scene = preset("bouncing-journal")
     kernel = compile_kernel(scene, spanning_tree(scene), "reduced", METHODS["tsitouras"])
-    work = aligned_zeros(kernel.layout.size * LANES)
-    lanes = work.reshape(-1, LANES)
+    work = aligned_zeros(kernel.layout.size, LANES)
     for name, value in {
         "active": 1.0, "tried": 1e-5, "step": 1e-5, "fastest": 1.0, "full": 1.0, "mode0": 1.0,
         "next_due": 1.0, "pace_at": 1e9, "gap_start0": start, "gap_rate_start0": start_rate,
         "gap0": end, "gap_rate0": end_rate,
     }.items():  # fmt: skip
-        lanes[kernel.layout[name]] = value
+        work[kernel.layout[name]] = value
     assert kernel.module.judge(work) == (RELEASE if opens else 0.0)

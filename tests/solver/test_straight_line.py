@@ -19,7 +19,8 @@ from jointplay.solver.kernels.emit.straight_line import (
     over_one_row,
     over_rows,
 )
-from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.recorder import Recorder
 
 SLOTS = 24
@@ -69,7 +70,7 @@ def test_every_operation_does_in_each_lane_what_it_does_to_floats(
         operands = np.floor(operands)
     work = np.zeros((SLOTS, LANES))
     work[:3] = operands
-    RUNS[operation](work.reshape(-1))
+    RUNS[operation](work)
     expected = [FOLD[operation](*map(float, operands[:count, lane])) for lane in range(LANES)]
     assert work[9].tolist() == expected
 
@@ -78,7 +79,7 @@ def test_a_select_between_what_is_compared_takes_the_second_where_there_is_no_nu
     run = compiled("v0 = load 0\nv1 = load 1\nv2 = sub v0 v1\nv3 = select v2 v0 v1\nstore 2 v3")
     work = np.zeros((SLOTS, LANES))
     work[0, :4], work[1, :4] = [1.0, 3.0, math.nan, math.inf], [2.0, 2.0, 5.0, math.inf]
-    run(work.reshape(-1))
+    run(work)
     assert work[2, :4].tolist() == [2.0, 3.0, 5.0, math.inf]
 
 
@@ -87,7 +88,7 @@ def test_the_largest_lane_is_returned() -> None:
     for lane in range(LANES):
         work = -np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
         work[1, lane] = 7.0
-        assert run(work.reshape(-1)) == 7.0
+        assert run(work) == 7.0
 
 
 def test_one_lane_is_seen_from_all() -> None:
@@ -105,7 +106,7 @@ store 7 v3
     work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
     spare = 1000.0 * np.ones((SLOTS, LANES))
     for lane in range(LANES):
-        run(work.reshape(-1), spare.reshape(-1), lane)
+        run(work, spare, lane)
         assert spare[5].tolist() == [work[1, lane]] * LANES
         assert spare[6].tolist() == [1000.0 + work[2, lane]] * 4 + [1000.0 + work[3, lane]] * 4
         assert spare[7].tolist() == list(range(LANES))
@@ -115,7 +116,7 @@ store 7 v3
 def test_rows_mark_the_lanes_that_are_positive(numbers: list[float]) -> None:
     work = np.zeros((SLOTS, LANES))
     work[8:13] = np.array(numbers).reshape(5, LANES)
-    found = ROWS(work.reshape(-1))
+    found = ROWS(work)
     marked = work[1].view(np.uint8)[:5]
     for row in range(5):
         assert marked[row] == sum(1 << lane for lane in range(LANES) if work[8 + row, lane] > 0.0)
@@ -135,7 +136,7 @@ def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
     run = compiled("\n".join(tape.lines))
     work = np.zeros((SLOTS, LANES))
     work[0], work[1] = 2.0, 5.0
-    run(work.reshape(-1))
+    run(work)
     assert work[:3, 0].tolist() == [5.0, 2.0, 7.0]
 
 
@@ -144,5 +145,5 @@ def test_a_tape_for_one_row_moves_its_slots() -> None:
     moved = njit(lambda work, row: run(work, row))
     work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
     expected = work[2] + work[7]
-    moved(work.reshape(-1), 3)
+    moved(work, 3)
     assert work[11].tolist() == expected.tolist()

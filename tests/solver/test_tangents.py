@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle, LaneProblem
-from jointplay.solver.kernels.loop.state import Counter
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
@@ -43,7 +43,7 @@ def bundle_of(problems: list[LaneProblem], *, carried: bool = True) -> Bundle:
 
 def growth(bundle: Bundle, lane: int = 0) -> Floats:
     """Return the growth rows that a lane has handed out in the last call."""
-    return bundle.growth_rows[lane, : bundle.counters[Counter.GROWTH_ROWS, lane]].copy()
+    return bundle.growth(lane)
 
 
 def grown(scene: Scene, duration: float, tolerance: float) -> Floats:
@@ -77,7 +77,7 @@ def test_growth_does_not_depend_on_company_slices_or_who_had_the_lane_before() -
     used = bundle_of([PROBLEMS[5], PROBLEMS[6]])
     while used.advance(100) == 2:
         pass
-    free = int(np.argmin(used.table("active")[0, :2]))
+    free = int(np.argmin(used.block("active")[0, :2]))
     used.load(free, chosen[1])
     assert all_growth(used, free, 50) == alone[1]
 
@@ -104,9 +104,9 @@ AGREEMENT = 5e-6
 def contact_of(bundle: Bundle) -> bool:
     """Whether a joint of lane 0 has closed by half a micrometre and goes on closing."""
     return any(
-        bundle.table(f"mode{j}")[0, 0] > 0.0
-        and bundle.table(f"gap{j}")[0, 0] > 5e-7
-        and bundle.table(f"gap_rate{j}")[0, 0] > 0.0
+        bundle.lane(0).number(f"mode{j}") > 0.0
+        and bundle.lane(0).number(f"gap{j}") > 5e-7
+        and bundle.lane(0).number(f"gap_rate{j}") > 0.0
         for j in range(len(bundle.kernel.play))
     )
 
@@ -125,48 +125,50 @@ def test_a_tangent_is_the_difference_of_neighbours_that_take_the_same_steps(
     name: str, parameters: dict[str, float], contact: bool, longest: float
 ) -> None:
     base = bundle_of([problem(preset(name, **parameters), 1.0, 1e-8)])
-    while not contact_of(base) if contact else base.time(0) < 3e-3:
+    while not contact_of(base) if contact else base.lane(0).time < 3e-3:
         base.advance(1)
     kernel, states, joints = base.kernel, base.kernel.states, len(base.kernel.play)
     random = np.random.default_rng(5)
-    # eight directions, one a lane; lengths and rates by the scene's scales
-    scales = 1e-8 / base.table("weight0", states)[:, :1] / 1e-8
+    # one direction a lane; lengths and rates by the scene's scales
+    scales = 1e-8 / base.lane(0)["weight"][:, None] / 1e-8
     directions = random.uniform(-1.0, 1.0, (states, LANES)) * scales
     directions /= np.linalg.norm(directions / scales, axis=0)
     rates = random.uniform(-1e-10, 1e-10, (joints, LANES))
 
     def displaced(by: float) -> Bundle:
         bundle = bundle_of([base_problem] * LANES)
-        bundle.work.reshape(-1, LANES)[:] = base.work.reshape(-1, LANES)[:, :1]
-        for limit in ("largest_step", "end"):
-            bundle.table(limit)[:] = math.inf
-        bundle.table("y0", states)[:] += by * directions
-        if joints:
-            bundle.table("impact_rate0", joints)[:] += by * rates
-        bundle.table("stage0", states)[:] = bundle.table("y0", states)
-        bundle.table("stage_time")[:] = bundle.table("time")
-        kernel.module.right_hand_side(bundle.work)
-        bundle.table("k1_0", states)[:] = bundle.table("slope0", states)
+        work = bundle.groups[0].work
+        work[:] = base.groups[0].work[:, :1]
+        for lane in map(bundle.lane, range(LANES)):
+            lane["largest_step"] = lane["end"] = math.inf
+            lane["y"] += by * directions[:, lane.index]
+            lane["impact_rate"] += by * rates[:, lane.index]
+            lane["stage"], lane["stage_time"] = lane["y"], lane["time"]
+        kernel.module.right_hand_side(work)
+        for lane in map(bundle.lane, range(LANES)):
+            lane["k1_"] = lane["slope"]
         return bundle
 
     base_problem = problem(preset(name, **parameters), 1.0, 1e-8)
     middle, ahead, behind = displaced(0.0), displaced(NEAR / 1e-8), displaced(-NEAR / 1e-8)
     tangents = middle.tangents
     assert tangents is not None
-    middle.table("tangent0", states)[:] = directions
-    if joints:
-        middle.table("tangent_impact_rate0", joints)[:] = rates
+    for lane in map(middle.lane, range(LANES)):
+        lane["tangent"], lane["tangent_impact_rate"] = (
+            each[:, lane.index] for each in (directions, rates)
+        )
     for _ in range(STEPS):
         for bundle in (middle, ahead, behind):
-            bundle.table("step")[:] = longest
-            kernel.module.attempt(bundle.work)
-            bundle.table("accept")[:] = 1.0
-        tangents.module.tangent_step(middle.work)
+            work, at = bundle.groups[0].work, kernel.layout
+            work[at["step"]] = longest
+            kernel.module.attempt(work)
+            work[at["accept"]] = 1.0
+        tangents.module.tangent_step(middle.groups[0].work)
         for bundle in (middle, ahead, behind):
-            kernel.module.take(bundle.work)
-    difference = ahead.table("y0", states) - behind.table("y0", states)
+            kernel.module.take(bundle.groups[0].work)
+    difference = (ahead.block("y") - behind.block("y"))[:, :LANES]
     expected = difference / (2.0 * NEAR / 1e-8)
-    carried = middle.table("tangent0", states)
+    carried = middle.block("tangent")[:, :LANES]
     error = np.abs((carried - expected) / scales).max(axis=0)
     assert (error < AGREEMENT * np.abs(carried / scales).max(axis=0)).all()
     assert (np.abs((carried - directions) / scales).max(axis=0) > 100.0 * AGREEMENT).all()
@@ -183,10 +185,10 @@ def test_speed_after_bounces_is_proportional_to_the_speed_before() -> None:
     bundle = bundle_of([problem(scene, 0.2, 1e-11)])
     begin = np.zeros(bundle.kernel.states)
     begin[4] = 1.0
-    bundle.table("tangent0", 6)[:, 0] = begin
-    while bundle.counters[Counter.ONSETS, 0] < 4 or bundle.table("mode0")[0, 0] > 0.0:
+    bundle.lane(0)["tangent"] = begin
+    while bundle.runs["onsets"][0] < 4 or bundle.lane(0).number("mode0") > 0.0:
         assert bundle.advance(1)
-    speed, along = bundle.table("y4")[0, 0], bundle.table("tangent4")[0, 0]
+    speed, along = bundle.lane(0).number("y4"), bundle.lane(0).number("tangent4")
     assert 0.1 < speed / -0.1 < 0.9
     # during an impact the tangent is mostly a shift in time by t dv / v, here 100 times dv, and
     # this is what its steps, about 130 a bounce, are accurate to
@@ -199,9 +201,9 @@ def test_a_floored_impact_rate_does_not_follow_the_tangent() -> None:
     latched = []
     for scene in (slow, fast):
         bundle = bundle_of([problem(scene, 0.2, 1e-8)])
-        while bundle.counters[Counter.ONSETS, 0] < 1:
+        while bundle.runs["onsets"][0] < 1:
             assert bundle.advance(1)
-        latched.append(float(bundle.table("tangent_impact_rate0")[0, 0]))
+        latched.append(float(bundle.lane(0).number("tangent_impact_rate0")))
     assert latched[0] == 0.0
     assert latched[1] != 0.0
 
@@ -231,8 +233,8 @@ def test_where_friction_jumps_nothing_is_said_of_growth() -> None:
 )
 def test_a_tangent_that_is_lost_says_so_ever_after(tangent: float, growth_of_it: float) -> None:
     bundle = bundle_of([problem(preset("bouncing-journal"), 1.0, 1e-6)])
-    bundle.table("tangent0", 6)[1, 0] = tangent
-    bundle.table("tangent0", 6)[[0, 2, 3, 4, 5], 0] = 0.0
+    bundle.lane(0)["tangent"][1] = tangent
+    bundle.lane(0)["tangent"][[0, 2, 3, 4, 5]] = 0.0
     bundle.advance(10**6)
     found = growth(bundle)[:, 1]
     assert len(found) > 3
@@ -242,7 +244,7 @@ def test_a_tangent_that_is_lost_says_so_ever_after(tangent: float, growth_of_it:
 def test_the_length_of_a_tangent_is_told_even_where_its_square_would_overflow() -> None:
     scene = preset("bouncing-journal", gravity_y=0.0)
     bundle = bundle_of([problem(scene, 1.0, 1e-6)])
-    bundle.table("tangent0", 6)[:, 0] *= 1e200
+    bundle.lane(0)["tangent"] *= 1e200
     bundle.advance(10**6)
     assert growth(bundle)[0, 1] == pytest.approx(math.log(1e200), rel=0.05)
 
@@ -272,11 +274,9 @@ def test_a_swinging_pendulum_has_no_exponent() -> None:
 def test_an_impact_oscillator_grows_as_in_a_program_of_its_own() -> None:
     periods, tolerance, near = 8, 1e-10, 1e-8
     bundle = bundle_of([problem(shaken_disc(), periods * PERIOD, tolerance)])
-    start, tangent, weight = (
-        bundle.table(f"{name}0", 6)[:, 0].copy() for name in ("y", "tangent", "weight")
-    )
+    start, tangent, weight = (bundle.lane(0)[name].copy() for name in ("y", "tangent", "weight"))
     bundle.advance(10**8)
-    assert bundle.counters[Counter.ONSETS, 0] > 20
+    assert bundle.runs["onsets"][0] > 20
     centre = [0, 1, 3, 4]
     base, companion = (
         Point(start[centre]),
@@ -300,19 +300,19 @@ def test_both_formulations_have_the_same_exponent() -> None:
     def exponents(formulation: str) -> Floats:
         scene = shaken_disc()
         kernel = compile_kernel(scene, spanning_tree(scene), formulation, TSITOURAS5)
-        lanes = [problem(scene, 1000.0 * PERIOD, 1e-7 * (1.0 + 0.01 * i)) for i in range(LANES)]
+        lanes = [problem(scene, 1000.0 * PERIOD, 1e-7 * (1.0 + 0.01 * i)) for i in range(BUNDLE)]
         bundle = Bundle(kernel, lanes, watch=False, tangents=compile_tangents(kernel))
-        total = np.zeros(LANES)
+        total = np.zeros(BUNDLE)
         while True:
             running = bundle.advance(10**6)
-            for lane in range(LANES):
+            for lane in range(BUNDLE):
                 total[lane] += growth(bundle, lane)[:, 1].sum()
             if not running:
                 return total / (1000.0 * PERIOD)
 
     reduced, lagrange = exponents("reduced"), exponents("lagrange")
     # chaotic runs of their own: equal within the errors of their means
-    error = math.hypot(reduced.std(), lagrange.std()) / math.sqrt(LANES)
+    error = math.hypot(reduced.std(), lagrange.std()) / math.sqrt(BUNDLE)
     assert lagrange.mean() == pytest.approx(reduced.mean(), abs=4.0 * error)
     assert error < 0.03 * reduced.mean()
 
@@ -344,13 +344,13 @@ def test_exponents_hardly_depend_on_the_tolerance() -> None:
     )
 
     def exponents(tolerance: float) -> Floats:
-        lanes = [problem(scene, 64.0, tolerance * (1.0 + 0.01 * lane)) for lane in range(LANES)]
+        lanes = [problem(scene, 64.0, tolerance * (1.0 + 0.01 * lane)) for lane in range(BUNDLE)]
         bundle = bundle_of(lanes)
         rows: list[list[Floats]] = [[] for _ in lanes]
         while bundle.advance(10**6) + 1:
-            for lane in range(LANES):
+            for lane in range(BUNDLE):
                 rows[lane].append(growth(bundle, lane))
-            if not bundle.table("active").any():
+            if not bundle.block("active").any():
                 break
         whole = [np.concatenate(parts)[10:] for parts in rows]
         return np.array([g[1:, 1].sum() / (g[-1, 0] - g[0, 0]) for g in whole])

@@ -23,10 +23,10 @@ from jointplay.solver.kernels.emit.straight_line import over_one_row, over_rows
 
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
 '''
-DECORATOR = "@njit(void(float64[::1]), **options)"
-RETURNING = "@njit(float64(float64[::1]), **options)"
+DECORATOR = "@njit(void(float64[:, ::1]), **options)"
+RETURNING = "@njit(float64(float64[:, ::1]), **options)"
 
-TYPES = {"W": "float64[::1]", "S": "float64[::1]", "lane": "int64", "row": "int64"}
+TYPES = {"W": "float64[:, ::1]", "S": "float64[:, ::1]", "lane": "int64", "row": "int64"}
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""

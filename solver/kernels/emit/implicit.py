@@ -11,7 +11,8 @@ import math
 from jointplay.solver.integrators.rosenbrock import Rosenbrock
 from jointplay.solver.kernels.emit.emit import DECORATOR, FixedNodes, Known, lane_function
 from jointplay.solver.kernels.emit.stepping import SMALLEST_ERROR, StepRecorder
-from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.recorder import Expression
@@ -41,9 +42,8 @@ class RosenbrockRecorder(StepRecorder):
         layout: Layout,
         known: Known,
     ) -> None:
-        states = 2 * len(equations.coordinates)
-        super().__init__(method, states, ledger, len(equations.play), layout, known)
-        self.method, self.equations, self.fixed = method, equations, fixed
+        super().__init__(method, equations, ledger, layout, known)
+        self.method, self.fixed = method, fixed
 
     def _steps(self) -> list[str]:
         stages = range(1, len(self.method.nodes) + 1)
@@ -60,7 +60,7 @@ class RosenbrockRecorder(StepRecorder):
 
     def _product(self) -> str:
         """Write product(W): the derivative of the slopes along the direction."""
-        recorder, count = self.equations.recorder, self.states // 2
+        recorder, count = self.equations.recorder, self.coordinates
         along = {f"stage{i}": recorder.variable(f"direction{i}") for i in range(self.states)}
         derivative = Derivative(along | {"stage_time": recorder.variable("direction_time")})
         outputs = [
@@ -74,47 +74,49 @@ class RosenbrockRecorder(StepRecorder):
 
     def _linear(self) -> str:
         """Write jacobian(W), which leaves the factors of I - h γ J, and solve(W)."""
-        at = {
-            name: self.layout[f"{name}0"] * LANES
+        block = {
+            name: self.layout.block(name).start
             for name in ("direction", "product", "drift", "right", "pivot", "factor")
         }
-        n, time = self.states, self.layout["direction_time"] * LANES
-        tried, row = self.layout["tried"] * LANES, self.states * LANES
+        direction, product, drift = block["direction"], block["product"], block["drift"]
+        right, pivot, factor = block["right"], block["pivot"], block["factor"]
+        n, time, tried = self.states, self.layout["direction_time"], self.layout["tried"]
         return f"""{DECORATOR}
 def jacobian(W):
-    for i in range({n * LANES}):
-        W[{at["direction"]} + i] = 0.0
+    for i in range({n}):
+        for l in range({LANES}):
+            W[{direction} + i, l] = 0.0
     for l in range({LANES}):
-        W[{time} + l] = 1.0
+        W[{time}, l] = 1.0
     product(W)
-    for i in range({n * LANES}):
-        W[{at["drift"]} + i] = W[{at["product"]} + i]
+    for i in range({n}):
+        for l in range({LANES}):
+            W[{drift} + i, l] = W[{product} + i, l]
     for l in range({LANES}):
-        W[{time} + l] = 0.0
+        W[{time}, l] = 0.0
     for j in range({n}):
         for l in range({LANES}):
-            W[{at["direction"]} + j * {LANES} + l] = 1.0
+            W[{direction} + j, l] = 1.0
         product(W)
         for i in range({n}):
             one = 1.0 if i == j else 0.0
             for l in range({LANES}):
-                slope = {self.method.gamma!r} * W[{at["product"]} + i * {LANES} + l]
-                slope *= W[{tried} + l]
-                W[{at["factor"]} + i * {row} + j * {LANES} + l] = one - slope
+                slope = {self.method.gamma!r} * W[{product} + i, l]
+                slope *= W[{tried}, l]
+                W[{factor} + i * {n} + j, l] = one - slope
         for l in range({LANES}):
-            W[{at["direction"]} + j * {LANES} + l] = 0.0
+            W[{direction} + j, l] = 0.0
     for k in range({n}):
-        top = {at["factor"]} + k * {row}
+        top = {factor} + k * {n}
         for l in range({LANES}):
-            W[{at["pivot"]} + k * {LANES} + l] = 1.0 / W[top + k * {LANES} + l]
+            W[{pivot} + k, l] = 1.0 / W[top + k, l]
         for i in range(k + 1, {n}):
-            here = {at["factor"]} + i * {row}
+            here = {factor} + i * {n}
             for l in range({LANES}):
-                W[here + k * {LANES} + l] *= W[{at["pivot"]} + k * {LANES} + l]
+                W[here + k, l] *= W[{pivot} + k, l]
             for j in range(k + 1, {n}):
                 for l in range({LANES}):
-                    above = W[top + j * {LANES} + l]
-                    W[here + j * {LANES} + l] -= W[here + k * {LANES} + l] * above
+                    W[here + j, l] -= W[here + k, l] * W[top + j, l]
 
 
 {DECORATOR}
@@ -122,19 +124,13 @@ def solve(W):
     for i in range({n}):
         for k in range(i):
             for l in range({LANES}):
-                W[{at["right"]} + i * {LANES} + l] -= (
-                    W[{at["factor"]} + i * {row} + k * {LANES} + l]
-                    * W[{at["right"]} + k * {LANES} + l]
-                )
+                W[{right} + i, l] -= W[{factor} + i * {n} + k, l] * W[{right} + k, l]
     for i in range({n} - 1, -1, -1):
         for k in range(i + 1, {n}):
             for l in range({LANES}):
-                W[{at["right"]} + i * {LANES} + l] -= (
-                    W[{at["factor"]} + i * {row} + k * {LANES} + l]
-                    * W[{at["right"]} + k * {LANES} + l]
-                )
+                W[{right} + i, l] -= W[{factor} + i * {n} + k, l] * W[{right} + k, l]
         for l in range({LANES}):
-            W[{at["right"]} + i * {LANES} + l] *= W[{at["pivot"]} + i * {LANES} + l]
+            W[{right} + i, l] *= W[{pivot} + i, l]
 """
 
     def _moved(self, weights: tuple[float, ...], i: int, newest: int = 0) -> Expression:
@@ -193,7 +189,7 @@ def solve(W):
 
     def _inner_slope(self, i: int) -> Expression:
         """Slope of state i at the point just evaluated: of a coordinate, the speed there."""
-        count = self.states // 2
+        count = self.coordinates
         return self.variable(f"stage{count + i}" if i < count else f"slope{i}")
 
     def _kept_ledger(self, s: int) -> list[tuple[str, Expression]]:

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.stepping import before
-from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
 
 QUARTERS = [lane / (LANES // 2) for lane in range(LANES // 2)]

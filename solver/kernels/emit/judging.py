@@ -17,8 +17,8 @@ LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 LANDED = 1e-13
 """Largest penetration, m, at which an onset counts as located."""
 
-REJECTED, DUE, ONSET, RELEASE, PACE = 1.0, 2.0, 4.0, 8.0, 16.0
-"""What a lane's flag is the sum of."""
+REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
+"""Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
 
 
 def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:

@@ -6,10 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-from typing import Any
 
 import numpy as np
-from numba.core.types.function_type import WrapperAddressProtocol
 from numpy.typing import NDArray
 
 from jointplay.solver.integrators import Method
@@ -17,7 +15,9 @@ from jointplay.solver.integrators.rosenbrock import Rosenbrock
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
+from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.lane_functions import FOLD
+from jointplay.solver.kernels.emit.places import DenseRow, places_of
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
     Equations,
@@ -28,7 +28,6 @@ from jointplay.solver.kernels.record.equations import (
 )
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.kernels.record.rows import Rows, arrange
-from jointplay.solver.kernels.slots import slots_of
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
@@ -37,31 +36,15 @@ LOSSES = 2
 """Terms of the ledger before the drivers' works and the joints' impulses."""
 
 
-class CompiledAddress(WrapperAddressProtocol):
-    """A compiled function as kernels take it, its address looked up once, not at every call."""
-
-    def __init__(self, function: Any) -> None:
-        result = next(iter(function.overloads.values()))
-        self._signature = result.signature
-        name = result.fndesc.llvm_cfunc_wrapper_name
-        self._address = int(result.library.get_pointer_to_function(name))
-
-    def __wrapper_address__(self) -> int:
-        return self._address
-
-    def signature(self) -> Any:
-        """Return the function's Numba signature."""
-        return self._signature
-
-
 @dataclass(frozen=True, eq=False)
 class Kernel:
     """Compiled functions over one work array, and what the slots mean."""
 
     module: ModuleType
     layout: Layout
-    slots: NDArray[np.int64]
-    """Indexed by `solver.kernels.slots.Slot`."""
+    row: DenseRow
+    places: NDArray[np.void]
+    """What compiled loops take as `at`; see `solver.kernels.emit.places`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     play: tuple[str, ...]
@@ -74,34 +57,13 @@ class Kernel:
 
     @property
     def states(self) -> int:
-        """Coordinates and speeds."""
-        return 2 * len(self.coordinates)
+        """Number of states; coordinates and speeds come first."""
+        return self.equations.states
 
     @cached_property
-    def functions(self) -> tuple[CompiledAddress, ...]:
-        """The compiled functions, in the order that `kernels.loop.advance` takes them."""
-        m = self.module
-        functions = (
-            m.attempt,
-            m.remember,
-            m.take,
-            m.weigh,
-            m.observe,
-            m.scan,
-            m.scan_some,
-            m.states_within,
-            m.gaps_within,
-            m.channels_within,
-            m.channels_around,
-        )
-        return tuple(CompiledAddress(function) for function in functions)
-
-    @cached_property
-    def observing(self) -> tuple[CompiledAddress, ...]:
-        """Those that `solver.kernels.loop.observation.observe_rows` takes."""
-        m = self.module
-        functions = (m.right_hand_side, m.observe, m.observe_rest)
-        return tuple(CompiledAddress(function) for function in functions)
+    def addresses(self) -> NDArray[np.void]:
+        """The compiled functions, by name; see `solver.kernels.emit.functions`."""
+        return addresses_of(self.module)
 
     def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
@@ -121,7 +83,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     """
     equations = record(scene, tree, formulation)
     layout = Layout()
-    states, joints = 2 * len(equations.coordinates), len(equations.play)
+    states, joints = equations.states, len(equations.play)
     drivers = len(equations.drivers)
     ledger = LOSSES + drivers + joints
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
@@ -132,6 +94,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
+    layout.add_block("driver_start", drivers)
+    layout.add_block("driver_travel", drivers)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
     layout.add_block("phase", drivers)
     layout.add_block("wound", drivers)
@@ -139,7 +103,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     steps = (
         implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout, known)
         if isinstance(tableau, Rosenbrock)
-        else stepping.StepRecorder(tableau, states, ledger, joints, layout, known)
+        else stepping.StepRecorder(tableau, equations, ledger, layout, known)
     )
     observed = [(f"channel{i}", equations.channels[name]) for i, name in enumerate(rows.names)]
     energies = [
@@ -161,18 +125,19 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             inside.source(equations, steps.dense(), scanned, layout, fixed),
         ]
     )
-    module = load(source)
+    row = DenseRow.of(drivers, states, joints)
+    counts = {
+        "states": states,
+        "ledger": ledger,
+        "joints": joints,
+        "drivers": drivers,
+        "rows": rows.scanned,
+    }
     return Kernel(
-        module,
+        load(source),
         layout,
-        slots_of(
-            layout,
-            states=states,
-            ledger=ledger,
-            joints=joints,
-            drivers=drivers,
-            rows=rows.scanned,
-        ),
+        row,
+        places_of(layout, row, counts),
         equations.coordinates,
         equations.drivers,
         equations.play,

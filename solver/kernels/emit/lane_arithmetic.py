@@ -12,7 +12,7 @@ from typing import Any
 from llvmlite import ir
 from numba.core import cgutils
 
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
 
 DOUBLE, WORD = ir.DoubleType(), ir.IntType(64)
 NUMBERS, WORDS = ir.VectorType(DOUBLE, LANES), ir.VectorType(WORD, LANES)

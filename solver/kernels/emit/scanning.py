@@ -8,7 +8,8 @@ Before the second step there is no change before: it is not a number, and no can
 from __future__ import annotations
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.layout import LANES, Layout
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.quantities.scalars import minimum, select_positive
 

@@ -20,6 +20,7 @@ from jointplay.solver.kernels.emit.emit import (
 from jointplay.solver.kernels.emit.judging import DUE, PACE, REJECTED, contact_flags, growth
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.coarse_functions import coarse_log2
+from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
@@ -42,8 +43,8 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add("gross", "potential", "stored", "potential_start", "stored_start")
     layout.add_block("stage", states)
     layout.add_block("weight", states)
-    for j in range(joints):
-        layout.add(f"gap{j}", f"gap_rate{j}", f"gap_start{j}", f"gap_rate_start{j}")
+    for name in ("gap", "gap_rate", "gap_start", "gap_rate_start"):
+        layout.add_block(name, joints)
     layout.add_block("mode", joints)
     layout.add_block("impact_rate", joints)
     layout.add_block("inverse_rate", joints)
@@ -57,20 +58,20 @@ def before(name: str) -> str:
 
 
 class StepRecorder:
-    """Records the functions of one method for a number of states, ledger terms and joints."""
+    """Records the functions of one method for the equations of a scene."""
 
     def __init__(
         self,
         tableau: Method,
-        states: int,
+        equations: Equations,
         ledger: int,
-        joints: int,
         layout: Layout,
         known: Known,
     ) -> None:
         """`known` : what the right-hand side leaves in slots."""
-        self.tableau = tableau
-        self.states, self.ledger, self.joints = states, ledger, joints
+        self.tableau, self.equations = tableau, equations
+        self.states, self.coordinates = equations.states, len(equations.coordinates)
+        self.ledger, self.joints = ledger, len(equations.play)
         self.layout, self.known = layout, known
         self.recorder = Recorder()
         layout.add(*(before(name) for name in self._remembered()))
@@ -126,8 +127,8 @@ class StepRecorder:
                 total = total + a * v(f"k{j}_{i}")
             moved = v(f"y{i}") + step * total
             outputs.append((f"stage{i}", moved))
-            coordinate = i - self.states // 2
-            if coordinate >= 0 and s < self.tableau.stages:
+            coordinate = i - self.coordinates
+            if 0 <= coordinate < self.coordinates and s < self.tableau.stages:
                 outputs.append((f"k{s}_{coordinate}", moved))
         moment = v("time") + self.tableau.nodes[s - 1] * step
         outputs.append(("stage_time", moment))
@@ -204,7 +205,7 @@ class StepRecorder:
         return v("tried") * (v("full") / v("fastest")) * v(f"weight{i}")
 
     def _overflow(self) -> Expression:
-        """Next to nothing, but infinite or not a number where a slope is."""
+        """Almost zero, but infinite or NaN where a slope is."""
         overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
             overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
@@ -231,7 +232,7 @@ class StepRecorder:
             ("smallest_step", select_positive(running, smallest, v("smallest_step"))),
         ]
         fastest = v("fastest")
-        for i in range(self.states // 2, self.states):
+        for i in range(self.coordinates, 2 * self.coordinates):
             fastest = maximum(fastest, abs(v(f"stage{i}")) * v(f"weight{i}"))
         outputs.append(("fastest", minimum(fastest, v("full"))))
         gross = v("gross")

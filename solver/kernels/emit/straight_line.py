@@ -2,7 +2,7 @@
 
 A tape has one statement a line::
 
-    v0 = load 12            slot 12 of W, its eight lanes
+    v0 = load 12            slot 12 of W, all its lanes
     v0 = spread 12          slot 12 of W in one lane, the same in all eight
     v0 = spread 12 45       the same; slot 45 in the upper four
     v0 = given 12           slot 12 of S
@@ -44,7 +44,7 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
     positive,
     same,
 )
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
 
 ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 
 from jointplay.solver.kernels.emit.emit import DECORATOR, lane_function
 from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.kinks import MEMORY
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.quantities.scalars import select_positive
@@ -36,10 +37,11 @@ def allocate(layout: Layout, states: int) -> None:
 
 
 class TangentRecorder:
-    """Records tangent_step(W) and what it calls, for a number of states and kinks."""
+    """Records tangent_step(W) and what it calls, for the equations of a scene."""
 
-    def __init__(self, states: int, kinks: int, layout: Layout) -> None:
-        self.states, self.kinks, self.layout = states, kinks, layout
+    def __init__(self, equations: Equations, kinks: int, layout: Layout) -> None:
+        self.states, self.coordinates = equations.states, len(equations.coordinates)
+        self.kinks, self.layout = kinks, layout
         self.recorder = Recorder()
 
     def source(self) -> str:
@@ -83,7 +85,7 @@ class TangentRecorder:
 
     def _slope(self, i: int) -> Expression:
         """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
-        count = self.states // 2
+        count = self.coordinates
         name = f"carried{count + i}" if i < count else f"carried_slope{i}"
         return self.recorder.variable(name)
 

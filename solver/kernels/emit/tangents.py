@@ -12,7 +12,7 @@ kernel's.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from types import ModuleType
 
 import numpy as np
@@ -21,14 +21,15 @@ from numpy.typing import NDArray
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import tangent_step
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
-from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel, values_of
+from jointplay.solver.kernels.emit.functions import addresses_of
+from jointplay.solver.kernels.emit.kernel import Kernel, values_of
+from jointplay.solver.kernels.emit.places import OF_TANGENTS
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record import kinks
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.kinks import Kinks
 from jointplay.solver.kernels.record.recorder import Expression
-from jointplay.solver.kernels.slots import Slot, slots_of
 from jointplay.solver.scene.document import Scene
 
 
@@ -38,8 +39,10 @@ class Tangents:
 
     Attributes
     ----------
-    slots
-        The kernel's, with those of tangents filled in; indexed by `solver.kernels.slots.Slot`.
+    places
+        The kernel's, with those of tangents filled in.
+    addresses
+        The kernel's functions and those of tangents.
     fixed
         Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`.
     kinks
@@ -48,15 +51,10 @@ class Tangents:
 
     module: ModuleType
     layout: Layout
-    slots: NDArray[np.int64]
+    places: NDArray[np.void]
     fixed: tuple[tuple[int, Expression], ...]
     kinks: int
-
-    @cached_property
-    def functions(self) -> tuple[CompiledAddress, CompiledAddress]:
-        """`tangent_step` and `tangent_gaps`."""
-        m = self.module
-        return CompiledAddress(m.tangent_step), CompiledAddress(m.tangent_gaps)
+    addresses: NDArray[np.void]
 
     def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`."""
@@ -81,29 +79,29 @@ def compile_tangents(kernel: Kernel) -> Tangents:
             HEADER,
             kinks.kink_function(bends, layout, fixed),
             slope_function(equations, bends, layout, fixed),
-            tangent_step.TangentRecorder(kernel.states, len(bends), layout).source(),
+            tangent_step.TangentRecorder(equations, len(bends), layout).source(),
             gap_function(equations, layout, fixed),
         ]
     )
-    slots = kernel.slots.copy()
-    slots[Slot.TANGENT : Slot.TANGENT_GAP + 1] = slots_of(layout)[
-        Slot.TANGENT : Slot.TANGENT_GAP + 1
-    ]
+    places = kernel.places.copy()
+    for name in OF_TANGENTS:
+        places[name] = layout.block(name).start
+    module = load(source)
     return Tangents(
-        load(source),
+        module,
         layout,
-        slots,
+        places,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
         len(bends),
+        addresses_of(kernel.module, module),
     )
 
 
 def allocate(layout: Layout, states: int, joints: int, bends: int) -> None:
     """Give slots to tangents, behind all that the kernel has."""
     layout.add_block("tangent", states)
-    layout.add_block("tangent_impact_rate", joints)
-    for j in range(joints):
-        layout.add(f"tangent_gap{j}", f"tangent_gap_rate{j}", f"gap_acceleration{j}")
+    for name in ("tangent_impact_rate", "tangent_gap", "tangent_gap_rate", "gap_acceleration"):
+        layout.add_block(name, joints)
     kinks.allocate(layout, bends)
     tangent_step.allocate(layout, states)
 
@@ -126,7 +124,7 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
     """
     recorder = equations.recorder
     count = len(equations.coordinates)
-    along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(2 * count)}
+    along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(equations.states)}
     for j in range(len(equations.play)):
         along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
@@ -135,7 +133,9 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
         (f"carried_slope{count + i}", derivative(acceleration))
         for i, acceleration in enumerate(equations.accelerations)
     ]
-    names = {f"stage{i}": f"passing{i}" for i in range(2 * count)} | {"stage_time": "passing_time"}
+    names = {f"stage{i}": f"passing{i}" for i in range(equations.states)} | {
+        "stage_time": "passing_time"
+    }
     return lane_function("carried_slopes", outputs, _Renamed(layout, names), fixed)
 
 
@@ -148,7 +148,7 @@ def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str
     if not equations.gaps:
         return nothing("tangent_gaps")
     recorder = equations.recorder
-    states = 2 * len(equations.coordinates)
+    states = equations.states
     tangent = Derivative({f"stage{i}": recorder.variable(f"tangent{i}") for i in range(states)})
     flow = {f"stage{i}": recorder.variable(f"slope{i}") for i in range(states)}
     motion = Derivative(flow | {"stage_time": recorder.constant(1.0)})

@@ -5,22 +5,31 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.emit.kernel import CompiledAddress, Kernel
+from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import BUNDLE, INSTANTS
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.beginning import begin
-from jointplay.solver.kernels.loop.binding import FIRST_STEP, bind
-from jointplay.solver.kernels.loop.clock import product_difference
-from jointplay.solver.kernels.loop.extreme import SIZE as TABLE_SIZE
-from jointplay.solver.kernels.loop.observation import observe_rows
-from jointplay.solver.kernels.loop.periods import look_ahead, plan
+from jointplay.solver.kernels.loop.binding import FIRST_STEP, bind, number
+from jointplay.solver.kernels.loop.dense_rows import observe_rows
+from jointplay.solver.kernels.loop.lane import Lane
+from jointplay.solver.kernels.loop.periods import look_ahead, plan, product_difference
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.state import Counter, SectionKind, Setting, Status, row_width
+from jointplay.solver.kernels.loop.runs import (
+    DTYPE,
+    NO_JOINT,
+    SAMPLES,
+    SECTIONS,
+    Buffers,
+    SectionKind,
+    Status,
+)
 from jointplay.solver.scene.document import Scene
 
 Floats = NDArray[np.float64]
@@ -28,8 +37,24 @@ Floats = NDArray[np.float64]
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
-STATE = ("work", "settings", "counters", "first_energy")
-"""Arrays of a bundle that the next step, or what is said of the run, depends on."""
+
+
+@dataclass
+class _Group:
+    """Lanes that a kernel advances at once."""
+
+    work: Floats
+    """(slots, LANES)."""
+    runs: NDArray[np.void]
+    """(LANES,)."""
+    buffers: Buffers
+    attempts: int = 0
+    """Attempts at a step that were made, each of all lanes at once."""
+
+    @property
+    def runs_on(self) -> bool:
+        """Whether a lane runs."""
+        return bool(np.any(self.runs["status"] == Status.RUNNING))
 
 
 class Bundle:
@@ -46,59 +71,64 @@ class Bundle:
         """Load the problems.
 
         `watch` says whether extremes of channels are sought. With the kernel's `tangents` every
-        lane carries a tangent vector, and `growth_rows` tells how it grows; nothing else changes.
+        lane carries a tangent vector, and `growth` tells how it grows; nothing else changes.
         """
-        if len(problems) > LANES:
-            raise ValueError(f"a bundle holds {LANES} problems, not {len(problems)}")
+        if len(problems) > BUNDLE:
+            raise ValueError(f"a bundle holds {BUNDLE} problems, not {len(problems)}")
         self.kernel = kernel
         self.watch = watch
-        self.attempts = 0
-        """Attempts at a step that were made, each of all lanes at once."""
         self.tangents = tangents
-        self.layout = kernel.layout if tangents is None else tangents.layout
-        self.slots = kernel.slots if tangents is None else tangents.slots
-        self.work = aligned_zeros(self.layout.size * LANES)
-        self.spare = aligned_zeros(kernel.layout.size * LANES)
-        drivers, joints = len(kernel.drivers), len(kernel.play)
-        self.settings = np.zeros((Setting.FIRST_DRIVER + 2 * drivers, LANES))
-        self.counters = np.zeros((Counter.COUNT, LANES), dtype=np.int64)
-        self.counters[Counter.STATUS] = Status.IDLE
-        self.counters[Counter.LANDING] = -1
-        self.first_energy = np.zeros((len(ENERGIES), LANES))
-        width = row_width(drivers, kernel.states, joints)
-        self.sample_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
-        self.section_rows = np.zeros((LANES, ROWS_AT_ONCE, width))
-        self.impact_rows = np.zeros((LANES, ROWS_AT_ONCE, 6))
-        self.growth_rows = np.zeros((LANES, 0 if tangents is None else ROWS_AT_ONCE, 2))
-        self.table_of_extremes = np.zeros(TABLE_SIZE)
-        for lane, problem in enumerate(problems):
-            self.load(lane, problem)
+        size = (kernel.layout if tangents is None else tangents.layout).size
+        self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
+        self.runs = np.zeros(BUNDLE, DTYPE)
+        self.runs["status"] = Status.IDLE
+        self.runs["landing"] = NO_JOINT
+        self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
+        self.groups = [
+            _Group(
+                aligned_zeros(size, LANES),
+                self.runs[first : first + LANES],
+                Buffers.of(LANES, ROWS_AT_ONCE, kernel.row.width, tangents=tangents is not None),
+            )
+            for first in range(0, BUNDLE, LANES)
+        ]
+        for i, problem in enumerate(problems):
+            self.load(i, problem)
 
-    def load(self, lane: int, problem: LaneProblem, like: int | None = None) -> None:
+    def lane(self, i: int) -> Lane:
+        """Return the lane of a run."""
+        group, index = divmod(i, LANES)
+        return Lane(self.kernel, self.tangents, self.groups[group].work, index, self.runs[i])
+
+    def block(self, name: str) -> Floats:
+        """Return a copy of a block of all lanes, (slots, BUNDLE)."""
+        return np.stack([self.lane(i)[name] for i in range(BUNDLE)], axis=1)
+
+    def load(self, i: int, problem: LaneProblem, like: int | None = None) -> None:
         """Give a lane that does not run a problem to compute; the other lanes do not notice.
 
         `like` is a lane that has the problem's scene already, which saves looking at it again.
 
         Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
-        bind(self, lane, problem, like)
-        fresh = self.counters[Counter.STATUS] == Status.IDLE
-        fresh[lane] = False
-        self.work.reshape(-1, LANES)[:, fresh] = self.work.reshape(-1, LANES)[:, [lane]]
-        self.table("active")[0, fresh] = 0.0
-        begin(self, lane, problem)
-        self._run(lane)
-        self.first_energy[:, lane] = self.energy(lane)
+        lane = self.lane(i)
+        bind(lane, problem, None if like is None else self.lane(like))
+        fresh = self.groups[i // LANES].runs["status"] == Status.IDLE
+        fresh[lane.index] = False
+        lane.work[:, fresh] = lane.work[:, [lane.index]]
+        lane.work[self.kernel.layout["active"], fresh] = 0.0
+        begin(lane, problem)
+        self._set_going(lane)
+        self.first_energy[:, i] = self.energy(i)
 
-    def number_like(self, other: Bundle, lane: int, scene: Scene) -> None:
+    def number_like(self, other: Bundle, i: int, scene: Scene) -> None:
         """Give the first lane the numbers of a scene that a lane of another bundle has already."""
-        work = self.work.reshape(-1, LANES)
-        work[: self.kernel.layout.size, 0] = other.work.reshape(-1, LANES)[:, lane]
+        size, source, first = self.kernel.layout.size, other.lane(i), self.lane(0)
+        first.work[:size, 0] = source.work[:size, source.index]
         if self.tangents is not None:
-            slots = [slot for slot, _ in self.tangents.fixed]
-            work[slots, 0] = self.tangents.fixed_values(scene)
+            number(first, self.tangents, scene)
 
-    def extend(self, lane: int, duration: float, sections: int, *, forget: bool = False) -> None:
+    def extend(self, i: int, duration: float, sections: int, *, forget: bool = False) -> None:
         """Let a lane that is done go on to a later end; `forget` its extremes so far.
 
         Parameters
@@ -108,136 +138,134 @@ class Bundle:
         sections
             As in `LaneProblem`.
         """
-        at, lanes = self.kernel.layout, self.work.reshape(-1, LANES)[:, lane]
-        setting, counter = self.settings[:, lane], self.counters[:, lane]
-        setting[Setting.DURATION] = duration
-        whole, period = float(counter[Counter.PERIOD]), setting[Setting.PERIOD]
-        lanes[at["end"]] = product_difference(duration, 1.0, whole, period)
-        counter[Counter.SECTIONS] = sections
+        lane = self.lane(i)
+        whole, period = float(lane.run["periods"]), lane.run["period"]
+        lane.run["duration"] = duration
+        lane["end"] = product_difference(duration, 1.0, whole, period)
+        lane.run["stop"][SECTIONS] = sections
         if forget:
-            rows, now = self.kernel.rows.scanned, self.time(lane)
             for record in ("highest", "lowest"):
-                first, first_time = at[f"{record}0"], at[f"{record}_time0"]
-                lanes[first : first + rows] = lanes[at["previous0"] : at["previous0"] + rows]
-                lanes[first_time : first_time + rows] = now
-            lanes[at["change0"] : at["change0"] + rows] = math.nan
+                lane[record], lane[f"{record}_time"] = lane["previous"], lane.time
+            lane["change"] = math.nan
             # no change is known before the next step: a long one could hide an extreme
-            lanes[at["step"]] = FIRST_STEP * period
-        self._run(lane)
+            lane["step"] = FIRST_STEP * period
+        self._set_going(lane)
 
-    def _run(self, lane: int) -> None:
-        """Set a lane going."""
-        self.counters[Counter.STATUS, lane] = Status.RUNNING
-        self.table("active")[0, lane] = 1.0
-        for kind in range(2):
-            look_ahead(kind, lane, self.kernel.slots, self.work, self.settings, self.counters)
-        plan(lane, self.kernel.slots, self.work, self.settings)
+    def _set_going(self, lane: Lane) -> None:
+        lane.run["status"] = Status.RUNNING
+        lane["active"] = 1.0
+        arguments = (lane.index, lane.run, lane.places[0], lane.work)
+        for kind in (SAMPLES, SECTIONS):
+            look_ahead(kind, *arguments)
+        plan(*arguments)
 
-    def table(self, name: str, count: int = 1) -> Floats:
-        """Return a view (count, LANES) of a block of the work array."""
-        first = self.layout[name]
-        return self.work.reshape(-1, LANES)[first : first + count]
+    @property
+    def attempts(self) -> int:
+        """Attempts at a step that were made of each lane that runs, or of all that have run."""
+        made = [group.attempts for group in self.groups if group.runs_on]
+        return min(made, default=max(group.attempts for group in self.groups))
+
+    @attempts.setter
+    def attempts(self, made: int) -> None:
+        for group in self.groups:
+            group.attempts = made
+
+    @property
+    def behind(self) -> int:
+        """Attempts by which some running lanes are behind others that run."""
+        made = [group.attempts for group in self.groups if group.runs_on]
+        return max(made) - min(made) if made else 0
 
     def advance(self, budget: int) -> int:
         """Attempt at most `budget` steps; how many lanes still run. Rows are handed out once.
 
         Comes back early when a lane ends or has as many rows as it can hold.
         """
-        self.counters[Counter.SAMPLE_ROWS :] = 0
-        self.attempts += int(
-            advance(
-                *self.kernel.functions,
-                *self._tangent_functions(),
-                self.slots,
-                self.work,
-                self.spare,
-                self.settings,
-                self.counters,
-                self.table_of_extremes,
-                self.sample_rows,
-                self.section_rows,
-                self.impact_rows,
-                self.growth_rows,
-                int(self.watch or self._crossing),
-                budget,
-            )
-        )
-        return int(np.count_nonzero(self.counters[Counter.STATUS] == Status.RUNNING))
+        tangents = self.tangents
+        addresses = self.kernel.addresses if tangents is None else tangents.addresses
+        places = self.kernel.places if tangents is None else tangents.places
+        crossing = np.any(self.runs["section_kind"] == SectionKind.CROSSING)
+        for name in ("filled", "impacts", "growths"):
+            self.runs[name] = 0
+        goal = self.attempts + budget
+        for group in self.groups:
+            if group.runs_on:
+                group.attempts += advance(
+                    addresses,
+                    places,
+                    group.work,
+                    self.spare,
+                    group.runs,
+                    group.buffers,
+                    int(self.watch or crossing),
+                    goal - group.attempts,
+                )
+        return int(np.count_nonzero(self.runs["status"] == Status.RUNNING))
 
-    def _tangent_functions(self) -> tuple[CompiledAddress, CompiledAddress]:
-        if self.tangents is None:  # any two: they are not called
-            return self.kernel.functions[1], self.kernel.functions[2]
-        return self.tangents.functions
+    def rows(self, kind: int, i: int) -> Floats:
+        """Return what a lane handed out in the last call: dense rows (count, width).
 
-    def growth(self, lane: int) -> Floats:
-        """Return how a lane's tangent grew in this call: (k, 2) ends of time, s, and logarithms."""
-        return self.growth_rows[lane, : self.counters[Counter.GROWTH_ROWS, lane]]
+        kind : `SAMPLES` or `SECTIONS`.
+        """
+        group, index = divmod(i, LANES)
+        return self.groups[group].buffers.rows[kind, index, : self.runs["filled"][i, kind]]
 
-    def observe(self, lane: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
+    def impacts(self, i: int) -> NDArray[np.void]:
+        """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
+        group, index = divmod(i, LANES)
+        return self.groups[group].buffers.impacts[index, : self.runs["impacts"][i]].copy()
+
+    def growth(self, i: int) -> Floats:
+        """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""
+        group, index = divmod(i, LANES)
+        growths = self.groups[group].buffers.growths[index, : self.runs["growths"][i]]
+        return growths.copy().view(np.float64).reshape(-1, 2)
+
+    def observe(self, i: int, rows: Floats, columns: NDArray[np.int64]) -> Floats:
         """Return channels (rows, columns) of a lane at rows of dense state."""
+        lane, kernel = self.lane(i), self.kernel
         out = np.empty((len(rows), len(columns)))
+        blank = self.spare.reshape(-1)[: kernel.layout.size * LANES].reshape(-1, LANES)
         observe_rows(
-            *self.kernel.observing,
-            self.kernel.slots,
-            self.work,
-            self.spare,
-            lane,
-            rows,
-            columns,
-            out,
+            kernel.addresses, kernel.places, lane.work, blank, lane.index, rows, columns, out
         )
         return out
 
-    def state_of(self, lane: int) -> LaneStart:
+    def times(self, i: int, rows: Floats) -> Floats:
+        """Return the simulated times of a lane's dense rows, s."""
+        return self.kernel.row.times(rows, float(self.runs["period"][i]))
+
+    def state_of(self, i: int) -> LaneStart:
         """Return where a lane is, for another problem to start from."""
-        joints = len(self.kernel.play)
-        return LaneStart(
-            self.table("y0", self.kernel.states)[:, lane].copy(),
-            self.table("mode0", joints)[:, lane] > 0.0 if joints else np.zeros(0, dtype=bool),
-            self.table("impact_rate0", joints)[:, lane].copy() if joints else np.zeros(0),
-        )
+        lane = self.lane(i)
+        return LaneStart(lane["y"].copy(), lane["mode"] > 0.0, lane["impact_rate"].copy())
 
-    def energy(self, lane: int) -> Floats:
+    def energy(self, i: int) -> Floats:
         """Return a lane's kinetic, potential and stored elastic energy, J."""
-        kernel, lanes = self.kernel, self.work.reshape(-1, LANES)
-        drivers, joints = len(kernel.drivers), len(kernel.play)
-        row = [float(self.counters[Counter.PERIOD, lane]), self.table("time")[0, lane]]
-        phases = kernel.layout["phase0"] if drivers else 0
-        row += [
-            *lanes[phases : phases + 2 * drivers, lane],
-            *self.table("y0", kernel.states)[:, lane],
-        ]
-        for j in range(joints):
-            row += [self.table(f"mode{j}")[0, lane], self.table(f"impact_rate{j}")[0, lane]]
-        columns = np.array([kernel.rows.index(name) for name in ENERGIES], dtype=np.int64)
-        return self.observe(lane, np.array([row]), columns)[0]
-
-    @property
-    def _crossing(self) -> bool:
-        return bool(np.any(self.settings[Setting.SECTION_KIND] == SectionKind.CROSSING))
-
-    def time(self, lane: int) -> float:
-        """Return the simulated time that a lane has reached, s."""
-        whole = int(self.counters[Counter.PERIOD, lane])
-        local = float(self.table("time")[0, lane])
-        return whole * float(self.settings[Setting.PERIOD, lane]) + local
+        columns = np.array([self.kernel.rows.index(name) for name in ENERGIES], dtype=np.int64)
+        return self.observe(i, self.lane(i).row(), columns)[0]
 
     def state(self) -> bytes:
-        """Return everything that the next step depends on."""
+        """Return everything that the next step depends on, however many lanes there are."""
         buffer = io.BytesIO()
-        np.savez(buffer, **{name: getattr(self, name) for name in STATE})
+        work = np.concatenate([group.work for group in self.groups], axis=1)
+        np.savez(buffer, work=work, runs=self.runs, first_energy=self.first_energy)
         return buffer.getvalue()
 
     def restore(self, state: bytes) -> None:
         """Continue from `state`, bit for bit."""
         with np.load(io.BytesIO(state), allow_pickle=False) as saved:
-            for name in STATE:
-                getattr(self, name)[:] = saved[name]
+            self.runs[:] = saved["runs"]
+            self.first_energy[:] = saved["first_energy"]
+            for group, work in zip(
+                self.groups, np.split(saved["work"], BUNDLE // LANES, axis=1), strict=True
+            ):
+                group.work[:] = work
 
 
-def aligned_zeros(size: int) -> Floats:
-    """Return zeros that begin on a cache line: else every row of eight lanes straddles two."""
-    line = 64
+def aligned_zeros(slots: int, columns: int) -> Floats:
+    """Return zeros (slots, columns) that begin on a cache line: else rows straddle two."""
+    line, size = 64, slots * columns
     padded = np.zeros(size + line // 8)
     skip = (-padded.ctypes.data % line) // 8
-    return padded[skip : skip + size]
+    return padded[skip : skip + size].reshape(slots, columns)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED
+from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
-from jointplay.solver.kernels.layout import LANES
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
-from jointplay.solver.kernels.loop.state import Counter, Status
-from jointplay.solver.kernels.slots import Slot
+from jointplay.solver.kernels.loop.runs import NO_JOINT, Run, Status
 
 MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
@@ -26,121 +25,163 @@ LANDED_AT_LAST = 1e-9
 @kernel()
 def land(
     lane: int,
-    slots: np.ndarray,
+    run: Run,
+    at: Places,
     work: np.ndarray,
     spare: np.ndarray,
-    counters: np.ndarray,
     gaps_within: LaneFunction,
 ) -> bool:
-    """Whether this step may be taken: it has no onset inside, or ends on one.
+    """Whether this step may be taken: no contact begins inside it, but perhaps at its end.
 
-    Otherwise the step is to be redone, shortened to the first onset inside it.
+    1. Find the joint whose contact begins first inside the step, and when (`earliest_onset`).
+    2. Redo the step so that it ends there. The redone step differs from the dense output that
+       told when, so its end misses the onset by a little: from here on the joint is the target.
+    3. Take the step once the target's penetration at its end is as good as zero (`has_landed`);
+       until then move the end by Newton's rule (`corrected_share`), unless another contact begins
+       before: then that is the target.
+    4. After `MOST_LANDINGS` redone steps, approach in steps of a quarter (`approach`); after
+       `MOST_APPROACHES` of them the run has failed.
+
+    A target that only came near, and is on its way back, is dropped. Where steps are fixed,
+    contact begins at the end of the step that it began in.
     """
-    tried = work[slots[Slot.TRIED] * LANES + lane]
-    target = counters[Counter.LANDING, lane]
-    onset = NO_ONSET
-    joint = -1
-    overshot = False
-    for j in range(slots[Slot.JOINTS]):
-        if work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0:
-            continue
-        gap = work[(slots[Slot.GAP] + 4 * j) * LANES + lane]
-        if gap > 0.0 and work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf:
-            counters[Counter.LANDING, lane] = j  # the step is fixed: contact begins where it ends
-            return True
-        if j == target and abs(gap) <= LANDED:
-            continue
-        if j == target and gap > 0.0:
-            overshot = True  # it has its onset here; when does not matter, if no other has one
-            continue
-        found = first_onset(j, lane, slots, work, spare, gaps_within)
-        if found < onset:
-            onset, joint = found, j
-    if overshot:
-        found = -1.0
-        if joint >= 0:
-            found = first_onset(target, lane, slots, work, spare, gaps_within)
-        if found < onset:
-            onset, joint = found, target
-    if target >= 0:
-        gap = work[(slots[Slot.GAP] + 4 * target) * LANES + lane]
-        rate = work[(slots[Slot.GAP] + 4 * target + 1) * LANES + lane]
-        last = counters[Counter.LANDINGS, lane] >= MOST_LANDINGS
-        near = abs(gap) <= LANDED or (last and abs(gap) <= LANDED_AT_LAST)
-        if near and (joint < 0 or joint == target):
-            return True
-        if last:  # steps so long that the end of one hardly tells of the end of another
-            counters[Counter.LANDING, lane] = -1
-            counters[Counter.LANDINGS, lane] += 1
-            work[slots[Slot.NEXT_STEP] * LANES + lane] = 0.25 * tried
-            if counters[Counter.LANDINGS, lane] > MOST_LANDINGS + MOST_APPROACHES:
-                stop(lane, Status.ONSET_LOST, slots, work, counters)
-            return False
-        if gap < 0.0 and rate <= 0.0 and joint < 0:
-            counters[Counter.LANDING, lane] = -1  # it only came near, and is on its way back
-            return True
-        if joint < 0 or joint == target:
-            # Newton on the landing itself: the redone step differs from the dense output
-            joint = target
-            onset = 1.0
-            if rate > 0.0:
-                onset = 1.0 - gap / (rate * tried)
-            onset = min(max(onset, 0.1), 2.0)
-    if joint < 0:
+    at_end = closed_in_fixed_step(lane, at, work)
+    if at_end != NO_JOINT:
+        run.landing = at_end
         return True
-    counters[Counter.LANDING, lane] = joint
-    counters[Counter.LANDINGS, lane] += 1
-    work[slots[Slot.NEXT_STEP] * LANES + lane] = onset * tried
+    target = run.landing
+    joint, share = earliest_onset(target, lane, at, work, spare, gaps_within)
+    if target != NO_JOINT:
+        alone = joint in (NO_JOINT, target)
+        last = run.landings >= MOST_LANDINGS
+        if alone and has_landed(target, last, lane, at, work):
+            return True
+        if last:
+            approach(lane, run, at, work)
+            return False
+        gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
+        if gap < 0.0 and rate <= 0.0 and joint == NO_JOINT:
+            run.landing = NO_JOINT
+            return True
+        if alone:
+            joint, share = target, corrected_share(gap, rate, work[at.tried, lane])
+    if joint == NO_JOINT:
+        return True
+    run.landing = joint
+    run.landings += 1
+    work[at.next_step, lane] = share * work[at.tried, lane]
     return False
 
 
 @kernel()
-def begin_contact(j: int, now: float, lane: int, slots: np.ndarray, work: np.ndarray) -> None:
+def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
+    """Return the first open joint whose gap is closed at the end of a fixed step."""
+    for j in range(at.joints):
+        fixed = work[at.restart + j, lane] == np.inf
+        if fixed and work[at.mode + j, lane] <= 0.0 and work[at.gap + j, lane] > 0.0:
+            return j
+    return NO_JOINT
+
+
+@kernel()
+def earliest_onset(
+    target: int,
+    lane: int,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+) -> tuple[int, float]:
+    """Return the open joint whose gap closes first inside the step, and the share of it before.
+
+    A target that has landed does not count. One that is too deep at the end counts as before all
+    others, for when it closed does not matter then.
+    """
+    joint, share = NO_JOINT, NO_ONSET
+    overshot = False
+    for j in range(at.joints):
+        if work[at.mode + j, lane] > 0.0:
+            continue
+        gap = work[at.gap + j, lane]
+        if j == target and abs(gap) <= LANDED:
+            continue
+        if j == target and gap > 0.0:
+            overshot = True
+            continue
+        found = first_onset(j, lane, at, work, spare, gaps_within)
+        if found < share:
+            joint, share = j, found
+    if overshot:
+        found = -1.0
+        if joint != NO_JOINT:
+            found = first_onset(target, lane, at, work, spare, gaps_within)
+        if found < share:
+            joint, share = target, found
+    return joint, share
+
+
+@kernel()
+def has_landed(target: int, last: bool, lane: int, at: Places, work: np.ndarray) -> bool:
+    """Whether a target's gap is as good as zero at the end of the step."""
+    depth = abs(work[at.gap + target, lane])
+    return depth <= LANDED or (last and depth <= LANDED_AT_LAST)
+
+
+@kernel()
+def corrected_share(gap: float, rate: float, tried: float) -> float:
+    """Return the multiple of the step at which the gap is zero, by Newton's rule from its end."""
+    share = 1.0
+    if rate > 0.0:
+        share = 1.0 - gap / (rate * tried)
+    return min(max(share, 0.1), 2.0)
+
+
+@kernel()
+def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
+    """Give an onset up for now: steps are so long that one's end hardly tells of another's."""
+    run.landing = NO_JOINT
+    run.landings += 1
+    work[at.next_step, lane] = 0.25 * work[at.tried, lane]
+    if run.landings > MOST_LANDINGS + MOST_APPROACHES:
+        stop(Status.ONSET_LOST, lane, run, at, work)
+
+
+@kernel()
+def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -> None:
     """Latch the impact rate of joint j, once per onset, and restart with a small step."""
-    rate = work[(slots[Slot.GAP] + 4 * j + 1) * LANES + lane]
-    floored = max(rate, work[(slots[Slot.IMPACT_FLOOR] + j) * LANES + lane])
-    work[(slots[Slot.MODE] + j) * LANES + lane] = 1.0
-    work[(slots[Slot.IMPACT_RATE] + j) * LANES + lane] = floored
-    work[(slots[Slot.ONSET_TIME] + j) * LANES + lane] = now
-    work[(slots[Slot.APPROACH] + j) * LANES + lane] = rate
-    impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
-    work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane] = work[impulse * LANES + lane]
-    work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane] = 0.0
-    first = work[(slots[Slot.RESTART] + j) * LANES + lane] / floored
-    work[slots[Slot.STEP] * LANES + lane] = min(work[slots[Slot.STEP] * LANES + lane], first)
+    rate = work[at.gap_rate + j, lane]
+    floored = max(rate, work[at.impact_floor + j, lane])
+    work[at.mode + j, lane] = 1.0
+    work[at.impact_rate + j, lane] = floored
+    work[at.onset_time + j, lane] = now
+    work[at.approach + j, lane] = rate
+    work[at.onset_total + j, lane] = work[at.impulse + j, lane]
+    work[at.highest + at.contact_row + j, lane] = 0.0
+    first = work[at.restart + j, lane] / floored
+    work[at.step, lane] = min(work[at.step, lane], first)
 
 
 @kernel()
 def end_contact(
-    j: int,
-    now: float,
-    lane: int,
-    slots: np.ndarray,
-    work: np.ndarray,
-    counters: np.ndarray,
-    impact_rows: np.ndarray,
+    j: int, now: float, lane: int, run: Run, at: Places, work: np.ndarray, impacts: np.ndarray
 ) -> None:
-    """Write the contact of joint j that ends now (not a number: it lasts beyond the run)."""
-    row = impact_rows[lane, counters[Counter.IMPACT_ROWS, lane]]
-    impulse = slots[Slot.TOTAL] + slots[Slot.LEDGER] - slots[Slot.JOINTS] + j
-    row[0] = j
-    row[1] = work[(slots[Slot.ONSET_TIME] + j) * LANES + lane]
-    row[2] = now
-    row[3] = work[(slots[Slot.APPROACH] + j) * LANES + lane]
-    highest = work[(slots[Slot.HIGHEST] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane]
-    row[4] = max(
-        highest,
-        work[(slots[Slot.PREVIOUS] + slots[Slot.ROWS] - slots[Slot.JOINTS] + j) * LANES + lane],
-    )
-    row[5] = work[impulse * LANES + lane] - work[(slots[Slot.ONSET_TOTAL] + j) * LANES + lane]
-    counters[Counter.IMPACT_ROWS, lane] += 1
+    """Write the contact of joint j that ends now, s; NaN: it lasts beyond the run."""
+    impact = impacts[lane, run.impacts]
+    row = at.contact_row + j
+    impact.joint = j
+    impact.onset = work[at.onset_time + j, lane]
+    impact.release = now
+    impact.approach_rate = work[at.approach + j, lane]
+    impact.peak_force = max(work[at.highest + row, lane], work[at.previous + row, lane])
+    impact.impulse = work[at.impulse + j, lane] - work[at.onset_total + j, lane]
+    run.impacts += 1
 
 
 @kernel()
-def is_touching(lane: int, slots: np.ndarray, work: np.ndarray) -> bool:
+def is_touching(lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether a contact begins where this step does."""
     found = False
-    for j in range(slots[Slot.JOINTS]):
-        depth = abs(work[(slots[Slot.GAP] + 4 * j + 2) * LANES + lane])
-        found |= work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0 and depth <= LANDED
+    for j in range(at.joints):
+        depth = abs(work[at.gap_start + j, lane])
+        found |= work[at.mode + j, lane] > 0.0 and depth <= LANDED
     return found

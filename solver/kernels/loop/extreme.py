@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from jointplay.solver.kernels.jit import kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import INSTANTS
 
-POINTS = LANES + 1
+POINTS = INSTANTS + 1
 """Quarters of the step before and of this one, and its end."""
 ORDER = 4
 """Of the polynomial that gives an extreme's value."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED
+from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import look_between
-from jointplay.solver.kernels.loop.state import Counter
-from jointplay.solver.kernels.slots import Slot
+from jointplay.solver.kernels.loop.runs import NO_JOINT, Run
 
 MOST_ITERATIONS = 40
 ROOT = 1e-15
@@ -24,7 +24,7 @@ LATE = 0.95
 def dip(
     j: int,
     lane: int,
-    slots: np.ndarray,
+    at: Places,
     work: np.ndarray,
     spare: np.ndarray,
     gaps_within: LaneFunction,
@@ -33,10 +33,10 @@ def dip(
 
     It opened an eighth of the step before at most. 1: it stays closed.
     """
-    look_between(0.0, 1.0, lane, slots, work, spare, gaps_within)
-    for i in range(LANES):
-        if spare[(slots[Slot.GAP] + 4 * j) * LANES + i] < 0.0:
-            return (i + 1) / LANES
+    look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
+    for i in range(INSTANTS):
+        if spare[at.gap + j, i] < 0.0:
+            return (i + 1) / INSTANTS
     return 1.0
 
 
@@ -68,7 +68,7 @@ def falling_root(start: float, start_rate: float, end: float, end_rate: float) -
 
 @kernel()
 def note_openings(
-    lane: int, slots: np.ndarray, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
+    lane: int, at: Places, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
 ) -> float:
     """Note when in this step each gap opens: at the root of the cubic through both its ends.
 
@@ -77,32 +77,29 @@ def note_openings(
     ends. A gap that is closed again at the end was open nevertheless: what touches then is another
     contact, with an impact rate of its own.
     """
-    step = work[slots[Slot.TRIED] * LANES + lane]
+    step = work[at.tried, lane]
     soonest = 1.0
-    for j in range(slots[Slot.JOINTS]):
-        place = (slots[Slot.GAP] + 4 * j) * LANES + lane
-        gap, rate = work[place], work[place + LANES] * step
-        start, start_rate = work[place + 2 * LANES], work[place + 3 * LANES] * step
-        closed = work[(slots[Slot.MODE] + j) * LANES + lane] > 0.0
-        fixed = work[(slots[Slot.RESTART] + j) * LANES + lane] == np.inf
+    for j in range(at.joints):
+        gap, rate = work[at.gap + j, lane], work[at.gap_rate + j, lane] * step
+        start = work[at.gap_start + j, lane]
+        start_rate = work[at.gap_rate_start + j, lane] * step
+        closed = work[at.mode + j, lane] > 0.0
+        fixed = work[at.restart + j, lane] == np.inf
         shortened = start > LANDED and closed and not fixed
         high = 1.0
         if start > 0.0 >= gap:
             high = falling_root(start, start_rate, gap, rate)
         elif shortened and start_rate < 0.0 < rate:
-            high = dip(j, lane, slots, work, spare, gaps_within)
+            high = dip(j, lane, at, work, spare, gaps_within)
         if shortened:
             soonest = min(soonest, high)
-        opened = work[slots[Slot.TIME] * LANES + lane] + high * step
         open_now = gap <= 0.0 and (start > LANDED or rate < 0.0)
-        work[(slots[Slot.OPENED] + j) * LANES + lane] = opened if open_now else np.inf
+        work[at.opened + j, lane] = work[at.time, lane] + high * step if open_now else np.inf
     return soonest
 
 
 @kernel()
-def end_behind_opening(
-    share: float, lane: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray
-) -> None:
+def end_behind_opening(share: float, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Have this step redone so that it ends where a gap opens, after `share` of it.
 
     The force of a contact has no second derivative there. Within a step its error would depend on
@@ -110,8 +107,7 @@ def end_behind_opening(
     happens to be too small. The estimate of a step with the kink inside says nothing of the steps
     to either side: what a rejection asks for does not count.
     """
-    tried = work[slots[Slot.TRIED] * LANES + lane]
-    work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
-    work[slots[Slot.NEXT_STEP] * LANES + lane] = BEHIND * share * tried
-    counters[Counter.LANDING, lane] = -1
-    counters[Counter.LANDINGS, lane] = 0
+    work[at.accept, lane] = 0.0
+    work[at.next_step, lane] = BEHIND * share * work[at.tried, lane]
+    run.landing = NO_JOINT
+    run.landings = 0

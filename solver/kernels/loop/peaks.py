@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import (
     POINTS,
     TIMES,
@@ -14,8 +16,7 @@ from jointplay.solver.kernels.loop.extreme import (
     compare_values,
     extreme,
 )
-from jointplay.solver.kernels.loop.state import Counter, Setting
-from jointplay.solver.kernels.slots import Slot
+from jointplay.solver.kernels.loop.runs import Run
 
 ONE_OF_EIGHT = 0x0101010101010101
 BYTES = 8
@@ -25,12 +26,11 @@ BYTES = 8
 @kernel()
 def refine_peaks(
     lane: int,
-    slots: np.ndarray,
+    run: Run,
+    at: Places,
     work: np.ndarray,
     spare: np.ndarray,
     marked: np.ndarray,
-    counters: np.ndarray,
-    settings: np.ndarray,
     table: np.ndarray,
     channels_around: LaneFunction,
 ) -> None:
@@ -39,20 +39,20 @@ def refine_peaks(
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
     `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.extreme`.
     """
-    since = float(counters[Counter.PERIOD, lane]) * settings[Setting.PERIOD, lane]
+    since = float(run.periods) * run.period
     channels_around(work, spare, lane)
-    for i in range(LANES):
-        table[TIMES + i] = spare[slots[Slot.STAGE_TIME] * LANES + i]
-    table[TIMES + POINTS - 1] = work[slots[Slot.ARRIVAL] * LANES + lane]
+    for i in range(INSTANTS):
+        table[TIMES + i] = spare[at.stage_time, i]
+    table[TIMES + POINTS - 1] = work[at.arrival, lane]
     compare_times(table)
-    first = slots[Slot.MARKED] * LANES
+    first = at.marked * LANES
     lanes_bits = np.uint64(ONE_OF_EIGHT << lane)
-    for word in range((slots[Slot.ROWS] + BYTES - 1) // BYTES):
+    for word in range((at.rows + BYTES - 1) // BYTES):
         bits = marked[first + word] & lanes_bits
         if bits != 0:
-            for r in range(min(BYTES, slots[Slot.ROWS] - BYTES * word)):  # no marks beyond
+            for r in range(min(BYTES, at.rows - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + lane) & np.uint64(1):
-                    refine(BYTES * word + r, since, lane, slots, work, spare, table)
+                    refine(BYTES * word + r, since, lane, at, work, spare, table)
 
 
 @kernel()
@@ -60,38 +60,36 @@ def refine(
     r: int,
     since: float,
     lane: int,
-    slots: np.ndarray,
+    at: Places,
     work: np.ndarray,
     spare: np.ndarray,
     table: np.ndarray,
 ) -> None:
     """Let the extreme of a channel around the start of this step count, if it is a record."""
-    for i in range(LANES):
-        table[VALUES + i] = spare[(slots[Slot.CHANNEL] + r) * LANES + i]
-    row = r * LANES + lane
-    table[VALUES + POINTS - 1] = work[slots[Slot.PREVIOUS] * LANES + row]
+    for i in range(INSTANTS):
+        table[VALUES + i] = spare[at.channel + r, i]
+    table[VALUES + POINTS - 1] = work[at.previous + r, lane]
     compare_values(table)
-    if table[VALUES + LANES // 2] > table[VALUES + 0]:
+    if table[VALUES + INSTANTS // 2] > table[VALUES + 0]:
         time, value = extreme(table, 1.0)
-        if value > work[slots[Slot.HIGHEST] * LANES + row]:
-            work[slots[Slot.HIGHEST] * LANES + row] = value
-            work[slots[Slot.HIGHEST_TIME] * LANES + row] = since + time
+        if value > work[at.highest + r, lane]:
+            work[at.highest + r, lane] = value
+            work[at.highest_time + r, lane] = since + time
     else:
         time, value = extreme(table, -1.0)
-        if value < work[slots[Slot.LOWEST] * LANES + row]:
-            work[slots[Slot.LOWEST] * LANES + row] = value
-            work[slots[Slot.LOWEST_TIME] * LANES + row] = since + time
+        if value < work[at.lowest + r, lane]:
+            work[at.lowest + r, lane] = value
+            work[at.lowest_time + r, lane] = since + time
 
 
 @kernel()
-def end_peaks(lane: int, slots: np.ndarray, work: np.ndarray, now: float) -> None:
+def end_peaks(now: float, lane: int, at: Places, work: np.ndarray) -> None:
     """Let the values at the run's last instant count as extremes."""
-    for r in range(slots[Slot.ROWS]):
-        row = r * LANES + lane
-        value = work[slots[Slot.PREVIOUS] * LANES + row]
-        if value > work[slots[Slot.HIGHEST] * LANES + row]:
-            work[slots[Slot.HIGHEST] * LANES + row] = value
-            work[slots[Slot.HIGHEST_TIME] * LANES + row] = now
-        if value < work[slots[Slot.LOWEST] * LANES + row]:
-            work[slots[Slot.LOWEST] * LANES + row] = value
-            work[slots[Slot.LOWEST_TIME] * LANES + row] = now
+    for r in range(at.rows):
+        value = work[at.previous + r, lane]
+        if value > work[at.highest + r, lane]:
+            work[at.highest + r, lane] = value
+            work[at.highest_time + r, lane] = now
+        if value < work[at.lowest + r, lane]:
+            work[at.lowest + r, lane] = value
+            work[at.lowest_time + r, lane] = now

@@ -1,4 +1,4 @@
-"""Periods, what is due next, and the end of a lane."""
+"""Periods, what is due next, and the end of a lane's run."""
 
 from __future__ import annotations
 
@@ -6,128 +6,96 @@ import math
 
 import numpy as np
 
+from jointplay.solver.kernels import compensated
+from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import kernel
-from jointplay.solver.kernels.layout import LANES
-from jointplay.solver.kernels.loop.clock import product_difference
-from jointplay.solver.kernels.loop.state import Counter, SectionKind, Setting, Status
-from jointplay.solver.kernels.slots import Slot
+from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Run, SectionKind, Status
 
-SAMPLES, SECTIONS = 0, 1
-"""Kinds of rows that fall due at fixed times."""
 PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
 """Fewer periods than SLOWEST_PACE in PACE_STEPS steps are no progress: the run ends."""
 SAME = 1e-12
-"""Of a period: a section so close to the end of the run is taken there."""
+"""Share of a period: a section so close to the end of the run is taken there."""
 MOST_STEPS = 4e9
 """Accepted steps of one run: days of computing."""
 
+product_difference = kernel()(compensated.product_difference)
+"""Time is whole periods plus local time, so that period 10 000 is as sharp as the first."""
+
 
 @kernel()
-def due_time(
-    kind: int,
-    index: int,
-    lane: int,
-    slots: np.ndarray,
-    work: np.ndarray,
-    settings: np.ndarray,
-    counters: np.ndarray,
-) -> float:
-    """Local time of a sample (kind 0) or section (kind 1); infinite past the last one."""
-    period = settings[Setting.PERIOD, lane]
-    whole = float(counters[Counter.PERIOD, lane])
-    if kind == 0:
-        last = counters[Counter.SAMPLES, lane] - 1
+def due_time(kind: int, index: int, lane: int, run: Run, at: Places, work: np.ndarray) -> float:
+    """Local time of a sample or section (`kind`); infinite past the last one."""
+    whole = float(run.periods)
+    if kind == SAMPLES:
+        last = run.stop[SAMPLES] - 1
         if index > last:
             return math.inf
         if index == last:
-            return work[slots[Slot.END] * LANES + lane]
-        return product_difference(float(index), settings[Setting.OUTPUT_STEP, lane], whole, period)
-    if (
-        index >= counters[Counter.SECTIONS, lane]
-        or int(settings[Setting.SECTION_KIND, lane]) != SectionKind.CRANK
-    ):
+            return work[at.end, lane]
+        return product_difference(float(index), run.output_step, whole, run.period)
+    if index >= run.stop[SECTIONS] or run.section_kind != SectionKind.CRANK:
         return math.inf
-    moment = (float(index) - whole) * period + settings[Setting.SECTION_OFFSET, lane]
-    end = work[slots[Slot.END] * LANES + lane]
-    return end if abs(moment - end) <= SAME * period else moment
+    moment = (float(index) - whole) * run.period + run.section_offset
+    end = work[at.end, lane]
+    return end if abs(moment - end) <= SAME * run.period else moment
 
 
 @kernel()
-def look_ahead(
-    kind: int,
-    lane: int,
-    slots: np.ndarray,
-    work: np.ndarray,
-    settings: np.ndarray,
-    counters: np.ndarray,
-) -> None:
+def look_ahead(kind: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Note when the next sample or section is due."""
-    index = counters[Counter.SAMPLE if kind == SAMPLES else Counter.SECTION, lane]
-    due = due_time(kind, index, lane, slots, work, settings, counters)
-    settings[Setting.SAMPLE_DUE + kind, lane] = due
+    run.due[kind] = due_time(kind, run.next[kind], lane, run, at, work)
 
 
 @kernel()
-def plan(lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray) -> None:
+def plan(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Set the next local time at which a lane wants attention."""
-    soonest = min(settings[Setting.SAMPLE_DUE, lane], settings[Setting.SECTION_DUE, lane])
-    soonest = min(soonest, settings[Setting.PERIOD, lane])
-    work[slots[Slot.NEXT_DUE] * LANES + lane] = min(soonest, work[slots[Slot.END] * LANES + lane])
+    soonest = min(min(run.due[SAMPLES], run.due[SECTIONS]), run.period)
+    work[at.next_due, lane] = min(soonest, work[at.end, lane])
 
 
 @kernel()
-def turn_over(
-    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
-) -> None:
+def turn_over(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Begin a new period: local time goes back, and phases on where periods are not common."""
-    period = settings[Setting.PERIOD, lane]
-    counters[Counter.PERIOD, lane] += 1
-    work[slots[Slot.TIME] * LANES + lane] -= period
-    work[slots[Slot.BEFORE_TIME] * LANES + lane] -= period
-    set_clock(lane, slots, work, settings, counters)
+    run.periods += 1
+    work[at.time, lane] -= run.period
+    work[at.before_time, lane] -= run.period
+    set_clock(lane, run, at, work)
     for kind in range(2):
-        look_ahead(kind, lane, slots, work, settings, counters)
+        look_ahead(kind, lane, run, at, work)
 
 
 @kernel()
-def set_clock(
-    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
-) -> None:
+def set_clock(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Set the end and the drivers' phases as they are in a lane's present period."""
-    whole = float(counters[Counter.PERIOD, lane])
-    work[slots[Slot.END] * LANES + lane] = product_difference(
-        settings[Setting.DURATION, lane], 1.0, whole, settings[Setting.PERIOD, lane]
-    )
-    for k in range(slots[Slot.DRIVERS]):
-        start = settings[Setting.FIRST_DRIVER + 2 * k, lane]
-        travel = whole * settings[Setting.FIRST_DRIVER + 2 * k + 1, lane]
-        if settings[Setting.TURNING, lane] == 0.0:
-            work[(slots[Slot.PHASE] + k) * LANES + lane] = start + travel
+    whole = float(run.periods)
+    work[at.end, lane] = product_difference(run.duration, 1.0, whole, run.period)
+    for k in range(at.drivers):
+        start = work[at.driver_start + k, lane]
+        travel = whole * work[at.driver_travel + k, lane]
+        if not run.turning:
+            work[at.phase + k, lane] = start + travel
             continue
-        turns = travel if settings[Setting.COMMON, lane] > 0.0 else math.floor(travel)
-        work[(slots[Slot.WOUND] + k) * LANES + lane] = 2.0 * math.pi * turns
-        work[(slots[Slot.PHASE] + k) * LANES + lane] = start + 2.0 * math.pi * (travel - turns)
+        turns = travel if run.common else math.floor(travel)
+        work[at.wound + k, lane] = 2.0 * math.pi * turns
+        work[at.phase + k, lane] = start + 2.0 * math.pi * (travel - turns)
 
 
 @kernel()
-def stop(lane: int, status: int, slots: np.ndarray, work: np.ndarray, counters: np.ndarray) -> None:
+def stop(status: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Take a lane out of the running."""
-    counters[Counter.STATUS, lane] = status
-    work[slots[Slot.ACTIVE] * LANES + lane] = 0.0
-    work[slots[Slot.ACCEPT] * LANES + lane] = 0.0
+    run.status = status
+    work[at.active, lane] = 0.0
+    work[at.accept, lane] = 0.0
 
 
 @kernel()
-def check_pace(
-    lane: int, slots: np.ndarray, work: np.ndarray, settings: np.ndarray, counters: np.ndarray
-) -> None:
+def check_pace(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Stop a lane that has used up its steps or hardly moves; counted in its own steps."""
-    period = settings[Setting.PERIOD, lane]
-    now = float(counters[Counter.PERIOD, lane]) * period + work[slots[Slot.TIME] * LANES + lane]
-    steps = work[slots[Slot.STEPS] * LANES + lane]
-    if now - settings[Setting.PACE_TIME, lane] < SLOWEST_PACE * period:
-        stop(lane, Status.UNDERFLOW, slots, work, counters)
+    now = float(run.periods) * run.period + work[at.time, lane]
+    steps = work[at.steps, lane]
+    if now - run.pace_time < SLOWEST_PACE * run.period:
+        stop(Status.UNDERFLOW, lane, run, at, work)
     elif steps >= MOST_STEPS:
-        stop(lane, Status.STEP_LIMIT, slots, work, counters)
-    settings[Setting.PACE_TIME, lane] = now
-    work[slots[Slot.PACE_AT] * LANES + lane] = steps + PACE_STEPS
+        stop(Status.STEP_LIMIT, lane, run, at, work)
+    run.pace_time = now
+    work[at.pace_at, lane] = steps + PACE_STEPS

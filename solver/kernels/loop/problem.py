@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.loop.state import SectionKind
+from jointplay.solver.kernels.emit.places import PERIOD, TIME, DenseRow
+from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.scene.document import Scene
 
 Floats = NDArray[np.float64]
@@ -40,6 +41,13 @@ class LaneStart:
     """Whole periods of the drivers that have passed."""
     time: float = 0.0
     """Since then, s."""
+
+    @classmethod
+    def at_row(cls, row: Floats, columns: DenseRow) -> LaneStart:
+        """Return the start at a row of dense state, (width,)."""
+        touching = row[columns.mode : columns.impact_rate] > 0.0
+        rates = row[columns.impact_rate : columns.width]
+        return cls(columns.states(row), touching, rates, int(row[PERIOD]), row[TIME])
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Arrays that are only borrowed: passed from kernel to kernel without counting references.
+"""Views of arrays that own nothing: passed between kernels without counting references.
 
 Numba counts the references of every array that it hands to a function, atomically; in the driving
 loop that took a sixth of the time. The caller keeps the arrays alive.
@@ -13,7 +13,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 
-def _borrowed(_typing: Any, array: Any) -> Any:
+def _unowned(_typing: Any, array: Any) -> Any:
     """Return a view of an array that owns nothing."""
 
     def generate(context, builder, signature, arguments):
@@ -26,4 +26,4 @@ def _borrowed(_typing: Any, array: Any) -> Any:
     return array(array), generate
 
 
-borrowed = cast(Callable[[Any], Any], intrinsic(_borrowed))
+unowned = cast(Callable[[Any], Any], intrinsic(_unowned))

@@ -36,6 +36,11 @@ class Equations:
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
 
+    @property
+    def states(self) -> int:
+        """Number of states: the coordinates, then their speeds."""
+        return 2 * len(self.coordinates)
+
 
 def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
     """Run the mechanics on recorded expressions.

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
-from jointplay.solver.kernels.layout import LANES
-from jointplay.solver.kernels.loop.failures import ledger_of, peaks_of
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.layout import BUNDLE
+from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.certificate.companions import LADDER, PERTURBED, RUN, Companions
 from jointplay.solver.runs.certificate.estimate import (
     CONVERGED,
@@ -24,6 +23,7 @@ from jointplay.solver.runs.certificate.estimate import (
 )
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.spread import BINS, histogram
+from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import clearances, tangent_obstacle
@@ -140,7 +140,7 @@ def certify(
         "gross_work": gross,
         "energy_error": abs(energy["residual"]) / gross if gross > 0.0 else None,
         "constraint_violation": _violation(violation),
-        "lanes": [_lane(companions, lane, tolerance) for lane in range(LANES)],
+        "lanes": [_lane(companions, lane, tolerance) for lane in range(BUNDLE)],
         "lanes_with_extremes": [RUN, *companions.loud],
     }
     return Certificate(
@@ -203,16 +203,15 @@ def _violation(largest: Floats | None) -> dict[str, Any]:
 
 def _lane(companions: Companions, lane: int, tolerance: float) -> dict[str, Any]:
     """Return what one lane computed and what that cost."""
-    bundle = companions.bundle
-    steps = int(bundle.table("steps")[0, lane])
+    at, found = companions.bundle.lane(lane), statistics_of(companions.bundle, lane)
     return {
         "tolerance": tolerance * ((1.0, *LADDER)[lane] if lane <= len(LADDER) else 1.0),
         "perturbed": lane in PERTURBED,
-        "time": bundle.time(lane),
-        "complete": bool(bundle.counters[Counter.STATUS, lane] == Status.DONE),
-        "steps": steps,
-        "rejections": int(bundle.counters[Counter.REJECTIONS, lane]),
-        "onsets": int(bundle.counters[Counter.ONSETS, lane]),
-        "smallest_step": float(bundle.table("smallest_step")[0, lane]) if steps else None,
-        "energy_residual": ledger_of(bundle, lane)["residual"],
+        "time": at.time,
+        "complete": at.status == Status.DONE,
+        "steps": found["steps"],
+        "rejections": found["rejections"],
+        "onsets": found["onsets"],
+        "smallest_step": found["smallest_step"],
+        "energy_residual": found["energy"]["residual"],
     }

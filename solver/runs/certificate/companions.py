@@ -15,11 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.periods import SAMPLES, look_ahead, plan, stop
+from jointplay.solver.kernels.loop.lane import Lane
+from jointplay.solver.kernels.loop.periods import look_ahead, plan, stop
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.state import Counter, Setting, Status
+from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.runs.certificate.instants import Instants
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 
@@ -61,7 +62,7 @@ class Companions:
     @classmethod
     def beside(cls, bundle: Bundle, problem: LaneProblem) -> Companions:
         """Load companions of the trajectory that a bundle has in its first lane."""
-        period = float(bundle.settings[Setting.PERIOD, RUN])
+        period = float(bundle.lane(RUN).run["period"])
         instants = Instants.over(problem.duration, period)
         start = bundle.state_of(RUN)
         coarse = replace(
@@ -85,24 +86,26 @@ class Companions:
             )
             bundle.load(lane, replace(coarse, start=LaneStart(np.concatenate(beside))), like=RUN)
         loud = LOUD if problem.duration >= SHORT * period else LOUD_IN_SHORT
-        rows = bundle.kernel.rows.scanned
-        for lane in range(1, LANES):
+        for lane in range(1, BUNDLE):
             if lane not in loud:  # no value is a record
-                bundle.table("highest0", rows)[:, lane] = math.inf
-                bundle.table("lowest0", rows)[:, lane] = -math.inf
-        return cls(bundle, instants, loud, {lane: [] for lane in range(1, LANES)})
+                bundle.lane(lane)["highest"] = math.inf
+                bundle.lane(lane)["lowest"] = -math.inf
+        return cls(bundle, instants, loud, {lane: [] for lane in range(1, BUNDLE)})
 
     @property
     def running(self) -> bool:
         """Whether any has not come to its end."""
-        return bool((self.bundle.counters[Counter.STATUS, 1:] == Status.RUNNING).any())
+        return any(lane.running for lane in self._lanes)
 
     @property
     def time(self) -> float:
         """Simulated time that all have reached that still run, s."""
-        running = self.bundle.counters[Counter.STATUS] == Status.RUNNING
-        times = [self.bundle.time(lane) for lane in range(1, LANES) if running[lane]]
+        times = [lane.time for lane in self._lanes if lane.running]
         return min(times, default=self.instants.duration)
+
+    @property
+    def _lanes(self) -> list[Lane]:
+        return [self.bundle.lane(lane) for lane in range(1, BUNDLE)]
 
     def allowance(self, budget: int) -> int:
         """Return how many attempts may be made now, and stop who has made all that it may.
@@ -110,49 +113,43 @@ class Companions:
         Attempts are each lane's own, so that where a companion is left behind does not depend on
         how the run was sliced.
         """
-        if self.bundle.counters[Counter.STATUS, RUN] == Status.RUNNING:
+        run = self.bundle.lane(RUN)
+        if run.running:
             return budget
-        most = math.ceil(MOST_ATTEMPTS * self.attempts(RUN))
-        for lane in range(1, LANES):
-            if self.bundle.counters[Counter.STATUS, lane] != Status.RUNNING:
+        most = math.ceil(MOST_ATTEMPTS * run.attempts)
+        for lane in self._lanes:
+            if not lane.running:
                 continue
-            left = most - self.attempts(lane)
+            left = most - lane.attempts
             if left > 0:
                 budget = min(budget, left)
                 continue
-            stop(lane, Status.STEP_LIMIT, self.bundle.slots, self.bundle.work, self.bundle.counters)
+            stop(Status.STEP_LIMIT, lane.index, lane.run, lane.places[0], lane.work)
         return budget
-
-    def attempts(self, lane: int) -> int:
-        """Return how many steps a lane has tried."""
-        rejected = int(self.bundle.counters[Counter.REJECTIONS, lane])
-        return int(self.bundle.table("steps")[0, lane]) + rejected
 
     def collect(self) -> None:
         """Keep the rows that were handed out, and let later instants lie farther apart."""
-        counters, settings = self.bundle.counters, self.bundle.settings
-        for lane in range(1, LANES):
-            count = int(counters[Counter.SAMPLE_ROWS, lane])
-            if not count:
+        for i in self.rows:
+            rows = self.bundle.rows(SAMPLES, i)
+            if not len(rows):
                 continue
-            rows = self.bundle.sample_rows[lane, :count]
-            stride = round(settings[Setting.OUTPUT_STEP, lane] / self.instants.finest)
-            following = int(counters[Counter.SAMPLE, lane])
+            lane = self.bundle.lane(i)
+            stride = round(lane.run["output_step"] / self.instants.finest)
+            following = int(lane.run["next"][SAMPLES])
             coarser = self.instants.stride(min(following * stride, self.instants.last))
             if coarser > stride:
-                index = range((following - count) * stride, following * stride, stride)
+                index = range((following - len(rows)) * stride, following * stride, stride)
                 rows = rows[[i % self.instants.stride(i) == 0 for i in index]]
                 self._coarsen(lane, following, stride, coarser)
-            self.rows[lane].append(rows.copy())
+            self.rows[i].append(rows.copy())
 
-    def _coarsen(self, lane: int, following: int, stride: int, coarser: int) -> None:
-        bundle = self.bundle
-        bundle.settings[Setting.OUTPUT_STEP, lane] = coarser * self.instants.finest
-        bundle.counters[Counter.SAMPLE, lane] = -(-following * stride // coarser)
-        bundle.counters[Counter.SAMPLES, lane] = self.instants.last // coarser + 1
-        state = (bundle.slots, bundle.work, bundle.settings)
-        look_ahead(SAMPLES, lane, *state, bundle.counters)
-        plan(lane, *state)
+    def _coarsen(self, lane: Lane, following: int, stride: int, coarser: int) -> None:
+        lane.run["output_step"] = coarser * self.instants.finest
+        lane.run["next"][SAMPLES] = -(-following * stride // coarser)
+        lane.run["stop"][SAMPLES] = self.instants.last // coarser + 1
+        arguments = (lane.index, lane.run, lane.places[0], lane.work)
+        look_ahead(SAMPLES, *arguments)
+        plan(*arguments)
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes; the lanes' own state is the bundle's."""
@@ -164,13 +161,13 @@ class Companions:
 
     def dense(self, lane: int) -> Floats:
         """Return a lane's dense states, (instants reached, width)."""
-        width = self.bundle.sample_rows.shape[2]
+        width = self.bundle.kernel.row.width
         return np.concatenate([np.zeros((0, width)), *self.rows[lane]])
 
     def values(self, columns: NDArray[np.int64]) -> Floats:
         """Return channels of lanes 1 to 7, (7, instants, columns); not a number: not reached."""
-        found = np.full((LANES - 1, len(self.instants.index), len(columns)), np.nan)
-        for lane in range(1, LANES):
+        found = np.full((BUNDLE - 1, len(self.instants.index), len(columns)), np.nan)
+        for lane in range(1, BUNDLE):
             rows = self.dense(lane)
             found[lane - 1, : len(rows)] = self.bundle.observe(lane, rows, columns)
         return found

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.tangents import Tangents
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.kernels.loop.tangent import tangent_length
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
 
@@ -51,38 +51,41 @@ class Windows:
         """Start windows from the tightest companion's states, as far as it came."""
         kernel = companions.bundle.kernel
         self.bundle = Bundle(kernel, watch=False, tangents=tangents)
-        self.attempts = int(min(max(SHARE * companions.attempts(RUN), FEWEST), MOST))
-        self.grown = np.zeros(LANES)
-        self.aligned = np.full((2, LANES), np.nan)
+        self.attempts = int(min(max(SHARE * companions.bundle.lane(RUN).attempts, FEWEST), MOST))
+        self.grown = np.zeros(BUNDLE)
+        self.aligned = np.full((2, BUNDLE), np.nan)
         plain = replace(problem, output_step=problem.duration, samples=0, sections=0)
         rows = companions.dense(TIGHTEST)
         index = companions.instants.index
-        wanted = [index.searchsorted(companions.instants.last * k // LANES) for k in range(LANES)]
-        drivers, joints = len(kernel.drivers), len(kernel.play)
+        wanted = [index.searchsorted(companions.instants.last * k // BUNDLE) for k in range(BUNDLE)]
         self.bundle.number_like(companions.bundle, RUN, problem.scene)
         for lane, row in enumerate(rows[i] for i in wanted if i < len(rows)):
-            state, contacts = np.split(row[2 + 2 * drivers :], [kernel.states])
-            contacts = contacts.reshape(joints, 2)
-            start = LaneStart(state, contacts[:, 0] > 0.0, contacts[:, 1], int(row[0]), row[1])
+            start = LaneStart.at_row(row, kernel.row)
             self.bundle.load(lane, replace(plain, start=start), like=0)
 
     @property
     def times(self) -> Floats:
         """Simulated time that each lane has reached, s."""
-        return np.array([self.bundle.time(lane) for lane in range(LANES)])
+        return np.array([self.bundle.lane(lane).time for lane in range(BUNDLE)])
 
     def advance(self, budget: int) -> bool:
         """Make some attempts; whether more are to be made."""
         aligning = math.ceil(ALIGNING * self.attempts)
         goal = aligning if self.bundle.attempts < aligning else self.attempts
-        running = self.bundle.advance(min(budget, goal - self.bundle.attempts))
-        for lane in range(LANES):
-            for grown in self.bundle.growth(lane)[:, 1]:  # one by one: a sum depends on slices
-                self.grown[lane] += grown
+        running = self._grow(min(budget, goal - self.bundle.attempts))
+        while self.bundle.behind:  # a window is so many attempts, of all lanes alike
+            running = self._grow(self.bundle.behind)
         if self.bundle.attempts == aligning:
-            still = self.bundle.counters[Counter.STATUS] == Status.RUNNING
+            still = self.bundle.runs["status"] == Status.RUNNING
             self.aligned = np.where(still, [self.times, self.logarithms], np.nan)
         return running > 0 and self.bundle.attempts < self.attempts
+
+    def _grow(self, budget: int) -> int:
+        running = self.bundle.advance(budget)
+        for lane in range(BUNDLE):
+            for grown in self.bundle.growth(lane)[:, 1]:  # one by one: a sum depends on slices
+                self.grown[lane] += grown
+        return running
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes."""
@@ -101,14 +104,14 @@ class Windows:
     @property
     def logarithms(self) -> Floats:
         """Logarithm of how much each tangent has grown."""
-        slots, work = self.bundle.slots, self.bundle.work
-        lengths = [tangent_length(lane, slots, work) for lane in range(LANES)]
+        lanes = [self.bundle.lane(lane) for lane in range(BUNDLE)]
+        lengths = [tangent_length(lane.index, lane.places[0], lane.work) for lane in lanes]
         with np.errstate(divide="ignore"):
             return self.grown + np.log(lengths)
 
     def exponent(self) -> Exponent | None:
         """Return what the windows say; none where there is no tangent, or no time to follow it."""
-        status = self.bundle.counters[Counter.STATUS]
+        status = self.bundle.runs["status"]
         sound = (status == Status.RUNNING) | (status == Status.DONE)
         spans, growth = [self.times, self.logarithms] - self.aligned
         used = sound & (spans > 0.0) & np.isfinite(growth)

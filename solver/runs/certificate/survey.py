@@ -12,7 +12,7 @@ from jointplay.records.channel import Channel
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import SAMPLES
 from jointplay.solver.runs.certificate.certificate import Certificate, certify
 from jointplay.solver.runs.certificate.companions import RUN, Companions
 from jointplay.solver.runs.certificate.growth import Windows
@@ -27,7 +27,8 @@ class Survey:
         self.bundle, self.problem = bundle, problem
         self.tangents = compile_tangents(bundle.kernel)
         self.companions = Companions.beside(bundle, problem)
-        self.violation = Violation(problem.scene) if formulation == "lagrange" else None
+        lagrange = formulation == "lagrange"
+        self.violation = Violation(problem.scene, bundle.kernel.row) if lagrange else None
         self.windows: Windows | None = None
         self.goes_on = True
         """Whether there is something left to compute."""
@@ -39,7 +40,7 @@ class Survey:
 
     def advance(self, budget: int) -> None:
         """Make at most so many attempts: of trajectory and companions, then of windows."""
-        if self.bundle.counters[Counter.STATUS, RUN] == Status.RUNNING:
+        if self.bundle.lane(RUN).running:
             self._follow(budget)
             return
         self.bundle.advance(0)  # its rows have been handed out
@@ -57,8 +58,7 @@ class Survey:
         self.bundle.advance(self.companions.allowance(budget))
         self.companions.collect()
         if self.violation is not None:
-            count = self.bundle.counters[Counter.SAMPLE_ROWS, RUN]
-            self.violation.look(self.bundle.sample_rows[RUN, :count])
+            self.violation.look(self.bundle.rows(SAMPLES, RUN))
         return self.bundle.attempts - before
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:

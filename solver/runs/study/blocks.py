@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from itertools import accumulate, pairwise
 
-LANES = 8
-"""Points, or chains, that run side by side."""
+from jointplay.solver.kernels.layout import BUNDLE
+
 MOST_POINTS = 64
-"""Of a block without continuation: eight octets."""
+"""Points of a block without continuation: eight bundles."""
 BLOCKS = 8
 """That a study is cut into while its blocks are smaller than that."""
 
@@ -19,13 +19,13 @@ Blocks = tuple[tuple[int, int], ...]
 
 
 def independent_blocks(points: int) -> Blocks:
-    """Return (first, count) of blocks of whole octets, alike within one; the last may be shorter.
+    """Return (first, count) of blocks of whole bundles, alike within one; the last may be shorter.
 
     The longer ones come first, so that workers finish at about the same time.
     """
-    octets = -(-points // LANES)
-    count = min(octets, max(BLOCKS, -(-octets * LANES // MOST_POINTS)))
-    ends = [LANES * part.stop for part in segments(octets, count)]
+    bundles = -(-points // BUNDLE)
+    count = min(bundles, max(BLOCKS, -(-bundles * BUNDLE // MOST_POINTS)))
+    ends = [BUNDLE * part.stop for part in segments(bundles, count)]
     return tuple((first, min(end, points) - first) for first, end in pairwise([0, *ends]))
 
 
@@ -67,7 +67,7 @@ def chained_blocks(chains: Chains, values: int) -> Blocks:
     per_direction = len(chains) // directions
     for direction in range(directions):
         own = chains[direction * per_direction : (direction + 1) * per_direction]
-        for begin in range(0, per_direction, LANES):
-            group = own[begin : begin + LANES]
+        for begin in range(0, per_direction, BUNDLE):
+            group = own[begin : begin + BUNDLE]
             blocks.append((min(map(min, group)), sum(map(len, group))))
     return tuple(blocks)

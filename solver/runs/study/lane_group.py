@@ -12,10 +12,10 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.records.point import PointEnd, SectionRows
 from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.kernel_cache import ready_kernel
-from jointplay.solver.kernels.layout import LANES
+from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.failures import contacts_of, failure_of, peaks_of, statistics_of
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
 from jointplay.solver.runs.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
@@ -49,7 +49,7 @@ class LaneGroup:
         self.study = study
         self.structure = structure
         self.bundle = Bundle(kernel, watch=bool(study.channels), tangents=tangents)
-        self.lanes: list[PointRun | None] = [None] * LANES
+        self.lanes: list[PointRun | None] = [None] * BUNDLE
         self.columns, self.sampled = (
             np.array([kernel.rows.index(channel.name) for channel in chosen], dtype=np.int64)
             for chosen in (study.observables, study.channels)
@@ -64,13 +64,13 @@ class LaneGroup:
     @property
     def steps(self) -> float:
         """Accepted steps of the points under way."""
-        made = self.bundle.table("steps")[0]
-        return float(sum(made[lane] for lane, run in enumerate(self.lanes) if run is not None))
+        busy = (self.bundle.lane(i) for i, run in enumerate(self.lanes) if run is not None)
+        return float(sum(lane.steps for lane in busy))
 
     def under_way(self) -> float:
         """Return how many points the parts of those under way amount to."""
         return sum(
-            min(self.bundle.time(lane) / float(self.study.duration[run.point]), 1.0)
+            min(self.bundle.lane(lane).time / float(self.study.duration[run.point]), 1.0)
             for lane, run in enumerate(self.lanes)
             if run is not None
         )
@@ -78,7 +78,7 @@ class LaneGroup:
     def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
         """Give free lanes waiting points of this structure; return those points."""
         started = []
-        for lane in range(LANES):
+        for lane in range(BUNDLE):
             if self.lanes[lane] is not None:
                 continue
             fitting = (run for run in waiting if self.study.structure[run.point] == self.structure)
@@ -100,11 +100,11 @@ class LaneGroup:
             if run is None:
                 continue
             if run.settled >= 0:
-                run.growth.append(self.bundle.growth(lane).copy())
+                run.growth.append(self.bundle.growth(lane))
             sections += self._rows(lane, run)
             if run.tallies:
                 self._tally(lane, run)
-            status = Status(self.bundle.counters[Counter.STATUS, lane])
+            status = self.bundle.lane(lane).status
             if status == Status.DONE and self._goes_on(lane, run):
                 continue
             if status != Status.RUNNING:
@@ -117,13 +117,12 @@ class LaneGroup:
     def _rows(self, lane: int, run: PointRun) -> list[SectionRows]:
         """Return a lane's new sections, if they are to be recorded."""
         bundle = self.bundle
-        rows = bundle.section_rows[lane, : bundle.counters[Counter.SECTION_ROWS, lane]]
+        rows = bundle.rows(SECTIONS, lane)
         if not len(rows):
             return []
-        times = rows[:, 0] * float(self.study.period[run.point]) + rows[:, 1]
+        times = bundle.kernel.row.times(rows, float(self.study.period[run.point]))
         if run.settled < 0 or (self.study.indicators and run.taken < MOST_SECTIONS):
-            first_state = 2 + 2 * len(bundle.kernel.drivers)
-            run.seen.append(rows[:, first_state : first_state + bundle.kernel.states].copy())
+            run.seen.append(bundle.kernel.row.states(rows).copy())
         if run.settled < 0:
             return []
         values = bundle.observe(lane, rows, self.columns)
@@ -134,11 +133,12 @@ class LaneGroup:
     def _tally(self, lane: int, run: PointRun) -> None:
         """Take a lane's new samples, and the contacts that ended after settling."""
         bundle, study = self.bundle, self.study
-        rows = bundle.sample_rows[lane, : bundle.counters[Counter.SAMPLE_ROWS, lane]]
+        rows = bundle.rows(SAMPLES, lane)
         if len(rows):
             take_samples(study, run, bundle.observe(lane, rows, self.sampled))
-        if run.settled >= 0 and bundle.counters[Counter.IMPACT_ROWS, lane]:
-            take_contacts(study, run, contacts_of(bundle, lane))
+        contacts = bundle.impacts(lane)
+        if run.settled >= 0 and len(contacts):
+            take_contacts(study, run, contacts)
 
     def _goes_on(self, lane: int, run: PointRun) -> bool:
         """Whether a lane at the end of a leg was given the next one."""
@@ -159,7 +159,7 @@ class LaneGroup:
         run.settled = run.reached
         run.seen = []
         left = float(study.duration[point] - study.settle[point])
-        taken = int(bundle.counters[Counter.SECTION, lane])
+        taken = int(bundle.lane(lane).run["next"][SECTIONS])
         bundle.extend(lane, run.settled * period + left, taken + study.record)
         return True
 
@@ -175,7 +175,7 @@ class LaneGroup:
             run.point,
             failure.code if failure else "",
             failure.detail if failure else "",
-            bundle.time(lane),
+            bundle.lane(lane).time,
             np.array([astuple(peak) for peak in peaks]).reshape(-1, 4),
             self._statistics(lane, run, whole=failure is None),
             {} if failure or not study.indicators else self._indicators(run),

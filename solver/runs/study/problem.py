@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
+from jointplay.solver.kernels.loop.runs import SectionKind
 from jointplay.solver.kernels.loop.start import start_state
-from jointplay.solver.kernels.loop.state import SectionKind
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study

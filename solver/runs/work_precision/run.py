@@ -153,7 +153,7 @@ def _given_up(run: Run, timed: TimedRun | None = None) -> SimulationFailed:
     if timed is None:
         sentence = f"Left out: '{run.method}' was given up at a looser tolerance or a longer step."
         return SimulationFailed("left-out", sentence, 0.0)
-    at = timed.bundle.time(0)
+    at = timed.bundle.lane(0).time
     return SimulationFailed(
         "given-up",
         f"Given up at t = {at:.9g} s after {timed.evaluations} evaluations, many times what the"

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.failures import failure_of, statistics_of
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import SAMPLES as ROWS_OF_SAMPLES
+from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.runs.lane_results import failure_of, statistics_of
 from jointplay.solver.runs.work_precision.plan import Run
 from jointplay.solver.scene.document import Scene
 
@@ -48,12 +49,12 @@ class TimedRun:
     @property
     def steps(self) -> int:
         """Accepted so far."""
-        return int(self.bundle.table("steps")[0, 0])
+        return self.bundle.lane(0).steps
 
     @property
     def fraction(self) -> float:
         """How far it is, 0..1."""
-        return min(self.bundle.time(0) / self.duration, 1.0)
+        return min(self.bundle.lane(0).time / self.duration, 1.0)
 
     def advance(self) -> bool:
         """Make some steps; return whether more are to be made."""
@@ -61,10 +62,9 @@ class TimedRun:
         begun = time.perf_counter()
         running = bundle.advance(BUDGET)
         self.seconds += time.perf_counter() - begun
-        rows = bundle.sample_rows[0, : bundle.counters[Counter.SAMPLE_ROWS, 0]]
-        first = 2 + 2 * len(bundle.kernel.drivers)
-        self._times.append(rows[:, 0] * float(bundle.settings[0, 0]) + rows[:, 1])
-        self._states.append(rows[:, first : first + bundle.kernel.states].copy())
+        rows = bundle.rows(ROWS_OF_SAMPLES, 0)
+        self._times.append(bundle.times(0, rows))
+        self._states.append(bundle.kernel.row.states(rows).copy())
         return bool(running)
 
     def samples(self) -> tuple[Floats, Floats]:
@@ -73,18 +73,17 @@ class TimedRun:
 
     def scales(self) -> Floats:
         """Return (states,) the scene's own scales, which tolerances are relative to."""
-        weights = self.bundle.table("weight0", self.bundle.kernel.states)[:, 0]
-        return np.asarray(1.0 / (self.tolerance * weights))
+        return np.asarray(1.0 / (self.tolerance * self.bundle.lane(0)["weight"]))
 
     def failure(self) -> SimulationFailed | None:
         """Return why it did not come to its end."""
-        if self.bundle.counters[Counter.STATUS, 0] != Status.DONE:
+        if self.bundle.lane(0).status != Status.DONE:
             return failure_of(self.bundle, 0, self.tolerance)
         states = self.samples()[1]
         if len(states) == SAMPLES + 1 and np.isfinite(states).all():
             return None
         sentence = "Its motion grew beyond all numbers. Choose another method or a smaller step."
-        return SimulationFailed("not-finite", sentence, self.bundle.time(0))
+        return SimulationFailed("not-finite", sentence, self.bundle.lane(0).time)
 
     def cost(self) -> dict[str, float]:
         """Return what it cost, and the energy that it lost track of."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.certificate.companions import LADDER, RUN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
 from tests.solver.test_determinism import PROBLEMS, bundle_of
@@ -34,7 +34,7 @@ def followed(budget: int) -> tuple[Bundle, Companions]:
     problem = replace(PROBLEMS[4], duration=1.5, tolerance=1e-6)
     bundle = bundle_of([problem])
     companions = Companions.beside(bundle, problem)
-    while bundle.counters[Counter.STATUS, RUN] == Status.RUNNING or companions.running:
+    while bundle.runs["status"][RUN] == Status.RUNNING or companions.running:
         bundle.advance(companions.allowance(budget))
         companions.collect()
     return bundle, companions
@@ -44,7 +44,7 @@ def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
     bundle, companions = followed(10**6)
     assert companions.instants.octaves == 1
     _, sliced = followed(1700)
-    period = bundle.settings[0, RUN]
+    period = bundle.runs["period"][RUN]
     for lane in companions.rows:
         rows = companions.dense(lane)
         assert rows.tobytes() == sliced.dense(lane).tobytes()
@@ -55,11 +55,11 @@ def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
 
 def test_tighter_companions_take_more_steps_and_looser_ones_fewer() -> None:
     bundle, companions = followed(10**6)
-    steps = [companions.attempts(lane) for lane in (RUN, *range(1, len(LADDER) + 1))]
+    steps = [bundle.lane(lane).attempts for lane in (RUN, *range(1, len(LADDER) + 1))]
     # the ends of the ladder: neighbours differ less than their impacts do, soon not the same ones
     assert steps[1] > steps[0] > steps[-1]
     # fifth order: a quarter of the tolerance takes 4^0.2 = 1.32 times the steps, less where they
     # are at the limit of stability; soon the impacts are not the same ones, which is worth a sixth
     # of the steps either way
     assert 1.05 < steps[1] / steps[0] < 1.55
-    assert (bundle.counters[Counter.STATUS] == Status.DONE).all()
+    assert (bundle.runs["status"] == Status.DONE).all()

@@ -40,11 +40,13 @@ def flown(method: str, steps: int) -> NDArray[np.float64]:
     # tolerance 1: no step is refused
     bundle = Bundle(kernel, [LaneProblem(scene, FLIGHT, 1.0, FLIGHT, 0, 0, 0.0, step=fixed)])
     for name in ("step", "largest_step"):
-        bundle.table(name)[0] = step
+        bundle.lane(0)[name] = step
     bundle.advance(10 * steps)
-    assert bundle.table("steps")[0, 0] == pytest.approx(steps, abs=1)  # rounding may add a sliver
-    assert not bundle.table("mode0", len(kernel.play))[:, 0].any()
-    return bundle.table("y0", kernel.states)[:, 0].copy()
+    assert bundle.lane(0).number("steps") == pytest.approx(
+        steps, abs=1
+    )  # rounding may add a sliver
+    assert not bundle.lane(0)["mode"].any()
+    return bundle.lane(0)["y"].copy()
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -73,7 +75,7 @@ def test_a_landing_that_does_not_converge_is_approached_in_shorter_steps() -> No
     kernel = ready_kernel(scene, "reduced", "bogacki-shampine")
     bundle = Bundle(kernel, [LaneProblem(scene, 0.5, 1e-3, 0.5, 0, 0, 0.0)])
     assert bundle.advance(20_000) == 0
-    assert bundle.time(0) == pytest.approx(0.5)
+    assert bundle.lane(0).time == pytest.approx(0.5)
 
 
 def test_a_method_of_high_order_keeps_its_balance_where_tsitouras_is_refused() -> None:

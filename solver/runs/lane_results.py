@@ -1,29 +1,22 @@
-"""The account of a lane: its extremes, what it cost, its energy ledger, and how it failed."""
+"""Results of a lane: its extremes, what it cost, its energy ledger, and how it failed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from jointplay.records.failure import SimulationFailed
-from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.kernel import LOSSES
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.prescribed import prescribed_peaks
-from jointplay.solver.kernels.loop.state import Counter, Status
+from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.runs.prescribed import prescribed_peaks
 
 
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:
     """Return the extremes of channels so far, in the order of the names."""
-    rows = bundle.kernel.rows
-    records = [
-        bundle.table(f"{block}0", rows.scanned)[:, lane]
-        for block in ("lowest", "lowest_time", "highest", "highest_time")
-    ]
+    rows, at = bundle.kernel.rows, bundle.lane(lane)
+    records = [at[block] for block in ("lowest", "lowest_time", "highest", "highest_time")]
     found = {
         name: Peak(*(float(column[r]) for column in records)) for r, name in enumerate(rows.watched)
     }
@@ -31,30 +24,20 @@ def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]
         found[name] = found[source].scaled(factor, offset)
     unwatched = [name for name in names if name not in found]
     if unwatched:
-        found |= prescribed_peaks(bundle, lane, unwatched, bundle.time(lane))
+        found |= prescribed_peaks(bundle, lane, unwatched, at.time)
     return {name: found[name] for name in names}
 
 
 def statistics_of(bundle: Bundle, lane: int) -> dict[str, Any]:
     """Return steps, rejections, onsets, the smallest step (s) and the energy ledger (J)."""
-    counters = bundle.counters[:, lane]
-    steps = int(bundle.table("steps")[0, lane])
+    at = bundle.lane(lane)
     return {
-        "steps": steps,
-        "rejections": int(counters[Counter.REJECTIONS]),
-        "onsets": int(counters[Counter.ONSETS]),
-        "smallest_step": float(bundle.table("smallest_step")[0, lane]) if steps else None,
+        "steps": at.steps,
+        "rejections": int(at.run["rejections"]),
+        "onsets": int(at.run["onsets"]),
+        "smallest_step": at.number("smallest_step") if at.steps else None,
         "energy": ledger_of(bundle, lane),
     }
-
-
-def contacts_of(bundle: Bundle, lane: int) -> NDArray[np.void]:
-    """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
-    rows = bundle.impact_rows[lane, : bundle.counters[Counter.IMPACT_ROWS, lane]]
-    contacts = np.zeros(len(rows), dtype=IMPACT)
-    for column, name in enumerate(IMPACT.names or ()):
-        contacts[name] = rows[:, column]
-    return contacts
 
 
 def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
@@ -63,11 +46,10 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     The residual is the error of that; the gross work, the sum of all works of single steps without
     their signs, is what it is to be held against.
     """
-    drivers = len(bundle.kernel.drivers)
-    contact, friction, *works = (
-        float(x) for x in bundle.table("total0", LOSSES + drivers)[:, lane]
-    )
-    driver, gross = sum(works), float(bundle.table("gross")[0, lane])
+    at = bundle.lane(lane)
+    totals = at["total"][: LOSSES + len(bundle.kernel.drivers)]
+    contact, friction, *works = (float(total) for total in totals)
+    driver, gross = sum(works), at.number("gross")
     kinetic, potential, stored = (
         float(x) for x in bundle.energy(lane) - bundle.first_energy[:, lane]
     )
@@ -95,10 +77,9 @@ def out_of_time(seconds: float, at: float) -> SimulationFailed:
 
 def failure_of(bundle: Bundle, lane: int, tolerance: float) -> SimulationFailed:
     """Return what stopped a lane that is neither running nor done."""
-    status = Status(bundle.counters[Counter.STATUS, lane])
-    at = bundle.time(lane)
-    step = float(bundle.table("next_step")[0, lane])
-    steps = int(bundle.table("steps")[0, lane])
+    stopped = bundle.lane(lane)
+    status, at, steps = stopped.status, stopped.time, stopped.steps
+    step = stopped.number("next_step")
     if not bundle.kernel.tableau.error:
         return SimulationFailed(
             "fixed-step-too-long",

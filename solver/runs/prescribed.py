@@ -8,8 +8,8 @@ from collections.abc import Callable
 import numpy as np
 
 from jointplay.records.peak import Peak
+from jointplay.solver.kernels.emit.places import TIME
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.state import Setting, row_width
 from jointplay.solver.quantities.extremes import Floats, refine_extreme
 
 INSTANTS_A_PERIOD = 720
@@ -20,20 +20,15 @@ def prescribed_peaks(
     bundle: Bundle, lane: int, names: list[str], reached: float
 ) -> dict[str, Peak]:
     """Return extremes of channels over 0..reached, s; a common period is looked at once."""
-    kernel = bundle.kernel
-    setting = bundle.settings[:, lane]
-    period = float(setting[Setting.PERIOD])
-    common = bool(setting[Setting.COMMON])
+    kernel, at = bundle.kernel, bundle.lane(lane)
+    period, common = float(at.run["period"]), bool(at.run["common"])
     span = min(reached, period) if common else reached
     columns = np.array([kernel.rows.index(name) for name in names], dtype=np.int64)
-    drivers = len(kernel.drivers)
-    width = row_width(drivers, kernel.states, len(kernel.play))
 
     def every(times: Floats) -> Floats:
-        rows = np.zeros((len(times), width))
-        rows[:, 1] = times
-        for k in range(drivers):
-            rows[:, 2 + k] = setting[Setting.FIRST_DRIVER + 2 * k]
+        rows = np.zeros((len(times), kernel.row.width))
+        rows[:, TIME] = times
+        rows[:, kernel.row.phase : kernel.row.wound] = at["driver_start"]
         return bundle.observe(lane, rows, columns)
 
     def only(column: int) -> Callable[[Floats], Floats]:

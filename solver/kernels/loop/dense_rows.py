@@ -1,0 +1,132 @@
+"""Rows of dense state: written for samples and sections, and read again to evaluate channels."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import float64, int64, void
+
+from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, over_lanes
+from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
+from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.periods import due_time
+from jointplay.solver.kernels.loop.runs import Run
+
+
+@kernel()
+def write_row(
+    row: np.ndarray,
+    i: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    source: np.ndarray,
+) -> None:
+    """Write the dense state in column i of `source`, a lane's, as `DenseRow` arranges it."""
+    row[PERIOD] = run.periods
+    row[TIME] = source[at.stage_time, i]
+    for k in range(at.drivers):
+        row[at.row.phase + k] = work[at.phase + k, lane]
+        row[at.row.wound + k] = work[at.wound + k, lane]
+    for k in range(at.states):
+        row[at.row.state + k] = source[at.stage + k, i]
+    for j in range(at.joints):
+        row[at.row.mode + j] = source[at.mode + j, i]
+        row[at.row.impact_rate + j] = source[at.impact_rate + j, i]
+
+
+@kernel()
+def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
+    """Set column i of a work array to a dense state."""
+    target[at.stage_time, i] = row[TIME]
+    for k in range(at.drivers):
+        target[at.phase + k, i] = row[at.row.phase + k]
+        target[at.wound + k, i] = row[at.row.wound + k]
+    for k in range(at.states):
+        target[at.stage + k, i] = row[at.row.state + k]
+    for j in range(at.joints):
+        target[at.mode + j, i] = row[at.row.mode + j]
+        target[at.impact_rate + j, i] = row[at.row.impact_rate + j]
+
+
+@kernel()
+def hand_out(
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    rows: np.ndarray,
+    states_within: LaneFunction,
+) -> bool:
+    """Write the samples and sections inside this step; whether a buffer was too full for them.
+
+    A full buffer postpones the step: the same attempt is made again once there is room.
+    """
+    arrival = work[at.arrival, lane]
+    start, tried = work[at.time, lane], work[at.tried, lane]
+    for kind in range(2):
+        while run.due[kind] <= arrival:
+            count = 0
+            moment = run.due[kind]
+            while count < INSTANTS and moment <= arrival:
+                theta = (moment - start) / tried if tried > 0.0 else 0.0
+                spare[at.theta, count] = min(max(theta, 0.0), 1.0)
+                count += 1
+                moment = due_time(kind, run.next[kind] + count, lane, run, at, work)
+            if run.filled[kind] + count > rows.shape[2]:
+                work[at.accept, lane] = 0.0
+                work[at.next_step, lane] = work[at.step, lane]
+                return True
+            states_within(work, spare, lane)
+            for i in range(count):
+                write_row(rows[kind, lane, run.filled[kind]], i, lane, run, at, work, spare)
+                run.filled[kind] += 1
+            run.next[kind] += count
+            run.due[kind] = moment
+    return False
+
+
+@deferred(void(ADDRESSES, PLACES, WORK, WORK, int64, float64[:, ::1], int64[::1], float64[:, ::1]))
+def observe_rows(
+    addresses: np.ndarray,
+    places: np.ndarray,
+    work: np.ndarray,
+    blank: np.ndarray,
+    lane: int,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    out: np.ndarray,
+) -> None:
+    """Evaluate channels of a lane at rows of dense state, as many at a time as there are lanes.
+
+    Parameters
+    ----------
+    blank : (slots, LANES)
+        Work array of its own.
+    rows : (count, width)
+        As `write_row` wrote them.
+    columns : (channels,)
+        Rows of the channel block.
+    out : (count, channels)
+        In the channels' units.
+    """
+    at = places[0]
+    right_hand_side = over_lanes(addresses[0].right_hand_side)
+    observe = over_lanes(addresses[0].observe)
+    observe_rest = over_lanes(addresses[0].observe_rest)
+    for s in range(at.numbers, at.size):
+        for i in range(LANES):
+            blank[s, i] = work[s, lane]
+    for first in range(0, len(rows), LANES):
+        count = min(LANES, len(rows) - first)
+        for i in range(LANES):
+            read_row(rows[first + min(i, count - 1)], i, at, blank)
+        right_hand_side(blank)
+        observe(blank)
+        observe_rest(blank)
+        for i in range(count):
+            for c in range(len(columns)):
+                out[first + i, c] = blank[at.channel + columns[c], i]

@@ -1,0 +1,76 @@
+"""One lane of a work array, seen by the names of its slots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.emit.tangents import Tangents
+from jointplay.solver.kernels.loop.runs import Status
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Lane:
+    """A lane with its run: ``lane["y"]`` is a view of that block, which can be set."""
+
+    kernel: Kernel
+    tangents: Tangents | None
+    work: Floats
+    """(slots, LANES) of all lanes beside it, too."""
+    index: int
+    """Column of the work array."""
+    run: Any
+    """Record of the lane's run, of type `Run`; its fields can be set by name."""
+
+    @property
+    def places(self) -> NDArray[np.void]:
+        """Named offsets, (1,); see `solver.kernels.emit.places`."""
+        return self.kernel.places if self.tangents is None else self.tangents.places
+
+    def __getitem__(self, name: str) -> Floats:
+        layout = self.kernel.layout if self.tangents is None else self.tangents.layout
+        return self.work[layout.block(name), self.index]
+
+    def __setitem__(self, name: str, value: NDArray[Any] | float) -> None:
+        self[name][:] = value
+
+    def number(self, name: str) -> float:
+        """Return the value of a single slot."""
+        return float(self[name][0])
+
+    @property
+    def status(self) -> Status:
+        """How the lane stands."""
+        return Status(self.run["status"])
+
+    @property
+    def running(self) -> bool:
+        """Whether it has not come to its end."""
+        return bool(self.run["status"] == Status.RUNNING)
+
+    @property
+    def time(self) -> float:
+        """Simulated time that it has reached, s."""
+        return int(self.run["periods"]) * float(self.run["period"]) + self.number("time")
+
+    @property
+    def steps(self) -> int:
+        """Accepted steps."""
+        return int(self.number("steps"))
+
+    @property
+    def attempts(self) -> int:
+        """Steps accepted or rejected: the lane's own, whatever the others do."""
+        return self.steps + int(self.run["rejections"])
+
+    def row(self) -> Floats:
+        """Return its state as a dense row, (1, width)."""
+        clock = np.array([float(self.run["periods"]), self.number("time")])
+        state = (self[name] for name in ("phase", "wound", "y", "mode", "impact_rate"))
+        return np.concatenate([clock, *state])[None]

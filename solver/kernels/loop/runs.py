@@ -1,0 +1,144 @@
+"""What the driving loop keeps of each lane's run, beside the work array, and what it hands out."""
+
+# mypy: disable-error-code="no-untyped-call"
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numba import float64, from_dtype, types
+from numpy.typing import NDArray
+
+from jointplay.records.impact import IMPACT
+from jointplay.solver.kernels.loop.extreme import SIZE as TABLE_SIZE
+
+
+class Status(IntEnum):
+    """How a lane stands."""
+
+    RUNNING = 0
+    DONE = 1
+    UNDERFLOW = 2
+    STEP_LIMIT = 3
+    ONSET_LOST = 4
+    IDLE = 5
+
+
+class SectionKind(IntEnum):
+    """What makes a Poincare section."""
+
+    CRANK = 0
+    ONSET = 1
+    CROSSING = 2
+
+
+SAMPLES, SECTIONS = 0, 1
+"""Kinds of dense rows; index of the pairs in a run, and of buffers."""
+NO_JOINT = -1
+
+
+class Run:
+    """Type of a lane's record: its clock, what it shall hand out, and what it has counted."""
+
+    status: int
+    """Member of `Status`."""
+    periods: int
+    """Whole periods that have passed."""
+    next: NDArray[np.int64]
+    """Index of the next sample, and of the next section."""
+    stop: NDArray[np.int64]
+    """Index behind the last sample, and behind the last section."""
+    due: NDArray[np.float64]
+    """Local time of the next sample, and of the next section, s."""
+    filled: NDArray[np.int64]
+    """Rows of samples, and of sections, in the buffers."""
+    impacts: int
+    """Contacts in the buffer."""
+    growths: int
+    """Growths of the tangent in the buffer."""
+    rejections: int
+    onsets: int
+    landing: int
+    """Joint on whose onset the step is to end; `NO_JOINT`: none."""
+    landings: int
+    """Attempts at that onset."""
+    period: float
+    """Common period of the drivers, or the scene's time scale, s."""
+    common: int
+    """Whether all drivers repeat after `period`."""
+    turning: int
+    """Whether all drivers turn; otherwise one slides."""
+    duration: float
+    """s."""
+    output_step: float
+    """s."""
+    smallest_step: float
+    """A step below it ends the run, s."""
+    pace_time: float
+    """Time at the last check of the pace, s."""
+    section_kind: int
+    """Member of `SectionKind`."""
+    section_place: int
+    """Joint with play, or row of the channel block, that events are of."""
+    section_offset: float
+    """Local time of sections at a crank angle, s."""
+    section_value: float
+    section_sense: float
+    """1: crossings from below count; -1: from above."""
+    section_from: float
+    """Time from which events count, s."""
+
+
+PAIRS = ("next", "stop", "due", "filled")
+DTYPE = np.dtype(
+    [
+        (
+            name,
+            np.float64 if kind == "float" or name == "due" else np.int64,
+            (2,) if name in PAIRS else (),
+        )
+        for name, kind in Run.__annotations__.items()
+    ]
+)
+RUNS = from_dtype(DTYPE)[::1]
+"""How kernels take the records of all lanes."""
+
+GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)])
+"""Growth of a tangent: end of its time, s, and logarithm of the factor."""
+
+
+class Buffers(NamedTuple):
+    """What the loop writes for Python to read, by lane; and room for it to compute in."""
+
+    rows: NDArray[np.float64]
+    """Dense rows of samples and of sections, (2, lanes, capacity, width)."""
+    impacts: NDArray[np.void]
+    """Contacts that ended, (lanes, capacity) of `IMPACT`."""
+    growths: NDArray[np.void]
+    """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
+    table: NDArray[np.float64]
+    """See `solver.kernels.loop.extreme`."""
+
+    @classmethod
+    def of(cls, lanes: int, capacity: int, width: int, *, tangents: bool) -> Buffers:
+        """Return empty buffers."""
+        return cls(
+            np.zeros((2, lanes, capacity, width)),
+            np.zeros((lanes, capacity), IMPACT),
+            np.zeros((lanes, capacity if tangents else 0), GROWTH),
+            np.zeros(TABLE_SIZE),
+        )
+
+
+BUFFERS = types.NamedTuple(
+    [
+        float64[:, :, :, ::1],
+        from_dtype(IMPACT)[:, ::1],
+        from_dtype(GROWTH)[:, ::1],
+        float64[::1],
+    ],
+    Buffers,
+)
+"""How kernels take them."""
