@@ -14,12 +14,6 @@ from jointplay.service.problems.kinds import INVALID_REQUEST
 from jointplay.solver.kinds import KINDS, any_job
 
 _REFERENCE = "#/components/schemas/{model}"
-_UNMENTIONED: dict[str, Any] = {
-    "JobDocument": any_job(),
-    "BatchDocument": BatchDocument,
-    "ProblemDocument": ProblemDocument,
-}
-"""What no endpoint's signature mentions: bodies that we parse, and problems."""
 
 
 def described(app: FastAPI) -> Callable[[], dict[str, Any]]:
@@ -42,7 +36,13 @@ def described(app: FastAPI) -> Callable[[], dict[str, Any]]:
 
 
 def _add_schemas(schemas: dict[str, Any]) -> None:
-    for name, described_type in _UNMENTIONED.items():
+    """Add what no endpoint's signature mentions: bodies that we parse, and problems."""
+    unmentioned = {
+        "JobDocument": any_job(),
+        "BatchDocument": BatchDocument,
+        "ProblemDocument": ProblemDocument,
+    }
+    for name, described_type in unmentioned.items():
         schema = TypeAdapter(described_type).json_schema(ref_template=_REFERENCE)
         for part, definition in schema.pop("$defs", {}).items():
             schemas.setdefault(part, definition)

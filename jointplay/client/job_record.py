@@ -43,6 +43,11 @@ class JobRecord:
         return self.state in TERMINAL_STATES
 
     @property
+    def is_study(self) -> bool:
+        """Whether it has points, and not one history."""
+        return "history" not in self.links
+
+    @property
     def scene_name(self) -> str:
         """Name of the preset, or of the scene that was given whole."""
         scene = self.job["scene"]
@@ -59,7 +64,7 @@ class JobRecord:
     def done_so_far(self) -> str:
         """How far it is, in words: simulated time, or of a study the part of all its points."""
         done = f"{self.progress.fraction:.0%}"
-        return done if self.kind != "simulate" else f"t = {self.progress.time:.4g} s ({done})"
+        return done if self.is_study else f"t = {self.progress.time:.4g} s ({done})"
 
     def to_document(self) -> dict[str, Any]:
         """Return the job as JSON takes it."""

@@ -37,7 +37,7 @@ class ReadableJob(JobRecord):
     @property
     def history(self) -> "xr.Dataset":
         """Of a simulation: all channels over the samples, read from the store as they are used."""
-        tables.insist(self, "history", "simulate")
+        tables.insist(self, "history", "history")
         return self.open()
 
     def open(self, group: str = "") -> "xr.Dataset":
@@ -130,7 +130,7 @@ class ReadableJob(JobRecord):
         sections
             First section of each point, and the one before which to end; all if None.
         """
-        tables.insist(self, "points", *tables.STUDIES)
+        tables.insist_on_points(self)
         return self.results.study(_listed(observables), _listed(channels), sections)
 
     @property

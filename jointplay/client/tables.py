@@ -16,21 +16,25 @@ if TYPE_CHECKING:
 
     from jointplay.client.readable_job import ReadableJob
 
-STUDIES: Final = ("bifurcation", "sweep", "poincare", "ensemble")
 _EXTREMES: Final = ("minimum", "minimum_time", "maximum", "maximum_time")
 
 
-def insist(job: "ReadableJob", what: str, *kinds: str) -> None:
-    """Raise `NotFound` if jobs of this kind have no such results."""
-    if job.kind not in kinds:
+def insist(job: "ReadableJob", what: str, *results: str) -> None:
+    """Raise `NotFound` if jobs of this kind have none of these results."""
+    if not job.links.keys() & {*results}:
         sentence = f"Job {job.id} is of kind {job.kind} and has no {what}."
         raise NotFound(sentence, status=404, problem="wrong-kind")
 
 
+def insist_on_points(job: "ReadableJob") -> None:
+    """Raise `NotFound` if jobs of this kind have no points with values."""
+    insist(job, "points", *(("sweep", "poincare") if job.is_study else ()))
+
+
 def sections(job: "ReadableJob") -> "pd.DataFrame":
     """Return channels at the Poincare sections."""
-    insist(job, "sections", "simulate", *(kind for kind in STUDIES if kind != "sweep"))
-    if job.kind == "simulate":
+    insist(job, "sections", "poincare")
+    if not job.is_study:
         found = job.results.sections(None)
         units = {"time": "s"} | {name: one.unit for name, one in found.channels.items()}
         columns = {"time": found.time} | {name: found[name] for name in found.channels}
@@ -47,8 +51,8 @@ def sections(job: "ReadableJob") -> "pd.DataFrame":
 
 def peaks(job: "ReadableJob") -> "pd.DataFrame":
     """Return signed extremes with their times."""
-    insist(job, "extremes", "simulate", "sweep")
-    if job.kind == "simulate":
+    insist(job, "extremes", "peaks", "sweep")
+    if not job.is_study:
         found = job.results.peaks()
         table: dict[str, Any] = {"unit": [peak.unit for peak in found.values()]}
         for name in _EXTREMES:
@@ -72,7 +76,7 @@ def peaks(job: "ReadableJob") -> "pd.DataFrame":
 
 def impacts(job: "ReadableJob") -> "pd.DataFrame":
     """Return the contacts of the clearance joints."""
-    insist(job, "impacts", "simulate")
+    insist(job, "impacts", "impacts")
     found = job.results.impacts()
     columns = {name: getattr(found, name) for name in ("joint", *IMPACT_UNITS)}
     return _table(columns, IMPACT_UNITS).rename_axis("impact")
@@ -80,9 +84,9 @@ def impacts(job: "ReadableJob") -> "pd.DataFrame":
 
 def points(job: "ReadableJob") -> "pd.DataFrame":
     """Return what has one value a point."""
-    insist(job, "points", *STUDIES)
+    insist_on_points(job)
     # one section of each: they are not in this table
-    study = job.results.study(None, None, None if job.kind == "sweep" else (0, 1))
+    study = job.results.study(None, None, None if "sweep" in job.links else (0, 1))
     columns: dict[str, Any] = {**_values(study)}
     columns["status"] = [PointStatus(code).name for code in study.status]
     failures = study.failures

@@ -85,7 +85,7 @@ def _form_of(path: Path) -> Form:
 
 
 def _run(name: str, job: "Job") -> _Run:
-    if job.kind != "simulate":
+    if job.is_study:
         raise Stopped(Exit.BAD_INPUT, f"{name} is a {job.kind}; compare simulations.")
     outputs = [one["name"] for one in job.job["scene"].get("outputs", [])]
     return _Run(name, job, outputs, job.results.peaks())

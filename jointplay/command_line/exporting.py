@@ -50,12 +50,12 @@ class Text(NamedTuple):
 
 def text_of(job: "Job", asked: Asked) -> Text:
     """Return the text of a job's table."""
-    known = _OF_SIMULATIONS if job.kind == "simulate" else _OF_STUDIES
+    known = _OF_STUDIES if job.is_study else _OF_SIMULATIONS
     if asked.table is not None and asked.table not in known:
-        what = "a simulation" if job.kind == "simulate" else "a study"
+        what = "a study" if job.is_study else "a simulation"
         line = f"--table {asked.table}: {what} has {', '.join(known)}."
         raise Stopped(Exit.BAD_INPUT, line)
-    if job.kind != "simulate":
+    if job.is_study:
         return _study(job, asked)
     if asked.table in ("peaks", "impacts"):
         return _rows(job, asked)

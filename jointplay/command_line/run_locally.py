@@ -101,7 +101,7 @@ def run(
             compute(admission, output, processes, report)
         job = load(output)
         told: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None}
-        if job.kind == "accuracy-study":
+        if "accuracy" in job.links:
             told |= _of_accuracy(job, output, as_json)
         elif isinstance(admission, Study):
             told |= _of_study(job, output, as_json)

@@ -63,9 +63,9 @@ def _results(job: "Job") -> dict[str, Any]:
     found: dict[str, Any] = {"statistics": None, "peaks": None, "points": None}
     found["accuracy"] = None
     try:
-        if job.kind == "accuracy-study":
+        if "accuracy" in job.links:
             found["accuracy"] = job.accuracy
-        elif job.kind != "simulate":
+        elif job.is_study:
             found["points"] = job.study(sections=(0, 1))
         elif job.is_finished:
             found["statistics"] = job.statistics

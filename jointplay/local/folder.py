@@ -59,11 +59,22 @@ def job_document(folder: Path) -> dict[str, Any]:
         "activity": None,
         "attempt": 1,
         "expires": None,
-        "links": {},
+        "links": dict.fromkeys(_results_of(source), str(store_in(folder))),
         "job": job,
         "solver_version": attributes.get("solver_version"),
         **_outcome_in(folder, job, complete=source.complete),
     }
+
+
+def _results_of(source: "ResultReader | StudyReader") -> list[str]:
+    """Return the names of the results that a store holds, as a service has them."""
+    from jointplay.storage.studies import StudyReader
+
+    if not isinstance(source, StudyReader):
+        return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]
+    if "runs" in source.attributes:
+        return ["accuracy"]
+    return ["poincare"] if source.record else ["sweep"]
 
 
 def _outcome_in(folder: Path, job: dict[str, Any], *, complete: bool) -> dict[str, Any]:

@@ -27,7 +27,9 @@ class JobQuery(PageQuery):
 
     state: JobState | None = Field(default=None, description="Only jobs in this state.")
     kind: str | None = Field(
-        default=None, description="Only jobs of this kind.", json_schema_extra={"enum": [*KINDS]}
+        default=None,
+        description="Only jobs of this kind.",
+        json_schema_extra=lambda schema: schema.update(enum=[*KINDS]),
     )
     label: str | None = Field(
         default=None, max_length=200, description="Only jobs with exactly this label."

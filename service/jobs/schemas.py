@@ -6,7 +6,8 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.job import ErrorClass
-from jointplay.service.jobs.results_of_kinds import RESULTS
+from jointplay.service.jobs.results_of_kinds import results_of
+from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import Job, JobState
 
 SECONDS: dict[str, Any] = {"unit": "s"}
@@ -38,12 +39,10 @@ class JobError(BaseModel):
 
 
 class JobResource(BaseModel):
-    """One job. While a simulation is not finished its results answer 409; studies can be read."""
+    """One job. Its results can be read while it runs, as far as they are committed."""
 
     id: str
-    kind: str = Field(
-        description="simulate, bifurcation, sweep, poincare, ensemble or accuracy-study."
-    )
+    kind: str = Field(description="The kind of the job.", examples=[*KINDS])
     label: str | None
     batch: str | None = Field(description="Id of the batch that the job belongs to.")
     state: JobState
@@ -119,7 +118,7 @@ def _links(job: Job) -> dict[str, str]:
     if job.batch is not None:
         links["batch"] = f"/v1/batches/{job.batch}"
     lacking = {"certificate"} if job.spec.get("certificate") is False else set()
-    return links | {name: f"{base}/{name}" for name in RESULTS[job.kind] if name not in lacking}
+    return links | {name: f"{base}/{name}" for name in results_of(job) if name not in lacking}
 
 
 def moment(epoch_seconds: float) -> datetime:

@@ -126,8 +126,7 @@ RESULTS_NOT_READY = Kind(
     "results-not-ready",
     409,
     "There are no results yet",
-    "Ask GET /v1/jobs/{id} until its state is succeeded, failed or cancelled; studies can be read "
-    "as soon as they run.",
+    "Ask again in a moment: results can be read as soon as the job runs and has committed some.",
 )
 BODY_TOO_LARGE = Kind(
     "body-too-large",

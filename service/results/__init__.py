@@ -1,1 +1,1 @@
-"""``/v1/jobs/{id}/...``: what a finished job computed."""
+"""``/v1/jobs/{id}/...``: results, as far as the job has committed them."""

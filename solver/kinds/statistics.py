@@ -3,25 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from typing import Literal
+from typing import Annotated
 
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kinds.limits import MOST_SAMPLES_OF_STATISTICS, MOST_STATISTICS
+from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.statistics import OF_CONTACTS
+from jointplay.solver.statistics import OF_CONTACTS, STATISTICS
 
-StatisticName = Literal[
-    "mean",
-    "root_mean_square",
-    "standard_deviation",
-    "mean_absolute",
-    "quantile_05",
-    "median",
-    "quantile_95",
-    "impacts",
-    "largest_impact_force",
-    "contact_share",
-]
+StatisticName = Annotated[str, NameIn(STATISTICS)]
 
 
 def statistic_count(names: Sequence[str], channels: int, joints: int) -> int:

@@ -1,17 +1,47 @@
 """Statistics over a stretch of time, kept up while it is computed: flat memory, always one order.
 
-Two families, a file a member: of channels on a uniform grid (`of_channels`), and of the contacts
-of joints with clearance (`of_contacts`). A member takes what became known a few rows at a time, and
-its result has the same bits however the rows were cut.
+One file a member, named by these two rosters: statistics of channels on a uniform grid, and of the
+contacts of joints with clearance. A member takes what became known a few rows at a time, and its
+result has the same bits however the rows were cut.
 """
 
 from __future__ import annotations
 
-from jointplay.records.channel import Channel
-from jointplay.solver.statistics.of_channels import OF_CHANNELS
-from jointplay.solver.statistics.of_contacts import OF_CONTACTS
+from collections import ChainMap
 
-__all__ = ["OF_CHANNELS", "OF_CONTACTS", "Output", "outputs_of"]
+from jointplay.records.channel import Channel
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
+from jointplay.solver.statistics.contact_share import ContactShare
+from jointplay.solver.statistics.contact_statistic import ContactStatistic
+from jointplay.solver.statistics.impact_count import ImpactCount
+from jointplay.solver.statistics.impact_force import LargestImpactForce
+from jointplay.solver.statistics.mean import Mean
+from jointplay.solver.statistics.mean_absolute import MeanAbsolute
+from jointplay.solver.statistics.quantile import Quantile
+from jointplay.solver.statistics.root_mean_square import RootMeanSquare
+from jointplay.solver.statistics.standard_deviation import StandardDeviation
+
+__all__ = ["OF_CHANNELS", "OF_CONTACTS", "STATISTICS", "Grid", "Output", "outputs_of"]
+
+OF_CHANNELS: dict[str, ChannelStatistic] = {
+    "mean": Mean(),
+    "root_mean_square": RootMeanSquare(),
+    "standard_deviation": StandardDeviation(),
+    "mean_absolute": MeanAbsolute(),
+    "quantile_05": Quantile(0.05),
+    "median": Quantile(0.5),
+    "quantile_95": Quantile(0.95),
+}
+OF_CONTACTS: dict[str, ContactStatistic] = {
+    "impacts": ImpactCount(),
+    "largest_impact_force": LargestImpactForce(),
+    "contact_share": ContactShare(),
+}
+STATISTICS: ChainMap[str, ChannelStatistic | ContactStatistic] = ChainMap(
+    OF_CONTACTS,  # type: ignore[arg-type]
+    OF_CHANNELS,  # type: ignore[arg-type]
+)
+"""All of them, those of channels first."""
 
 Output = tuple[str, str]
 """Unit and long name."""

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
-from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
-from jointplay.solver.statistics.of_channels import Grid
+from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, Grid
 
 Floats = NDArray[np.float64]
 SAME = 1e-5

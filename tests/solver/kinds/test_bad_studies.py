@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit
-from jointplay.solver.kinds.statistics import StatisticName
+from jointplay.solver.statistics import STATISTICS
 from tests.solver.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
@@ -29,7 +29,7 @@ def values(**changes: Any) -> dict[str, Any]:
 
 PENDULUM = {"preset": "pendulum"}
 B, S, P, E, A = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE, ACCURACY_STUDY
-EVERY_STATISTIC = list(get_args(StatisticName))
+EVERY_STATISTIC = [*STATISTICS]
 LISTED = {**SWEEP, "grid": None}
 WITHOUT_UNIT = {key: value for key, value in SWEEP.items() if key != "periods"}
 

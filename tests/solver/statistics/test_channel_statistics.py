@@ -8,9 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from jointplay.solver.statistics import OF_CHANNELS
-from jointplay.solver.statistics.of_channels import Grid
-from jointplay.solver.statistics.of_channels.quantile import MOST_KEPT, stride
+from jointplay.solver.statistics import OF_CHANNELS, Grid
+from jointplay.solver.statistics.quantile import MOST_KEPT, stride
 
 PER_PERIOD = 256
 REFERENCES: dict[str, Callable[[np.ndarray], np.ndarray]] = {

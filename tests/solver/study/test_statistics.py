@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 from jointplay.solver.kinds import Admission, admit
-from jointplay.solver.kinds.statistics import StatisticName
 from jointplay.solver.runs import budget
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
@@ -29,10 +28,6 @@ PRESS: dict[str, Any] = {
     "settle": 0.3,
 }
 PERIOD = 0.8
-
-
-def test_the_job_names_every_statistic() -> None:
-    assert list(get_args(StatisticName)) == EVERY
 
 
 @pytest.fixture(scope="module")

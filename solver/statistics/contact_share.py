@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jointplay.solver.statistics.of_contacts.statistic import Contacts, Floats
+from jointplay.solver.statistics.contact_statistic import Contacts, Floats
 
 
 class ContactShare:

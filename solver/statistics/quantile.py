@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.solver.statistics.of_channels.statistic import Floats, Grid
+from jointplay.solver.statistics.channel_statistic import Floats, Grid
 
 MOST_KEPT = 2048
 """Samples kept of each channel: the level of a quantile is then known to 1/2048."""

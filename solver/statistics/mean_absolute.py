@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from jointplay.solver.statistics.of_channels.statistic import Floats, Grid
-from jointplay.solver.statistics.running import add_in_order
+from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order
 
 
 class MeanAbsolute:

@@ -1,4 +1,4 @@
-"""What every statistic of contacts provides."""
+"""Statistics of the contacts of joints with clearance: what every member provides."""
 
 from __future__ import annotations
 
