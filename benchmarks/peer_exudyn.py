@@ -12,14 +12,12 @@ import math
 import sys
 import time
 from collections.abc import Callable
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from jointplay.solver.laws.contact.lankarani_nikravesh import contact_stiffness
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Clearance, Scene
 
 LONGEST_STEP, FIRST_STEP, SHORTEST_STEP = 1e-3, 1e-7, 1e-14
 """s; the first two as other peers have."""
@@ -33,14 +31,14 @@ Law = Callable[[float, float, float, float, float], tuple[float, float, float]]
 UserFunction = Callable[[Any, float, int, Any, Any], list[float]]
 
 
-def bar(press: SimpleNamespace, body: str, first: str, second: str) -> float:
+def bar(press: Scene, body: str, first: str, second: str) -> float:
     """Return how far, m, the second point of a bar is from the first, along its axis."""
     (x1, y1), (x2, y2) = (press.bodies[body].points[point] for point in (first, second))
     assert y1 == y2 == 0.0
     return float(x2 - x1)
 
 
-def drive_of(press: SimpleNamespace, joint: str) -> tuple[Pin, float]:
+def drive_of(press: Scene, joint: str) -> tuple[Pin, float]:
     """Return how the crank at a joint with play carries its pin, and the crank's spin, rad/s."""
     crank, point = press.joints[joint].bearing.split(".")
     for driver in press.drivers.values():
@@ -58,11 +56,11 @@ def drive_of(press: SimpleNamespace, joint: str) -> tuple[Pin, float]:
     return pin, speed
 
 
-def law_of(clearance: SimpleNamespace, crank_spin: float) -> Law:
+def law_of(clearance: Clearance, crank_spin: float) -> Law:
     """Return the force of a joint with play; it keeps the impact rate from call to call."""
     play, bearing = clearance.radial_clearance, clearance.bearing_radius
     journal, turning = bearing - play, bearing * crank_spin
-    stiffness = contact_stiffness(clearance.contact, bearing, play)
+    stiffness = clearance.contact.contact_stiffness(clearance)
     hysteresis = 0.75 * (1.0 - clearance.contact.restitution**2)
     floor, friction = clearance.contact.impact_rate_floor, clearance.friction.coefficient
     static, dynamic = clearance.friction.static_velocity, clearance.friction.dynamic_velocity
@@ -89,7 +87,7 @@ def law_of(clearance: SimpleNamespace, crank_spin: float) -> Law:
     return law
 
 
-def forces_of(press: SimpleNamespace, calls: list[int]) -> UserFunction:
+def forces_of(press: Scene, calls: list[int]) -> UserFunction:
     """Return the generalised forces of both contacts as a user function that counts its calls."""
     sine, cosine = math.sin, math.cos
     (pin_a, spin_a), (pin_b, spin_b) = drive_of(press, "A"), drive_of(press, "B")
@@ -121,7 +119,7 @@ def forces_of(press: SimpleNamespace, calls: list[int]) -> UserFunction:
     return forces
 
 
-def plant(exudyn: Any, system: Any, press: SimpleNamespace, calls: list[int], start: Any) -> Any:
+def plant(exudyn: Any, system: Any, press: Scene, calls: list[int], start: Any) -> Any:
     """Put the press into a system as a tree that starts in our state; return its node."""
     items, count = exudyn.itemInterface, len(CARRIED_AT)
     position, speed = linked(start, -1.0).reshape(2, count)

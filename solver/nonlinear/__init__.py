@@ -1,8 +1,8 @@
-"""What kind of motion is it, and how sure are we?  Works on any flow, any map, any series.
+"""Nonlinear analysis of motions: kind of motion, exponents, periods, each with its error.
 
-Nothing here knows mechanisms: growth factors, sections and plain functions come in, numbers with
-errors go out. Every result is a function of its input alone; where chance is used, the seed is an
-argument. The way through the folder:
+Independent of mechanisms: growth factors and sections come in, numbers with errors go out. Every
+result is a function of its input alone; where chance is used, the seed is an argument. The way
+through the folder:
 
 1. `settling`: has the motion forgotten its start? `Settling` takes sections as they are computed.
 2. On the sections of the settled motion
@@ -11,15 +11,14 @@ argument. The way through the folder:
    - `zero_one`: `zero_one_test`, K near 0 for regular and near 1 for chaotic motion;
    - `spectrum`: `power_spectrum`, lines or a continuum.
 3. `lyapunov`: `exponent_from_growth` turns the growth of a tangent vector, or of the distance to a
-   companion, into the largest exponent. `tangent_exponent`, `companion_exponent` and `map_exponent`
-   do the whole for a `flow.Flow`, events and all, or a map.
+   companion, into the largest exponent.
 4. `verdict`: `decide` weighs them: periodic, quasi-periodic, chaotic, or undecided and why.
 
 Numbers with errors are `estimate.Estimate`; what an error means is said there and, for means of
 correlated numbers, in `batch_means`. The logistic map at r = 3.9, from the start:
 
 >>> import numpy as np
->>> from jointplay.solver.nonlinear.lyapunov import map_exponent
+>>> from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 >>> from jointplay.solver.nonlinear.recurrence import recurrence_period
 >>> from jointplay.solver.nonlinear.verdict import decide
 >>> from jointplay.solver.nonlinear.zero_one import zero_one_test
@@ -27,9 +26,7 @@ correlated numbers, in `batch_means`. The logistic map at r = 3.9, from the star
 >>> orbit[0] = 0.3
 >>> for i in range(999):
 ...     orbit[i + 1] = 3.9 * orbit[i] * (1.0 - orbit[i])
->>> exponent = map_exponent(
-...     lambda x: 3.9 * x * (1.0 - x), lambda x: 3.9 * (1.0 - 2.0 * x)[:, None], orbit[0], 1000
-... )
+>>> exponent = exponent_from_growth(np.log(np.abs(3.9 * (1.0 - 2.0 * orbit[:, 0]))), 1.0)
 >>> period = recurrence_period(orbit[100:], scale=np.ones(1), tolerance=1e-3)
 >>> decide(exponent, zero_one_test(orbit[100:]), period).name
 'chaotic'

@@ -1,4 +1,4 @@
-"""A number that says how sure it is."""
+"""An estimated number with its standard error."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Estimate:
     Raises
     ------
     ValueError
-        If the error is negative or not a number.
+        If the error is negative or NaN.
     """
 
     value: float
@@ -33,16 +33,12 @@ class Estimate:
             raise ValueError(f"an error is zero, positive or infinite, not {self.error}")
 
     def exceeds(self, bound: float, errors: float = SIGNIFICANT) -> bool:
-        """Say whether the value lies above a bound by more than so many errors."""
+        """Return whether the value lies above a bound by more than `errors` standard errors."""
         return self.value - bound > errors * self.error
 
     def falls_below(self, bound: float, errors: float = SIGNIFICANT) -> bool:
-        """Say whether the value lies below a bound by more than so many errors."""
+        """Return whether the value lies below a bound by more than `errors` standard errors."""
         return bound - self.value > errors * self.error
-
-    def agrees_with(self, expected: float, errors: float = SIGNIFICANT) -> bool:
-        """Say whether the value lies within so many errors of what is expected."""
-        return abs(self.value - expected) <= errors * self.error
 
     def __str__(self) -> str:
         """Return value ± error, the error with two digits and the value to the same place."""
@@ -53,4 +49,4 @@ class Estimate:
 
 
 UNKNOWN = Estimate(math.nan, math.inf)
-"""What a record too short for any estimate yields."""
+"""The estimate from a record that is too short."""

@@ -9,6 +9,7 @@ import pytest
 
 from jointplay.solver.nonlinear.batch_means import mean_estimate, standard_error
 from jointplay.solver.nonlinear.estimate import Estimate
+from tests.solver.nonlinear.exponents import agrees
 
 RECORDS = 300
 
@@ -101,7 +102,7 @@ def test_comparisons_count_errors() -> None:
     assert estimate.exceeds(0.0)
     assert not estimate.exceeds(0.2)
     assert estimate.falls_below(2.0)
-    assert estimate.agrees_with(1.5)
+    assert agrees(estimate, 1.5)
     unknown = Estimate(1.0, math.inf)
     assert not unknown.exceeds(0.0)
     assert not unknown.falls_below(5.0)

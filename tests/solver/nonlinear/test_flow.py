@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from jointplay.solver.nonlinear.flow import Event, Flow, saltation_matrix
+from tests.solver.nonlinear.flow import Event, Flow, saltation_matrix
 from tests.solver.nonlinear.textbook import (
     LORENZ,
     UEDA,

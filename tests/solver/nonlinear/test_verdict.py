@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-from jointplay.solver.nonlinear.lyapunov import map_exponent, tangent_exponent
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import (
@@ -23,6 +22,7 @@ from jointplay.solver.nonlinear.verdict import (
     decide,
 )
 from jointplay.solver.nonlinear.zero_one import zero_one_test
+from tests.solver.nonlinear.exponents import map_exponent, tangent_exponent
 from tests.solver.nonlinear.textbook import (
     HENON,
     UEDA,

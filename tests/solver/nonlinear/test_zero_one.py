@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from jointplay.solver.nonlinear.zero_one import FREQUENCIES, zero_one_test
+from tests.solver.nonlinear.exponents import agrees
 from tests.solver.nonlinear.textbook import (
     CAT,
     HENON,
@@ -175,7 +176,7 @@ def test_the_seed_matters_less_than_the_error(rate: float) -> None:
     assert found[0] == zero_one_test(series, seed=0)
     for estimate in found:
         # the error is the scatter of one frequency, the median of 100 scatters ten times less
-        assert estimate.agrees_with(found[0].value, errors=1.0)
+        assert agrees(estimate, found[0].value, errors=1.0)
 
 
 @settings(max_examples=25)

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.solver.nonlinear.flow import Event, Flow
+from tests.solver.nonlinear.flow import Event, Flow
 
 Floats = NDArray[np.float64]
 
