@@ -5,8 +5,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from jointplay.pace import Pace, duration
-
 _QUIET = 5.0  # s between two plain lines: a log stays readable
 
 
@@ -45,20 +43,69 @@ def _bar(title: str) -> Iterator[Callable[[float, str], None]]:
 @contextmanager
 def _lines(title: str) -> Iterator[Callable[[float, str], None]]:
     last = time.monotonic()
-    told = ""
+    latest = ""
     pace = Pace()
 
     def report(fraction: float, note: str) -> None:
-        nonlocal last, told
+        nonlocal last, latest
         now = time.monotonic()
         pace.saw(fraction)
         left = pace.seconds_left(fraction) if fraction < 1 else None
         line = f"{title}: {fraction:4.0%} {note}".rstrip()
         line += "" if left is None else f", {duration(left)} left"
-        finished = fraction >= 1 and line != told
+        finished = fraction >= 1 and line != latest
         if finished or now - last >= _QUIET:
             sys.stderr.write(line + "\n")
             sys.stderr.flush()
-            last, told = now, line
+            last, latest = now, line
 
     yield report
+
+
+class Pace:
+    """Steps a second and time left, of something whose fraction and count of steps grow.
+
+    Parameters
+    ----------
+    clock
+        Seconds that only grow.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._first: tuple[float, float] | None = None  # time, fraction
+        self._last: tuple[float, int] | None = None  # time, steps
+        self._rate: float | None = None
+
+    def saw(self, fraction: float, steps: int | None = None) -> None:
+        """Take the present fraction, 0 to 1, and the accepted steps so far."""
+        now = self._clock()
+        if self._first is None or fraction <= self._first[1]:
+            self._first = now, fraction  # it has not begun, or began anew
+        if steps is None:
+            return
+        if self._last is not None and steps > self._last[1] and now > self._last[0]:
+            self._rate = (steps - self._last[1]) / (now - self._last[0])
+        if self._last is None or steps != self._last[1]:
+            self._last = now, steps
+
+    def seconds_left(self, fraction: float) -> float | None:
+        """Return the time left at the average pace so far, s; none while that is unknown."""
+        if self._first is None or fraction <= self._first[1]:
+            return None
+        return (1.0 - fraction) * (self._clock() - self._first[0]) / (fraction - self._first[1])
+
+    @property
+    def steps_per_second(self) -> float | None:
+        """Steps a second between the last two reports that had more of them."""
+        return self._rate
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, such as ``1 h 05 min``."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"

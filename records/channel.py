@@ -1,6 +1,7 @@
 """A channel: a named quantity with its SI unit."""
 
-from typing import NamedTuple
+from collections.abc import Iterable
+from typing import Final, NamedTuple
 
 
 class Channel(NamedTuple):
@@ -16,3 +17,11 @@ class Channel(NamedTuple):
     def attributes(self) -> dict[str, str]:
         """Attributes of its array by the CF conventions."""
         return {"units": self.unit, "long_name": self.long_name}
+
+
+TIME: Final = Channel("time", "s", "time")
+
+
+def by_name(channels: Iterable[Channel]) -> dict[str, Channel]:
+    """Return channels by their names, in their order."""
+    return {channel.name: channel for channel in channels}

@@ -19,8 +19,8 @@ import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
 from jointplay.service import problems
 from jointplay.service.estimates.prober import Prober
-from jointplay.service.events.watcher import Watcher
 from jointplay.service.idempotency import InFlight
+from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.openapi import described
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings

@@ -13,9 +13,6 @@ from jointplay.client.errors import (
     ClientError,
     Expired,
     FieldProblem,
-    JobCancelled,
-    JobEnded,
-    JobFailed,
     MissingExtra,
     NotAllowed,
     NotFinished,
@@ -27,10 +24,9 @@ from jointplay.client.errors import (
     TimedOut,
     Unreachable,
 )
-from jointplay.client.estimates import Estimate
-from jointplay.client.job import Job
-from jointplay.client.job_record import JobRecord
-from jointplay.client.picture import Picture
+from jointplay.client.job import Job, JobCancelled, JobEnded, JobFailed
+from jointplay.client.job_record import Estimate, JobRecord
+from jointplay.client.notebook import Picture
 from jointplay.client.results import Impacts, Peak, Results
 from jointplay.client.window import ChannelSeries, Window
 

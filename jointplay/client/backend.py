@@ -1,4 +1,4 @@
-"""Who runs a job: looks after it, and leads to its results."""
+"""Backend of a job: follows and cancels it, and leads to its results; here that of a service."""
 
 from collections.abc import Iterator
 from typing import Any, Protocol
@@ -10,8 +10,8 @@ from jointplay.client.job_record import JobRecord
 from jointplay.client.results import Results
 
 
-class Keeper(Protocol):
-    """What a `Job` asks about itself."""
+class Backend(Protocol):
+    """Operations that a `Job` passes on."""
 
     def results(self, job: JobRecord) -> Results:
         """Return the way to its results."""
@@ -34,7 +34,7 @@ class Keeper(Protocol):
         ...
 
 
-class ServiceKeeper:
+class ServiceBackend:
     """The service that a job was submitted to."""
 
     def __init__(self, connection: Connection) -> None:

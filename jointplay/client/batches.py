@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, Self
 
-from jointplay.client.backend import ServiceKeeper
+from jointplay.client.backend import ServiceBackend
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import FieldProblem, TimedOut
-from jointplay.client.html import html_table
 from jointplay.client.job import Job
+from jointplay.client.notebook import html_table
 
 _INDEX = re.compile(r"^/jobs/(\d+)")
 _SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...
@@ -113,12 +113,12 @@ def jobs_of(
     connection: Connection, path: str, query: Mapping[str, str | None] | None = None
 ) -> Iterator[Job]:
     """Yield the jobs of a list, fetching pages as they are needed."""
-    keeper = ServiceKeeper(connection)
+    backend = ServiceBackend(connection)
     token: str | None = None
     while True:
         page = connection.get(path, {**(query or {}), "page_token": token}).json()
         for document in page["jobs"]:
-            yield Job(document, keeper)
+            yield Job(document, backend)
         token = page["next_page_token"]
         if token is None:
             return

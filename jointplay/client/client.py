@@ -11,12 +11,12 @@ from typing import Any, Concatenate, ParamSpec, Self
 import httpx
 
 from jointplay import jobs as documents
-from jointplay.client.backend import ServiceKeeper
+from jointplay.client.backend import ServiceBackend
 from jointplay.client.batches import Batch, batch_of, counted_from, jobs_of
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError, Refused
-from jointplay.client.estimates import Estimate
 from jointplay.client.job import Job
+from jointplay.client.job_record import Estimate
 
 MOST_JOBS = 10_000
 """Jobs that the service takes in one batch."""
@@ -75,7 +75,7 @@ class Client:
         address = os.environ.get("JOINTPLAY_URL", DEFAULT_URL) if url is None else url
         secret = os.environ.get("JOINTPLAY_KEY") if key is None else key
         self._connection = Connection(address, secret, timeout, transport)
-        self._keeper = ServiceKeeper(self._connection)
+        self._backend = ServiceBackend(self._connection)
 
     def __enter__(self) -> Self:
         return self
@@ -114,7 +114,7 @@ class Client:
             made; by default every call has its own.
         """
         answer = self._connection.post("/v1/jobs", dict(document), idempotency_key)
-        return Job(answer.json(), self._keeper)
+        return Job(answer.json(), self._backend)
 
     def map(self, jobs: Iterable[Mapping[str, Any]], *, label: str = "") -> Iterator[Job]:
         """Queue many jobs at once, and yield each when it and those before it are finished.
@@ -163,7 +163,7 @@ class Client:
 
     def job(self, job_id: str) -> Job:
         """Return a job by its id, as it is now."""
-        return Job(self._connection.get(f"/v1/jobs/{segment(job_id)}").json(), self._keeper)
+        return Job(self._connection.get(f"/v1/jobs/{segment(job_id)}").json(), self._backend)
 
     def jobs(
         self,

@@ -1,10 +1,7 @@
-"""What can go wrong between client and service: one class for each thing to do about it."""
+"""Errors between client and service: one class for each remedy."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from jointplay.client.job import Job
+from typing import NamedTuple
 
 
 class FieldProblem(NamedTuple):
@@ -86,25 +83,3 @@ class NotFinished(Refused):
 
 class TimedOut(ClientError):
     """What was waited for is not finished yet; it goes on."""
-
-
-class JobEnded(ClientError):
-    """A job that was waited for did not succeed.
-
-    Attributes
-    ----------
-    job
-        The job; what it had computed can be read.
-    """
-
-    def __init__(self, sentence: str, job: "Job") -> None:
-        super().__init__(sentence)
-        self.job = job
-
-
-class JobFailed(JobEnded):
-    """The job failed; ``job.error`` says why."""
-
-
-class JobCancelled(JobEnded):
-    """The job was cancelled."""

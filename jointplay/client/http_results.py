@@ -1,21 +1,22 @@
 """Results of a job of a service."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
+from jointplay.client.errors import Refused
 from jointplay.client.job_record import JobRecord
 from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import Window, floats
-from jointplay.client.windows import pieces
-from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run_in_memory import Dataset
 from jointplay.records.study_in_memory import StudyDataset
+
+_TOO_LARGE = "response-too-large"
 
 
 class HttpResults:
@@ -100,16 +101,7 @@ class HttpResults:
         self, channels: Sequence[str] | None, start: float | None, stop: float | None
     ) -> Dataset:
         """Return a window of a simulation, fetched."""
-        window = self.window(channels, start, stop, None)
-        return Dataset(
-            attributes={},
-            channels=[
-                Channel(name, one.unit, one.long_name) for name, one in window.channels.items()
-            ],
-            time=window.time,
-            values={name: one.values for name, one in window.channels.items()},
-            complete=window.complete,
-        )
+        return self.window(channels, start, stop, None).dataset()
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""
@@ -141,7 +133,7 @@ class HttpResults:
         def fetch(start: float | None, stop: float | None) -> dict[str, Any]:
             return self._document(name, {**query, "start": start, "stop": stop})
 
-        return list(pieces(fetch, start, stop, lambda: float(self._job.job["duration"])))
+        return list(_pieces(fetch, start, stop, lambda: float(self._job.job["duration"])))
 
     def _query(self, name: str, **query: Any) -> dict[str, Any]:
         return self._document(name, query)
@@ -158,3 +150,42 @@ def _numbers(peak: Mapping[str, Any]) -> tuple[float, float, float, float]:
 
 def _joined(names: Sequence[str] | None) -> str | None:
     return None if names is None else ",".join(names)
+
+
+def _pieces(
+    fetch: Callable[[float | None, float | None], dict[str, Any]],
+    start: float | None,
+    stop: float | None,
+    end: Callable[[], float],
+) -> Iterator[dict[str, Any]]:
+    """Yield the documents of consecutive windows that together cover ``start`` to ``stop``.
+
+    Parameters
+    ----------
+    fetch
+        Returns the document of a window, both ends included, s.
+    start, stop
+        The whole window, s; None is unbounded.
+    end
+        Returns the last time there can be, s; asked for only if one answer cannot hold all.
+
+    Raises
+    ------
+    Refused
+        The service refuses for another reason, or a window cannot be halved any more.
+    """
+    try:
+        document = fetch(start, stop)
+    except Refused as refusal:
+        if refusal.problem != _TOO_LARGE:
+            raise
+        first = 0.0 if start is None else start
+        last = end() if stop is None else stop
+        middle = first + (last - first) / 2.0
+        following = math.nextafter(middle, math.inf)
+        if not first <= middle < following <= last:
+            raise
+        yield from _pieces(fetch, start, middle, end)
+        yield from _pieces(fetch, following, stop, end)
+    else:
+        yield document

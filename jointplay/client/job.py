@@ -1,19 +1,21 @@
 """`Job`: what became of a job, and its results; the same from a service and from a folder."""
 
 import time
-from collections.abc import Callable, Mapping
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, Self
 
-from jointplay.client.errors import JobCancelled, JobFailed, ResultsNotReady, TimedOut
-from jointplay.client.html import html_table
+from jointplay.client.errors import ClientError, ResultsNotReady, TimedOut
+from jointplay.client.job_record import JobRecord
+from jointplay.client.notebook import html_table
 from jointplay.client.readable_job import ReadableJob
-from jointplay.client.waiting import shown
+from jointplay.progress import Pace
+from jointplay.progress import progress as bar
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from jointplay.client.backend import Keeper
+    from jointplay.client.backend import Backend
 
 
 class Job(ReadableJob):
@@ -27,9 +29,9 @@ class Job(ReadableJob):
     `study`, `results` and figures need neither.
     """
 
-    def __init__(self, document: Mapping[str, Any], keeper: "Keeper") -> None:
-        super().__init__(document, keeper.results)
-        self._keeper = keeper
+    def __init__(self, document: Mapping[str, Any], backend: "Backend") -> None:
+        super().__init__(document, backend.results)
+        self._backend = backend
 
     def __hash__(self) -> int:
         return hash(self.id)  # the record changes, the job stays
@@ -52,7 +54,7 @@ class Job(ReadableJob):
 
     def refresh(self) -> Self:
         """Look at the job once more."""
-        self.renew(self._keeper.look(self))
+        self.renew(self._backend.look(self))
         return self
 
     def open(self, group: str = "") -> "xr.Dataset":
@@ -95,30 +97,30 @@ class Job(ReadableJob):
             The service was lost and did not come back.
         """
         deadline = None if timeout is None else time.monotonic() + timeout
-        with shown(self) if progress else nullcontext(lambda: None) as show:
+        with _shown(self) if progress else nullcontext(lambda: None) as show:
 
-            def tell() -> None:
+            def notify() -> None:
                 show()
                 if report is not None:
                     report(self)
 
             if not self.is_finished:
                 self.refresh()
-            tell()
+            notify()
             if not self.is_finished:
-                self._follow(tell, deadline)
+                self._follow(notify, deadline)
         if check:
             self.check()
         return self
 
-    def _follow(self, tell: Callable[[], None], deadline: float | None) -> None:
-        for _ in self._keeper.follow(self, deadline):
+    def _follow(self, notify: Callable[[], None], deadline: float | None) -> None:
+        for _ in self._backend.follow(self, deadline):
             if not self.is_finished:
-                tell()
+                notify()
         if not self.is_finished:
             raise TimedOut(f"Job {self.id} is still {self.state}; the time to wait is over.")
         self.refresh()
-        tell()
+        notify()
 
     def check(self) -> None:
         """Raise `JobFailed` or `JobCancelled` if the job ended so."""
@@ -130,9 +132,51 @@ class Job(ReadableJob):
 
     def cancel(self) -> Self:
         """Ask for the job to be cancelled; asking again, or too late, changes nothing."""
-        self.renew(self._keeper.cancel(self))
+        self.renew(self._backend.cancel(self))
         return self
 
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""
-        self._keeper.delete(self)
+        self._backend.delete(self)
+
+
+class JobEnded(ClientError):
+    """A job that was waited for did not succeed.
+
+    Attributes
+    ----------
+    job
+        The job; what it had computed can be read.
+    """
+
+    def __init__(self, sentence: str, job: "Job") -> None:
+        super().__init__(sentence)
+        self.job = job
+
+
+class JobFailed(JobEnded):
+    """The job failed; ``job.error`` says why."""
+
+
+class JobCancelled(JobEnded):
+    """The job was cancelled."""
+
+
+@contextmanager
+def _shown(job: JobRecord) -> Iterator[Callable[[], None]]:
+    """Show how far a job is whenever what is yielded is called."""
+    pace = Pace()
+    with bar(job.label or job.id) as report:
+
+        def show() -> None:
+            pace.saw(job.progress.fraction, job.progress.steps)
+            report(job.progress.fraction, job.activity or _note(job, pace))
+
+        yield show
+
+
+def _note(job: JobRecord, pace: Pace) -> str:
+    parts = [job.done_so_far, job.state]
+    if not job.is_finished and pace.steps_per_second is not None:
+        parts.append(f"{pace.steps_per_second:.3g} steps/s")
+    return ", ".join(parts)

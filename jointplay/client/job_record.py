@@ -1,14 +1,38 @@
-"""What is known of a job: the service's description of it, as it was last seen."""
+"""A job as the service describes it: its record as it was last seen, and its estimated cost."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from datetime import datetime
-from typing import Any
+from typing import Any, Self
 
 from jointplay.client.errors import ClientError
 from jointplay.records.job import JobError, Progress
 
 TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Expected cost of a job on the machine of the service.
+
+    ``seconds`` of one core, accepted ``steps`` of the solver, ``bytes`` on the disk; ``blocks``
+    can be computed at the same time.  ``exact``: the whole job was computed for it.  ``failure``
+    says why it will end early, ``cached`` that an identical job is there already.
+    """
+
+    seconds: float
+    steps: int
+    bytes: int
+    points: int
+    blocks: int
+    exact: bool
+    failure: str | None
+    cached: bool
+
+    @classmethod
+    def from_document(cls, document: dict[str, Any]) -> Self:
+        """Read the service's JSON."""
+        return cls(**{field.name: document[field.name] for field in fields(cls)})
 
 
 @dataclass

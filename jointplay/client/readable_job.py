@@ -1,4 +1,4 @@
-"""What a job gives, as notebooks want it: arrays, tables, windows and pictures."""
+"""A job's results for notebooks: arrays, tables, windows and pictures."""
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.client import tables
 from jointplay.client.job_record import JobRecord, read_job
-from jointplay.client.picture import Picture
+from jointplay.client.notebook import Picture
 from jointplay.client.results import Form, Results
 from jointplay.client.stored import open_group
 from jointplay.client.window import Window
@@ -49,7 +49,7 @@ class ReadableJob(JobRecord):
         if group in self._opened:
             return self._opened[group]
         final = self.is_finished
-        found = open_group(self, group)
+        found = open_group(self, self.results.store(), group)
         if final:
             self._opened[group] = found
         return found
@@ -81,22 +81,22 @@ class ReadableJob(JobRecord):
 
         Of a study one row for each section of each point, with the values of the parameters.
         """
-        return tables.sections(self)
+        return tables.sections(self, self.results)
 
     @property
     def peaks(self) -> "pd.DataFrame":
         """Signed extremes with their times, one row a channel; of a sweep of each point."""
-        return tables.peaks(self)
+        return tables.peaks(self, self.results)
 
     @property
     def impacts(self) -> "pd.DataFrame":
         """Of a simulation: contacts in order of release, one row each."""
-        return tables.impacts(self)
+        return tables.impacts(self, self.results)
 
     @property
     def points(self) -> "pd.DataFrame":
         """Of a study: values, status, verdict, indicators and statistics, one row a point."""
-        return tables.points(self)
+        return tables.points(self, self.results)
 
     @property
     def statistics(self) -> dict[str, Any]:

@@ -3,14 +3,14 @@
 from typing import TYPE_CHECKING
 
 from jointplay.client.errors import MissingExtra, NotFound, ResultsNotReady
+from jointplay.client.job_record import JobRecord
+from jointplay.client.results import Store
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from jointplay.client.readable_job import ReadableJob
 
-
-def open_group(job: "ReadableJob", group: str) -> "xr.Dataset":
+def open_group(job: JobRecord, store: Store, group: str) -> "xr.Dataset":
     """Open a group of a job's store; values are read when they are used.
 
     Raises
@@ -22,7 +22,6 @@ def open_group(job: "ReadableJob", group: str) -> "xr.Dataset":
     NotFound
         It has no such group, or ended before it committed anything.
     """
-    store = job.results.store()
     try:
         import xarray as xr
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.channel import Channel
+from jointplay.records.run import Floats
+from jointplay.records.run_in_memory import Dataset
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,18 @@ class Window:
             },
             complete=document["complete"],
             note=document.get("note", ""),
+        )
+
+    def dataset(self) -> Dataset:
+        """Return the window as exports take it."""
+        return Dataset(
+            attributes={"exact": self.exact},
+            channels=[
+                Channel(name, one.unit, one.long_name) for name, one in self.channels.items()
+            ],
+            time=self.time,
+            values={name: one.values for name, one in self.channels.items()},
+            complete=self.complete,
         )
 
     @classmethod

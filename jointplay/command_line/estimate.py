@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from jointplay.pace import duration
+from jointplay.progress import duration
 
 if TYPE_CHECKING:
     from jointplay.client import Estimate

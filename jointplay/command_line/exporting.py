@@ -8,7 +8,7 @@ from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.study_options import listed
 
 if TYPE_CHECKING:
-    from jointplay.client import Job, Window
+    from jointplay.client import Job
     from jointplay.records.run import Source
     from jointplay.records.study import StudySource
 
@@ -60,11 +60,11 @@ def text_of(job: "Job", asked: Asked) -> Text:
     if asked.table in ("peaks", "impacts"):
         return _rows(job, asked)
     if asked.table == "poincare":
-        return _channels(_as_source(job.results.sections(listed(asked.channels))), asked)
+        return _channels(job.results.sections(listed(asked.channels)).dataset(), asked)
     if asked.points is not None:
         window = job.window(listed(asked.channels), asked.start, asked.stop, points=asked.points)
         asked = asked._replace(channels=None, start=None, stop=None)
-        return _channels(_as_source(window), asked)
+        return _channels(window.dataset(), asked)
     source = job.results.source(listed(asked.channels), asked.start, asked.stop)
     return _channels(source, asked)
 
@@ -82,19 +82,6 @@ def point_range(points: int, start: float | None, stop: float | None) -> range:
         line = f"There is no such point; the study has points 0 to {points - 1}."
         raise Stopped(Exit.BAD_INPUT, line)
     return chosen
-
-
-def _as_source(window: "Window") -> "Source":
-    from jointplay.records.channel import Channel
-    from jointplay.records.run_in_memory import Dataset
-
-    return Dataset(
-        attributes={"exact": window.exact},
-        channels=[Channel(name, one.unit, one.long_name) for name, one in window.channels.items()],
-        time=window.time,
-        values={name: one.values for name, one in window.channels.items()},
-        complete=window.complete,
-    )
 
 
 def _channels(source: "Source", asked: Asked) -> Text:

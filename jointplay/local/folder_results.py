@@ -10,11 +10,12 @@ import numpy as np
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import Form, Impacts, Peak, Store
-from jointplay.client.window import ChannelSeries, Floats, Window
+from jointplay.client.window import ChannelSeries, Window
 from jointplay.local.folder import results_in, store_in
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.run import Floats
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
@@ -138,13 +139,13 @@ class FolderResults:
         raise _missing(f"{self._store} is of a study; it has points and no {what}.")
 
 
-def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **told: Any) -> Window:
+def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any) -> Window:
     described = {channel.name: channel for channel in run.channels}
     series = {
         name: ChannelSeries(described[name].unit, described[name].long_name, values)
         for name, values in columns.items()
     }
-    return Window(np.asarray(time, np.float64), series, run.complete, **told)
+    return Window(np.asarray(time, np.float64), series, run.complete, **more)
 
 
 def _chosen(channels: Sequence[str] | None, run: ResultReader) -> list[str]:

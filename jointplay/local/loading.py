@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
 
 
-class FolderKeeper:
-    """Leads to results in a folder; nothing runs any more."""
+class FolderBackend:
+    """Backend of a job in a folder, which has ended."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -51,4 +51,4 @@ def load(folder: Path | str) -> Job:
         There are none.
     """
     path = Path(folder)
-    return Job(job_document(path), FolderKeeper(path))
+    return Job(job_document(path), FolderBackend(path))

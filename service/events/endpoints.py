@@ -9,8 +9,8 @@ from fastapi.responses import StreamingResponse
 
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.events.schemas import JobEvent, JobProgress
-from jointplay.service.events.waiting import WatcherDependency
-from jointplay.service.events.watcher import Watcher
+from jointplay.service.jobs.waiting import WatcherDependency
+from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.problems import kinds, problems
 from jointplay.storage.catalogue import Catalogue, Event, Job
 

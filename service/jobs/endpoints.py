@@ -7,11 +7,11 @@ from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.body import JsonDocument
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
-from jointplay.service.events.waiting import PatienceDependency, WaitQuery
 from jointplay.service.idempotency import Repeatable, RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
 from jointplay.service.jobs.submission import REQUEST_BODY, submit
+from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
 from jointplay.storage.catalogue import Catalogue, Submitted
 from jointplay.storage.settings import Settings

@@ -2,8 +2,12 @@
 
 from typing import Any
 
+import numpy as np
+from fastapi import Response
+from numpy.typing import NDArray
 from pydantic import BaseModel, Field
 
+from jointplay.records.channel import Channel
 from jointplay.records.impact import MEASURED
 
 Values = list[float | None]
@@ -15,6 +19,13 @@ class Series(BaseModel):
     unit: str
     long_name: str = Field(description="What the quantity is, in words.")
     values: Values
+
+    @classmethod
+    def of(cls, channel: Channel, values: NDArray[np.float64]) -> "Series":
+        """Show a column, without validating its numbers."""
+        return cls.model_construct(
+            unit=channel.unit, long_name=channel.long_name, values=values.tolist()
+        )
 
 
 class History(BaseModel):
@@ -154,3 +165,8 @@ class Figures(BaseModel):
     """The figures that can be drawn of a job's results."""
 
     figures: list[FigureLink]
+
+
+def as_json(document: BaseModel) -> Response:
+    """Serialise once, without validating a million numbers of our own; NaN becomes null."""
+    return Response(document.model_dump_json(), media_type="application/json")

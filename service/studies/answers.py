@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.channel import Channel, by_name
 from jointplay.records.point import PointStatus
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
@@ -67,7 +68,7 @@ def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:
     names = channels("channel", query.channel, [one.name for one in store.channels])
     points, following = page(points_of(store, query), 5 * len(names) + _columns(store))
     part = slice(points.start, points.stop)
-    described = {channel.name: channel for channel in store.channels}
+    described = by_name(store.channels)
     peaks = {}
     for name in names:
         found = store.peaks(name)
@@ -97,9 +98,7 @@ def _points(
         "start": points.start,
         "next_start": following,
         "values": {
-            one.name: Series.model_construct(
-                unit=one.unit, long_name=one.long_name, values=store.values[part, column].tolist()
-            )
+            one.name: Series.of(one, store.values[part, column])
             for column, one in enumerate(store.parameters)
         },
         "status": [PointStatus(code).name for code in store.status[part]],
@@ -137,11 +136,7 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
 def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
     meanings = {**OUTPUTS, **store.meanings}
     return {
-        name: Series.model_construct(
-            unit=meanings.get(name, NO_MEANING)[0],
-            long_name=meanings.get(name, NO_MEANING)[1],
-            values=one[part].tolist(),
-        )
+        name: Series.of(Channel(name, *meanings.get(name, NO_MEANING)), one[part])
         for name, one in columns.items()
         if name != VERDICT
     }
@@ -151,8 +146,8 @@ def _rows(
     store: StudyReader, points: range, window: range, names: list[str]
 ) -> dict[str, schemas.Rows]:
     """Return times, under the name "", and observables at sections that were recorded."""
-    described = {one.name: (one.unit, one.long_name) for one in store.observables}
-    described[""] = ("s", "time since the start of the point's run")
+    described = by_name(store.observables)
+    described[""] = Channel("time", "s", "time since the start of the point's run")
     values: dict[str, list[Any]] = {name: [] for name in ("", *names)}
     if len(points) == 1:  # of a long record, only the window is read
         time, columns = store.point_sections(points[0], names, window.start, window.stop)
@@ -164,7 +159,7 @@ def _rows(
             values[name] = list(_recorded(store, points, window, read))
     return {
         name: schemas.Rows.model_construct(
-            unit=described[name][0], long_name=described[name][1], values=rows
+            unit=described[name].unit, long_name=described[name].long_name, values=rows
         )
         for name, rows in values.items()
     }

@@ -1,16 +1,24 @@
-"""``/v1/jobs/{id}/bifurcation``, ``/sweep`` and ``/accuracy``: studies, as they grow."""
+"""``/v1/jobs/{id}/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare``, as they grow."""
 
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Response
 
-from jointplay.service.dependencies import NO_PARAMETERS, JobOfThePath, SettingsDependency
-from jointplay.service.jobs.results_of_kinds import insist
-from jointplay.service.problems import kinds, problems
-from jointplay.service.results.as_json import as_json
-from jointplay.service.results.stores import open_study
+from jointplay.service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+)
+from jointplay.service.jobs.results_of_kinds import insist, is_study
+from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.service.results import answers as of_runs
+from jointplay.service.results.negotiation import JSON, Form
+from jointplay.service.results.schemas import Poincare, as_json
+from jointplay.service.results.stores import open_store, open_study
+from jointplay.service.results.tables import AS_FILES, as_file
 from jointplay.service.studies import answers, schemas
-from jointplay.service.studies.queries import BifurcationQuery, SweepQuery
+from jointplay.service.studies.queries import BifurcationQuery, PoincareQuery, SweepQuery
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
 router = APIRouter(
@@ -61,3 +69,36 @@ def show_accuracy(job: JobOfThePath, settings: SettingsDependency) -> Response:
     insist(job, "accuracy")
     found = WorkPrecision.of(open_study(job, settings))
     return as_json(schemas.Accuracy.model_validate(found.document()))
+
+
+@router.get(
+    "/poincare",
+    response_model=Poincare | schemas.Sections,
+    responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
+)
+def show_poincare(
+    job: JobOfThePath,
+    settings: SettingsDependency,
+    catalogue: CatalogueDependency,
+    query: Annotated[PoincareQuery, Query()],
+    form: Form,
+) -> Response:
+    """Return channels at the Poincare sections.
+
+    Of a simulation: once in every period, in a window of time.  Of a study: at the sections that
+    each of its points has recorded so far; start and stop are a range of points.  Accept chooses
+    JSON, or of a simulation CSV, NPZ or a MATLAB file.
+    """
+    insist(job, "poincare")
+    if not is_study(job):
+        found = of_runs.sections(open_store(job, settings, catalogue), query.window_of_time())
+        if form == JSON:
+            return as_json(found)
+        columns = of_runs.columns_of(found)
+        return as_file(form, f"{job.id}-poincare", columns, complete=found.complete)
+    if form != JSON:
+        raise RequestRefused(
+            kinds.NOT_ACCEPTABLE, f"Sections of a study are there as {JSON} and as Zarr."
+        )
+    study = open_study(job, settings)
+    return as_json(answers.sections(study, query.range_of_points(), query.channels))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jointplay.pace import Pace, duration
+from jointplay.progress import Pace, duration
 
 
 class Clock:

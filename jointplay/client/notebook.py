@@ -1,9 +1,22 @@
-"""A figure as it came: bytes of a file that notebooks show."""
+"""Representations in notebooks: small tables, and figures as pictures."""
 
+from collections.abc import Mapping
+from html import escape
 from pathlib import Path
 from typing import NamedTuple
 
 from jointplay.client.results import Form
+
+
+def html_table(title: str, rows: Mapping[str, object]) -> str:
+    """Return a small table; rows without a value are left out."""
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{escape(name)}</th>"
+        f"<td style='text-align:left'>{escape(str(value))}</td></tr>"
+        for name, value in rows.items()
+        if value not in (None, "")
+    )
+    return f"<table><caption>{escape(title)}</caption><tbody>{cells}</tbody></table>"
 
 
 class Picture(NamedTuple):

@@ -8,7 +8,7 @@ from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.service.dependencies import CatalogueDependency
-from jointplay.service.events.watcher import Watcher
+from jointplay.service.jobs.watcher import Watcher
 from jointplay.storage.catalogue import Catalogue, Job
 
 LONGEST_WAIT = 60  # s; a client that wants to wait longer asks again
