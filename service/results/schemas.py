@@ -122,6 +122,11 @@ class EnergyLedger(BaseModel):
     gravity_work: float = _in("J", "Work of gravity.")
     contact_loss: float = _in("J", "Lost to the damping of contacts.")
     friction_loss: float = _in("J", "Lost to friction.")
+    element_loss: float | None = Field(
+        default=None,
+        description="Lost in force elements; null: there are none.",
+        json_schema_extra={"unit": "J"},
+    )
     kinetic_change: float = _in("J", "Kinetic energy at the end less that at the start.")
     stored_change: float = _in("J", "Elastic energy of contacts at the end less at the start.")
     gross_work: float = _in(

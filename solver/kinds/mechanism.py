@@ -11,13 +11,19 @@ from pydantic import ValidationError
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
-from jointplay.solver.mechanics.assembly import ASSEMBLED, Assembly, assemble, shortest_link
+from jointplay.solver.mechanics.assembly import (
+    ASSEMBLED,
+    Assembly,
+    assemble,
+    directionless,
+    shortest_link,
+)
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
-from jointplay.solver.scene.references import part_problems, reference_problems
+from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
 
 Echo = dict[str, float | str | None]
@@ -122,18 +128,22 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
         )
     if not _closes(scene):
         raise InvalidInput(_open(scene))
-    held = {branch.parent for branch in tree.branches} | {
-        body
-        for name in tree.play
-        for body in (_body(scene.joints[name].bearing), _body(scene.joints[name].journal))  # type: ignore[union-attr]
-    }
+    for name in directionless(scene, assembly.pose):
+        sentence = (
+            f"The points of '{name}' start in one place, where its force has no direction; start"
+            " them apart, or give no free length."
+        )
+        raise InvalidInput([Problem(f"/scene/forces/{name}", sentence)])
+    pairs = [(force.first, force.second) for force in scene.forces.values()]
+    pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in tree.play)]
+    held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
     adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
     if adrift:
         raise InvalidInput(
             [
                 Problem(
                     f"/scene/bodies/{body}",
-                    f"No joint holds body '{body}'; join it or drop it.",
+                    f"No joint holds body '{body}' and no force does; join it or drop it.",
                 )
                 for body in adrift
             ]

@@ -10,7 +10,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
 from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Revolute, Scene
 from jointplay.solver.scene.references import has_play
@@ -87,6 +89,32 @@ class AbsoluteMechanism:
             (q[3 * i] + arm[0], q[3 * i + 1] + arm[1]),
             (v[3 * i] - spin * arm[1], v[3 * i + 1] + spin * arm[0]),
         )
+
+    def ends(self, points: tuple[str, str], q: Scalars, v: Scalars) -> Ends:
+        """Return how the second of two named points lies and moves against the first."""
+        markers = here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
+        spins = [0.0 if marker.body < 0 else v[3 * marker.body + 2] for marker in markers]
+        return Ends(
+            (there.position[0] - here.position[0], there.position[1] - here.position[1]),
+            (there.velocity[0] - here.velocity[0], there.velocity[1] - here.velocity[1]),
+            (spins[0], spins[1]),
+        )
+
+    def apply(self, between: Forces, forces: list[Scalar], q: Scalars, v: Scalars) -> None:
+        """Add forces between bodies to generalised forces, (3 bodies,) N, N, N m."""
+        for acting in between.interactions:
+            fx, fy = acting.force_on_second
+            for reference, sign, moment in (
+                (acting.second, 1.0, acting.moment_on_second),
+                (acting.first, -1.0, acting.moment_on_first),
+            ):
+                marker = self.marker(reference, q, v)
+                if marker.body < 0:
+                    continue
+                k, (ax, ay) = 3 * marker.body, marker.arm
+                forces[k] = forces[k] + sign * fx
+                forces[k + 1] = forces[k + 1] + sign * fy
+                forces[k + 2] = forces[k + 2] + moment + sign * (ax * fy - ay * fx)
 
     def rows(self, q: Scalars, v: Scalars, driven: Mapping[str, Scalar]) -> list[Row]:
         """Return every constraint row.

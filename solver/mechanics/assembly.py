@@ -96,6 +96,19 @@ def link_lengths(scene: Scene) -> list[float]:
     return [d for d in distances if d > 0.0]
 
 
+def directionless(scene: Scene, pose: Floats) -> list[str]:
+    """Return the force elements that need a direction and whose points start in one place."""
+    mechanism = AbsoluteMechanism(scene, view(scene), close_play=False)
+    near = ASSEMBLED * shortest_link(scene)
+    still = np.zeros_like(pose)
+    return [
+        name
+        for name, element in scene.forces.items()
+        if element.needs_direction
+        and math.hypot(*mechanism.ends((element.first, element.second), pose, still).gap) <= near
+    ]
+
+
 def driver_positions(scene: Scene) -> dict[str, float]:
     """Return each driver's position at t = 0, rad or m."""
     return {name: driver.position for name, driver in scene.drivers.items()}

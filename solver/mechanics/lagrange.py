@@ -6,15 +6,15 @@ constraints of ideal joints and drivers, Baumgarte's stabilisation (eq. 26).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
+from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.elimination import solve_symmetric
-from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.mechanics.play import Contact, Interaction, contact
+from jointplay.solver.mechanics.motion import BodyMotion, Forces, Motion, forces_between
 from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import has_play
 
 BAUMGARTE_ALPHA = 50.0
@@ -44,8 +44,8 @@ class LagrangeMechanism:
     def motion(self, modes: Mapping[str, Scalar], impact_rates: Mapping[str, Scalar]) -> Motion:
         """Return accelerations and all forces; modes and impact rates (m/s) by joint with play."""
         play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
-        contacts = {name: self._contact(name, modes[name], impact_rates[name]) for name in play}
-        applied = self._applied(found.interaction for found in contacts.values())
+        forces = forces_between(self.numbers, self._ends, play, modes, impact_rates)
+        applied = self._applied(forces)
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)
         bodies = {
@@ -60,49 +60,22 @@ class LagrangeMechanism:
             for i, name in enumerate(self.constraints.bodies)
         }
         joint_force, efforts = joint_reactions(self.scene, self.constraints, rows, multipliers)
-        for name, found in contacts.items():
+        for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
-        return Motion(accelerations, bodies, contacts, joint_force, efforts, speeds)
+        return Motion(accelerations, bodies, forces, joint_force, efforts, speeds)
 
-    def _contact(self, name: str, mode: Scalar, impact_rate: Scalar) -> Contact:
-        joint = self.numbers.joints[name]
-        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
-        bearing = self.constraints.marker(joint.bearing, self.q, self.v)
-        journal = self.constraints.marker(joint.journal, self.q, self.v)
-        gap = (
-            journal.position[0] - bearing.position[0],
-            journal.position[1] - bearing.position[1],
-        )
-        rate = (
-            journal.velocity[0] - bearing.velocity[0],
-            journal.velocity[1] - bearing.velocity[1],
-        )
-        spins = tuple(
-            0.0 if marker.body < 0 else self.v[3 * marker.body + 2] for marker in (bearing, journal)
-        )
-        return contact(joint, gap, rate, (spins[0], spins[1]), mode, impact_rate)
+    def _ends(self, first: str, second: str) -> Ends:
+        return self.constraints.ends((first, second), self.q, self.v)
 
-    def _applied(self, interactions: Iterable[Interaction]) -> list[Scalar]:
-        """Generalised forces g of eq. (23): gravity and contacts."""
+    def _applied(self, between: Forces) -> list[Scalar]:
+        """Generalised forces g of eq. (23): gravity, contacts and force elements."""
         gx, gy = self.numbers.gravity
         forces: list[Scalar] = []
         for name in self.constraints.bodies:
             mass = self.numbers.bodies[name].mass
             forces += [mass * gx, mass * gy, 0.0]
-        for acting in interactions:
-            fx, fy = acting.force_on_second
-            for reference, sign, moment in (
-                (acting.second, 1.0, acting.moment_on_second),
-                (acting.first, -1.0, acting.moment_on_first),
-            ):
-                marker = self.constraints.marker(reference, self.q, self.v)
-                if marker.body < 0:
-                    continue
-                k, (ax, ay) = 3 * marker.body, marker.arm
-                forces[k] = forces[k] + sign * fx
-                forces[k + 1] = forces[k + 1] + sign * fy
-                forces[k + 2] = forces[k + 2] + moment + sign * (ax * fy - ay * fx)
+        self.constraints.apply(between, forces, self.q, self.v)
         return forces
 
     def _solve(self, rows: list[Row], applied: list[Scalar]) -> tuple[list[Scalar], list[Scalar]]:

@@ -1,12 +1,41 @@
-"""What both formulations of the equations of motion hand on: accelerations, contacts, reactions."""
+"""What both formulations of the equations of motion share: forces between bodies, the motion."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 
+from jointplay.solver.laws.force import Effect, Ends
 from jointplay.solver.mechanics.frames import Pair
-from jointplay.solver.mechanics.play import Contact
+from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.document import Revolute, Scene
+
+
+@dataclass(frozen=True)
+class Element:
+    """A force element at one instant."""
+
+    effect: Effect
+    interaction: Interaction
+    power: Scalar
+    """That goes into the element, W."""
+
+
+@dataclass(frozen=True)
+class Forces:
+    """What acts between bodies beside constraints, by the name of the joint or the element."""
+
+    contacts: dict[str, Contact] = field(default_factory=dict)
+    elements: dict[str, Element] = field(default_factory=dict)
+
+    @property
+    def interactions(self) -> Iterator[Interaction]:
+        """Forces and moments on the bodies."""
+        for found in self.contacts.values():
+            yield found.interaction
+        for element in self.elements.values():
+            yield element.interaction
 
 
 @dataclass(frozen=True)
@@ -32,7 +61,48 @@ class Motion:
 
     accelerations: list[Scalar]
     bodies: dict[str, BodyMotion]
-    contacts: dict[str, Contact]
+    forces: Forces
     joint_force: dict[str, Pair]
     driver_effort: dict[str, Scalar]
     driver_speed: dict[str, Scalar]
+
+    @property
+    def contacts(self) -> dict[str, Contact]:
+        """What joints with play do, by name."""
+        return self.forces.contacts
+
+
+def forces_between(
+    numbers: Scene,
+    ends: Callable[[str, str], Ends],
+    play: Iterable[str] = (),
+    modes: Mapping[str, Scalar] | None = None,
+    impact_rates: Mapping[str, Scalar] | None = None,
+) -> Forces:
+    """Evaluate joints with play and force elements.
+
+    Parameters
+    ----------
+    ends
+        Returns how the second of two named points lies and moves against the first.
+    play
+        Joints with play whose contact counts, with a mode and an impact rate (m/s) each.
+    """
+    forces = Forces()
+    for name in play:
+        joint = numbers.joints[name]
+        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
+        assert modes is not None  # noqa: S101
+        assert impact_rates is not None  # noqa: S101
+        between = ends(joint.bearing, joint.journal)
+        forces.contacts[name] = contact(joint, between, modes[name], impact_rates[name])
+    for name, element in numbers.forces.items():
+        between = ends(element.first, element.second)
+        effect = element.effect(between)
+        (fx, fy), (vx, vy), (first, second) = effect.force, between.rate, between.spins
+        power = -(fx * vx + fy * vy) - effect.moment * (second - first)
+        acting = Interaction(
+            element.first, element.second, effect.force, -effect.moment, effect.moment
+        )
+        forces.elements[name] = Element(effect, acting, power)
+    return forces

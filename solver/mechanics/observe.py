@@ -31,6 +31,9 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     for name, effort in motion.driver_effort.items():
         values[f"{name}.torque"] = effort
         values[f"{name}.power"] = effort * motion.driver_speed[name]
+    for name, element in motion.forces.elements.items():
+        for quantity, value in element.effect.channels.items():
+            values[f"{name}.{quantity}"] = value
     values["energy.kinetic"], values["energy.potential"] = energies(numbers, motion)
     for output in numbers.outputs:
         values[output.name] = output.factor * values[output.channel] + output.offset
@@ -53,11 +56,15 @@ def energies(numbers: Scene, motion: Motion) -> tuple[Scalar, Scalar]:
 def ledger_rates(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     """Return the powers whose integrals make the energy ledger, W, and the contact forces, N.
 
-    ``contact``: power that goes into contacts; ``friction``: power lost there;
+    ``contact``: power that goes into contacts, and into what elements store; ``friction``: power
+    lost there; ``element``: power lost in force elements, if there are any;
     ``driver:<driver>``: power put in by each;
     ``impulse:<joint>``: normal force, whose integral over a contact is its impulse.
     """
     rates: dict[str, Scalar] = {"contact": 0.0, "friction": 0.0}
+    for element in motion.forces.elements.values():
+        rates["contact"] = rates["contact"] + (element.power - element.effect.loss)
+        rates["element"] = rates.get("element", 0.0) + element.effect.loss
     for name, effort in motion.driver_effort.items():
         rates[f"driver:{name}"] = effort * motion.driver_speed[name]
     for name, found in motion.contacts.items():
@@ -68,8 +75,10 @@ def ledger_rates(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
 
 
 def stored_energy(motion: Motion) -> Scalar:
-    """Return the elastic energy stored in all contacts, J."""
+    """Return the energy stored in all contacts and force elements, J."""
     total: Scalar = 0.0
     for found in motion.contacts.values():
         total = total + found.elastic_energy
+    for element in motion.forces.elements.values():
+        total = total + element.effect.stored
     return total

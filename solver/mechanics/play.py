@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
 from jointplay.solver.scene.document import Revolute
@@ -64,24 +65,15 @@ class Contact:
         return -(self.friction_force * self.slip_velocity)
 
 
-def contact(
-    joint: Revolute,
-    eccentricity: Pair,
-    rate: Pair,
-    spins: tuple[Scalar, Scalar],
-    mode: Scalar,
-    impact_rate: Scalar,
-) -> Contact:
+def contact(joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar) -> Contact:
     """Evaluate a joint with play.
 
     Parameters
     ----------
     joint
         The joint's numbers; it has a clearance.
-    eccentricity, rate
-        Journal centre less bearing centre, m, and its rate, m/s.
-    spins
-        Angular velocities of bearing and journal, rad/s.
+    between
+        Of the journal's centre against the bearing's.
     mode
         1 in contact, 0 apart; apart there is no force whatever the penetration.
     impact_rate
@@ -89,8 +81,7 @@ def contact(
     """
     clearance = joint.clearance
     assert clearance is not None  # noqa: S101  (narrows the type)
-    ex, ey = eccentricity
-    vx, vy = rate
+    (ex, ey), (vx, vy), spins = between
     square = ex * ex + ey * ey
     distance = sqrt(square) + CENTRED
     inverse = distance * (1.0 / (square + CENTRED))  # beside the root, not after it
@@ -119,8 +110,8 @@ def contact(
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
     return Contact(
-        eccentricity,
-        rate,
+        between.gap,
+        between.rate,
         penetration,
         penetration_rate,
         (nx, ny),

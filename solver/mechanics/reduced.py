@@ -7,16 +7,16 @@ joint removes coordinates, a joint with play is a force. With partial velocities
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
+from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.mechanics.play import Contact, Interaction, contact
+from jointplay.solver.mechanics.motion import BodyMotion, Forces, Motion, forces_between
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Scene
 
 
 class ReducedMechanism:
@@ -44,30 +44,27 @@ class ReducedMechanism:
 
         `known` accelerations of the coordinates, where they were computed before.
         """
-        contacts = {
-            name: self._contact(name, modes[name], impact_rates[name]) for name in self.tree.play
-        }
-        loads = _Loads(self.kinematics, (found.interaction for found in contacts.values()))
+        forces = forces_between(self.numbers, self._ends, self.tree.play, modes, impact_rates)
+        loads = _Loads(self.kinematics, forces)
         accelerations = self._accelerations(loads) if known is None else known
         bodies = self._bodies(accelerations)
         joint_force, moments = self._reactions(loads, bodies)
-        for name, found in contacts.items():
+        for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
         efforts = self._efforts(joint_force, moments)
         speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
-        return Motion(accelerations, bodies, contacts, joint_force, efforts, speeds)
+        return Motion(accelerations, bodies, forces, joint_force, efforts, speeds)
 
-    def _contact(self, name: str, mode: Scalar, impact_rate: Scalar) -> Contact:
-        joint = self.numbers.joints[name]
-        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
+    def _ends(self, first: str, second: str) -> Ends:
         k = self.kinematics
-        (bearing, p), (journal, q) = joint.bearing.split("."), joint.journal.split(".")
-        here, here_rate, _ = k.point_motion(bearing, k.arm(bearing, p))
-        there, there_rate, _ = k.point_motion(journal, k.arm(journal, q))
-        gap = (there + here.scaled(-1.0)).world()
-        rate = (there_rate + here_rate.scaled(-1.0)).world()
-        spins = (k.carried[bearing].spin, k.carried[journal].spin)
-        return contact(joint, gap, rate, spins, mode, impact_rate)
+        (here, p), (there, q) = first.split("."), second.split(".")
+        start, start_rate, _ = k.point_motion(here, k.arm(here, p))
+        end, end_rate, _ = k.point_motion(there, k.arm(there, q))
+        return Ends(
+            (end + start.scaled(-1.0)).world(),
+            (end_rate + start_rate.scaled(-1.0)).world(),
+            (k.carried[here].spin, k.carried[there].spin),
+        )
 
     def _accelerations(self, loads: _Loads) -> list[Scalar]:
         """Solve M q̈ = Q; M from partial velocities, Q by one pass from the leaves inwards."""
@@ -220,9 +217,9 @@ class ReducedMechanism:
 class _Loads:
     """Forces on the bodies, as force and moment about each body's reference point."""
 
-    def __init__(self, kinematics: Kinematics, interactions: Iterable[Interaction]) -> None:
+    def __init__(self, kinematics: Kinematics, forces: Forces) -> None:
         self._sums: dict[str, tuple[Scalar, Scalar, Scalar]] = {}
-        for acting in interactions:
+        for acting in forces.interactions:
             fx, fy = acting.force_on_second
             for reference, force, moment in (
                 (acting.second, (fx, fy), acting.moment_on_second),

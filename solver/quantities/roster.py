@@ -41,12 +41,14 @@ class NameIn:
 class MemberOf:
     """Annotation of an object whose tag names the model of a roster that it is.
 
-    Without a tag it is the roster's first member. Errors lie at the member's own fields, as if
-    there were no choice.
+    Without a tag it is the roster's first member, unless a tag is `required`. Errors lie at the
+    member's own fields, as if there were no choice.
     """
 
-    def __init__(self, roster: Mapping[str, type[BaseModel]], tag: str) -> None:
-        self.roster, self.tag = roster, tag
+    def __init__(
+        self, roster: Mapping[str, type[BaseModel]], tag: str, *, required: bool = False
+    ) -> None:
+        self.roster, self.tag, self.required = roster, tag, required
 
     def __get_pydantic_core_schema__(self, _source: Any, _: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self._chosen)
@@ -58,9 +60,11 @@ class MemberOf:
         return handler(core_schema.tagged_union_schema(members, self.tag))
 
     def _chosen(self, value: Any) -> BaseModel:
-        first = next(iter(self.roster))
-        tagged = value if isinstance(value, Mapping) else vars(value) if _is_model(value) else {}
-        name = tagged.get(self.tag, first)
+        fallback = None if self.required else next(iter(self.roster))
+        if isinstance(value, Mapping):
+            name = value.get(self.tag, fallback)
+        else:
+            name = getattr(value, self.tag, fallback)
         if not isinstance(name, str) or name not in self.roster:
             error = InitErrorDetails(
                 type="literal_error",
@@ -76,10 +80,6 @@ def _referred(model: type[BaseModel]) -> CoreSchema:
     """Return a model's schema so that JSON Schemas define it once, under its name."""
     name = f"{model.__module__}.{model.__qualname__}:{id(model)}"
     return cast(CoreSchema, {**model.__pydantic_core_schema__, "ref": name})
-
-
-def _is_model(value: Any) -> bool:
-    return isinstance(value, BaseModel)
 
 
 def quoted(names: list[str]) -> str:

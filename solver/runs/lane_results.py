@@ -7,7 +7,6 @@ from typing import Any
 
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.peak import Peak
-from jointplay.solver.kernels.emit.kernel import LOSSES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.prescribed import prescribed_peaks
@@ -46,14 +45,14 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     The residual is the error of that; the gross work, the sum of all works of single steps without
     their signs, is what it is to be held against.
     """
-    at = bundle.lane(lane)
-    totals = at["total"][: LOSSES + len(bundle.kernel.drivers)]
-    contact, friction, *works = (float(total) for total in totals)
+    at, losses = bundle.lane(lane), bundle.kernel.losses
+    terms = [float(x) for x in at["total"][: losses + len(bundle.kernel.drivers)]]
+    (contact, friction, *elements), works = terms[:losses], terms[losses:]
     driver, gross = sum(works), at.number("gross")
     kinetic, potential, stored = (
         float(x) for x in bundle.energy(lane) - bundle.first_energy[:, lane]
     )
-    return {
+    ledger = {
         "driver_work": driver,
         "gravity_work": -potential,
         "contact_loss": contact,
@@ -61,8 +60,9 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
         "kinetic_change": kinetic,
         "stored_change": stored,
         "gross_work": gross,
-        "residual": kinetic + stored - driver + potential + contact + friction,
+        "residual": kinetic + stored - driver + potential + contact + friction + sum(elements),
     }
+    return ledger | ({"element_loss": sum(elements)} if elements else {})
 
 
 def out_of_time(seconds: float, at: float) -> SimulationFailed:

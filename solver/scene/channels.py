@@ -41,7 +41,7 @@ ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential ener
 
 @per_structure
 def channels(scene: Scene) -> tuple[Channel, ...]:
-    """Return every channel of a scene: bodies, joints, drivers, energy, declared outputs.
+    """Return every channel of a scene: bodies, joints, drivers, forces, energy, outputs.
 
     Raises
     ------
@@ -62,15 +62,18 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
             add(name, "joint", PLAY)
     for name, driver in scene.drivers.items():
         turning = isinstance(scene.joints[driver.joint], Revolute)
-        rows.append(
-            Channel(f"{name}.torque", "N m", f"torque of driver {name}")
-            if turning
-            else Channel(f"{name}.torque", "N", f"force of driver {name}")
-        )
+        kind, unit = ("torque", "N m") if turning else ("force", "N")
+        rows.append(Channel(f"{name}.torque", unit, f"{kind} of driver {name}"))
         rows.append(Channel(f"{name}.power", "W", f"power of driver {name}"))
+    for name, element in scene.forces.items():
+        add(name, "force element", element.channels)
     rows += [Channel(f"energy.{quantity}", unit, text) for quantity, unit, text in ENERGY]
-    units = {row.name: row.unit for row in rows}
-    problems = []
+    return (*rows, *_outputs(scene, {row.name: row.unit for row in rows}))
+
+
+def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
+    """Return the channels of declared outputs; `units` are those of all other channels."""
+    rows, problems = [], []
     for index, output in enumerate(scene.outputs):
         if output.channel not in units:
             sentence = unknown("channel", output.channel, units)
@@ -80,7 +83,7 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
         rows.append(Channel(output.name, units[output.channel], text))
     if problems:
         raise InvalidInput(problems)
-    return tuple(rows)
+    return rows
 
 
 def select(offered: tuple[Channel, ...], patterns: list[str], pointer: str) -> tuple[Channel, ...]:

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact import ContactLaw
+from jointplay.solver.laws.force import ELEMENTS, ForceElement
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.quantities.roster import MemberOf
@@ -91,6 +92,9 @@ class Fixed(Strict):
 
 
 Joint = Annotated[Revolute | Prismatic | Fixed, Field(discriminator="type")]
+
+
+Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
 
 
 class Driver(Strict):
@@ -179,7 +183,7 @@ class Reported(Strict):
 
 
 class Scene(Strict):
-    """A planar mechanism, its drivers and gravity, its knobs and its outputs."""
+    """A planar mechanism, its drivers, forces and gravity, its knobs and its outputs."""
 
     name: Name
     description: Annotated[str, Field(max_length=2000)] = ""
@@ -189,6 +193,7 @@ class Scene(Strict):
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
     joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
     drivers: Annotated[dict[Name, Driver], Field(max_length=64)] = {}
+    forces: Annotated[dict[Name, Element], Field(max_length=64)] = {}
     start: Start = Start()
     parameters: Annotated[dict[Name, Parameter], Field(max_length=64)] = {}
     outputs: Annotated[list[Output], Field(max_length=64)] = []

@@ -1,7 +1,7 @@
 """Checks of a scene that need more than one field: names that must exist, and must be new."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
@@ -54,13 +54,20 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
     """Yield the same but for what is wrong with declared parameters."""
     yield from _names(scene)
     for name, joint in scene.joints.items():
-        yield from _joint(scene, name, joint)
+        yield from _points(scene, f"/joints/{name}", ends(joint))
+    for name, force in scene.forces.items():
+        pair = (("first", force.first), ("second", force.second))
+        yield from _points(scene, f"/forces/{name}", pair)
     yield from size_problems(scene)
     for name, driver in scene.drivers.items():
         yield from _driver(scene, name, driver.joint)
     doubled = Counter(driver.joint for driver in scene.drivers.values())
     for joint_name in (joint for joint, count in doubled.items() if count > 1):
         yield Problem("/drivers", f"Joint '{joint_name}' has more than one driver; keep one.")
+    yield from _start(scene)
+
+
+def _start(scene: Scene) -> Iterator[Problem]:
     start = scene.start
     for field, table in (
         ("angles", start.angles),
@@ -97,20 +104,22 @@ def _parameters(scene: Scene) -> Iterator[Problem]:
 
 
 def _names(scene: Scene) -> Iterator[Problem]:
-    used = Counter([*scene.bodies, *scene.joints, *scene.drivers])
-    for section, names in (
-        ("bodies", scene.bodies),
-        ("joints", scene.joints),
-        ("drivers", scene.drivers),
-    ):
+    sections: dict[str, Collection[str]] = {
+        "bodies": scene.bodies,
+        "joints": scene.joints,
+        "drivers": scene.drivers,
+        "forces": scene.forces,
+    }
+    used = Counter(name for names in sections.values() for name in names)
+    for section, names in sections.items():
         for name in names:
             if name in RESERVED:
                 yield Problem(f"/{section}/{name}", f"The name '{name}' is reserved; take another.")
             elif used[name] > 1:
                 yield Problem(
                     f"/{section}/{name}",
-                    f"The name '{name}' is used twice; bodies, joints and drivers have names of"
-                    " their own.",
+                    f"The name '{name}' is used twice; bodies, joints, drivers and forces have"
+                    " names of their own.",
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
@@ -122,25 +131,23 @@ def _names(scene: Scene) -> Iterator[Problem]:
             yield Problem(f"/outputs/{index}/name", sentence)
 
 
-def _joint(scene: Scene, name: str, joint: Joint) -> Iterator[Problem]:
+def _points(
+    scene: Scene, place: str, pair: tuple[tuple[str, str], tuple[str, str]]
+) -> Iterator[Problem]:
+    """Yield what is wrong with the (field, reference) pairs of two points to be connected."""
     bodies = []
-    for field, reference in ends(joint):
+    for field, reference in pair:
         body, point = reference.split(".")
         bodies.append(body)
         if body != "ground" and body not in scene.bodies:
-            yield Problem(
-                f"/joints/{name}/{field}", unknown("body", body, ["ground", *scene.bodies])
-            )
+            yield Problem(f"{place}/{field}", unknown("body", body, ["ground", *scene.bodies]))
             continue
         points = scene.ground.points if body == "ground" else scene.bodies[body].points
         if point not in points:
-            yield Problem(
-                f"/joints/{name}/{field}", unknown(f"point of '{body}' named", point, points)
-            )
+            yield Problem(f"{place}/{field}", unknown(f"point of '{body}' named", point, points))
     if bodies[0] == bodies[1]:
-        yield Problem(
-            f"/joints/{name}", f"Both ends are on '{bodies[0]}'; a joint joins two bodies."
-        )
+        kind = "a joint joins" if place.startswith("/joints") else "a force acts between"
+        yield Problem(place, f"Both ends are on '{bodies[0]}'; {kind} two bodies.")
 
 
 def _driver(scene: Scene, name: str, joint_name: str) -> Iterator[Problem]:

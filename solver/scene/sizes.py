@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from jointplay.records.failure import Problem
 from jointplay.solver.quantities.rule import Rule
-from jointplay.solver.scene.document import Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Prismatic, Revolute, Scene
 
 CLEARANCE = (
     Rule(
@@ -54,10 +54,10 @@ def _unreachable(scene: Scene) -> Iterator[Problem]:
 def size_problems(scene: Scene) -> Iterator[Problem]:
     """Yield what does not fit; pointers begin at the scene."""
     yield from _unreachable(scene)
-    for name, joint in scene.joints.items():
-        for place, rule, part in rules(joint, joint):
+    for place, rules, part in _parts(scene):
+        for rule in rules:
             if rule.broken(part):
-                yield Problem(f"/joints/{name}{place}/{rule.field}", rule.sentence(part))
+                yield Problem(f"{place}/{rule.field}", rule.sentence(part))
 
 
 def ill_sized(
@@ -73,32 +73,34 @@ def ill_sized(
         (points,) numbers by their JSON pointer in the scene, in place of the scene's.
     """
     broken = np.zeros(points, np.bool_)
-    for name, joint in scene.joints.items():
-        place, start = f"/joints/{name}", f"/start/joints/{name}"
-        if any(path.startswith((f"{place}/", f"{start}/")) for path in columns):
-            seen = _seen(joint, place, columns)
-            for _, rule, part in rules(joint, seen):
-                broken |= rule.broken(part)
-            if name in scene.start.joints:
-                broken |= out_of_reach(_seen(scene.start.joints[name], start, columns), seen)
+    for place, rules, part in _parts(scene):
+        if any(path.startswith(f"{place}/") for path in columns):
+            seen = _seen(part, place, columns)
+            for rule in rules:
+                broken |= rule.broken(seen)
+    for name, start in scene.start.joints.items():
+        places = f"/start/joints/{name}", f"/joints/{name}"
+        if any(path.startswith((f"{places[0]}/", f"{places[1]}/")) for path in columns):
+            broken |= out_of_reach(
+                _seen(start, places[0], columns), _seen(scene.joints[name], places[1], columns)
+            )
     return broken
 
 
-def rules(joint: Joint, seen: Any) -> Iterator[tuple[str, Rule, Any]]:
-    """Yield the place below a joint, the rule and the part that it is about.
-
-    `seen` is the joint, or the joint with columns for numbers.
-    """
-    if isinstance(joint, Prismatic):
-        yield from (("", rule, seen) for rule in GUIDE)
-    if not isinstance(joint, Revolute) or joint.clearance is None:
-        return
-    yield from (("/clearance", rule, seen.clearance) for rule in CLEARANCE)
-    for field in ("contact", "friction"):
-        law = getattr(joint.clearance, field)
-        part = getattr(seen.clearance, field)
-        if law is not None:
-            yield from ((f"/clearance/{field}", rule, part) for rule in law.rules)
+def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
+    """Yield the place, the rules and the part of everything in a scene that has rules."""
+    for name, joint in scene.joints.items():
+        place = f"/joints/{name}"
+        if isinstance(joint, Prismatic):
+            yield place, GUIDE, joint
+        elif isinstance(joint, Revolute) and joint.clearance is not None:
+            play = joint.clearance
+            yield f"{place}/clearance", CLEARANCE, play
+            yield f"{place}/clearance/contact", play.contact.rules, play.contact
+            if play.friction is not None:
+                yield f"{place}/clearance/friction", play.friction.rules, play.friction
+    for name, element in scene.forces.items():
+        yield f"/forces/{name}", element.rules, element
 
 
 def _seen(node: Any, path: str, columns: Mapping[str, NDArray[np.float64]]) -> Any:

@@ -40,5 +40,6 @@ def _structure(scene: Scene) -> Hashable:
         tuple(scene.bodies),
         tuple((name, j.type, ends(j), has_play(j)) for name, j in scene.joints.items()),
         tuple((name, driver.joint) for name, driver in scene.drivers.items()),
+        tuple((name, e.type, e.first, e.second) for name, e in scene.forces.items()),
         tuple((o.name, o.channel, o.factor, o.offset, o.help) for o in scene.outputs),
     )

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from jointplay.solver.integrators import TSITOURAS5
-from jointplay.solver.kernels.emit.kernel import LOSSES, Kernel, compile_kernel
+from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -76,7 +76,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         values = dict(zip(names, at["channel"], strict=True))
         values |= {f"a{i}": at["slope"][count + i] for i in range(count)}
         values |= {f"v{i}": at["slope"][i] for i in range(count)}
-        ledger = LOSSES + len(kernel.drivers) + len(kernel.play)
+        ledger = len(kernel.equations.ledger)
         values |= {f"ledger{i}": at["ledger"][i] for i in range(ledger)}
         values.pop("stored")
         found.append(values)

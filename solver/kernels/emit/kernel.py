@@ -32,9 +32,6 @@ from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 
-LOSSES = 2
-"""Terms of the ledger before the drivers' works and the joints' impulses."""
-
 
 @dataclass(frozen=True, eq=False)
 class Kernel:
@@ -59,6 +56,11 @@ class Kernel:
     def states(self) -> int:
         """Number of states; coordinates and speeds come first."""
         return self.equations.states
+
+    @property
+    def losses(self) -> int:
+        """Terms of the ledger before the drivers' works and the joints' impulses."""
+        return len(self.equations.ledger) - len(self.drivers) - len(self.play)
 
     @cached_property
     def addresses(self) -> NDArray[np.void]:
@@ -85,7 +87,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     layout = Layout()
     states, joints = equations.states, len(equations.play)
     drivers = len(equations.drivers)
-    ledger = LOSSES + drivers + joints
+    ledger = len(equations.ledger)
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
     angles = trigonometry(equations)
     layout.add_block("trigonometry", len(angles))

@@ -15,7 +15,7 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
-from jointplay.solver.mechanics.motion import BodyMotion, Motion
+from jointplay.solver.mechanics.motion import BodyMotion, Motion, forces_between
 from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities.extremes import Floats
@@ -68,7 +68,11 @@ class IdealMotion:
         rows = self.mechanism.rows(_columns(q), _columns(v), driven)
         gamma = np.stack([np.broadcast_to(row.gamma, times.shape) for row in rows], axis=1)
         a = _solve(jacobian, gamma)
-        force = self._inertia_and_gravity(a)
+        at = _columns(q), _columns(v)
+        acting = forces_between(self.numbers, lambda *points: self.mechanism.ends(points, *at))
+        applied = _columns(self._inertia_and_gravity(a))
+        self.mechanism.apply(acting, applied, *at)
+        force = np.stack(applied, axis=1)
         multipliers = _solve(jacobian.transpose(0, 2, 1), force)
         bodies = {
             name: BodyMotion(
@@ -85,7 +89,7 @@ class IdealMotion:
             self.scene, self.mechanism, rows, list(_columns(multipliers))
         )
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
-        return Motion(list(_columns(a)), bodies, {}, forces, efforts, speeds)
+        return Motion(list(_columns(a)), bodies, acting, forces, efforts, speeds)
 
     def _inertia_and_gravity(self, accelerations: Floats) -> Floats:
         """Return g - M q̈ of eq. (23), which the multipliers balance."""

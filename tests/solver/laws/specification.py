@@ -13,11 +13,12 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from jointplay.solver.laws.contact import ContactLaw
+from jointplay.solver.laws.force import Ends, ForceElement
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.quantities.units import Strict
 
@@ -268,3 +269,60 @@ class FrictionSpecification:
         ]
         least = 1e3 * ROUNDING * abs(slip) * speed
         np.testing.assert_allclose(found, expected, rtol=1e3 * ROUNDING, atol=least)
+
+
+lengths = st.floats(-1.0, 1.0)
+
+
+class ElementSpecification:
+    """Subclass it with the model and a strategy that draws elements of it."""
+
+    model: ClassVar[type[ForceElement]]
+    elements: ClassVar[st.SearchStrategy[ForceElement]]
+
+    def test_it_cites_its_source_and_says_where_it_fails(self) -> None:
+        documented(self.model)
+
+    @for_any(x=lengths, y=lengths, vx=rates, vy=rates)
+    def test_the_power_that_goes_in_is_stored_or_lost(
+        self, data: st.DataObject, x: float, y: float, vx: float, vy: float
+    ) -> None:
+        assume(math.hypot(x, y) > 0.1)
+        element, spins = data.draw(self.elements), (0.3, -0.7)
+        here = element.effect(Ends((x, y), (vx, vy), spins))
+        step = 1e-6  # of a central difference, whose error is about its square
+        before, after = (
+            element.effect(Ends((x + t * vx, y + t * vy), (vx, vy), spins)) for t in (-step, step)
+        )
+        power = -(here.force[0] * vx + here.force[1] * vy) - here.moment * (spins[1] - spins[0])
+        size = abs(here.force[0] * vx) + abs(here.force[1] * vy) + abs(here.loss)
+        # what the rounding of the energy and that of the length leave in the difference
+        energy = max(before.stored, after.stored) + math.hypot(*after.force)
+        assert (after.stored - before.stored) / (2.0 * step) + here.loss == pytest.approx(
+            power, rel=1e-8, abs=1e-8 * size + 4.0 * 2.0**-53 * energy / step
+        )
+
+    @for_any(units=some_units, x=lengths, y=lengths, vx=rates, vy=rates)
+    def test_it_is_dimensionally_homogeneous(
+        self, data: st.DataObject, units: Units, x: float, y: float, vx: float, vy: float
+    ) -> None:
+        assume(math.hypot(x, y) > 0.1)
+        here = data.draw(self.elements)
+        there, speed = rescaled(here, units), units.of("m/s", here)
+        first = here.effect(Ends((x, y), (vx, vy), (0.0, 0.0)))
+        ends = Ends((x * units.m, y * units.m), (vx * speed, vy * speed), (0.0, 0.0))
+        second = there.effect(ends)
+        size = 1e-9 + sum(map(abs, first.force)) + abs(first.loss) + first.stored
+        for a, b, unit in (
+            *((*pair, "N") for pair in zip(first.force, second.force, strict=True)),
+            (first.stored, second.stored, "J"),
+            (first.loss, second.loss, "N m/s"),
+            *((first.channels[n], second.channels[n], u) for n, u, _ in here.channels),
+        ):
+            factor = units.of(unit, here)
+            assert b == pytest.approx(a * factor, rel=1e-9, abs=1e-9 * size * factor)
+
+    @for_any()
+    def test_it_gives_the_channels_that_it_announces(self, data: st.DataObject) -> None:
+        effect = data.draw(self.elements).effect(Ends((1.0, 0.5), (0.1, 0.2), (0.0, 0.0)))
+        assert list(effect.channels) == [name for name, _, _ in self.model.channels]

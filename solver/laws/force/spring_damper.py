@@ -1,0 +1,71 @@
+"""A linear spring and a viscous damper, side by side between two points."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
+from jointplay.solver.quantities.rule import Rule
+from jointplay.solver.quantities.scalars import sqrt
+
+COINCIDENT = 1e-300
+"""Added to the square of the length (m^2), so that points in one place divide by no zero."""
+
+
+class SpringDamper(ForceElement):
+    """T = k (L - L_0) + c dL/dt, along the line between the points.
+
+    T is the tension (N, positive: it pulls the points together), L the distance of the points (m),
+    k the stiffness, L_0 the free length, c the damping.
+
+    Assumes a massless element, whose force depends on its own length alone. Fails where the points
+    meet: a free length above zero has no direction there, and the force turns over at once.
+
+    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4 (the coefficients are
+    those of any textbook; the equation's number is not yet checked).
+    """
+
+    type: Literal["spring-damper"]
+    stiffness: Annotated[
+        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N/m", "structural": [0.0]})
+    ] = 0.0
+    damping: Annotated[
+        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N s/m", "structural": [0.0]})
+    ] = 0.0
+    free_length: Annotated[
+        float, Field(ge=0.0, le=1e3, json_schema_extra={"unit": "m", "structural": [0.0]})
+    ] = 0.0
+    rules: ClassVar[tuple[Rule, ...]] = (
+        Rule(
+            "stiffness",
+            lambda element: (element.stiffness == 0.0) & (element.damping == 0.0),
+            lambda _element: "Without stiffness and damping there is no force; give one of them.",
+        ),
+    )
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("force", "N", "tension: positive pulls the points together"),
+        ("length", "m", "distance of the points"),
+        ("rate", "m/s", "rate of the distance"),
+    )
+
+    def effect(self, ends: Ends) -> Effect:
+        """Return tension along the line, stored energy k (L - L_0)² / 2 and loss c (dL/dt)²."""
+        (x, y), (vx, vy) = ends.gap, ends.rate
+        square = x * x + y * y
+        length = sqrt(square)
+        inverse = length / (square + COINCIDENT)
+        ux, uy = x * inverse, y * inverse
+        rate = ux * vx + uy * vy
+        stretch = length - self.free_length
+        tension = self.stiffness * stretch + self.damping * rate
+        return Effect(
+            (-(tension * ux), -(tension * uy)),
+            {"force": tension, "length": length, "rate": rate},
+            stored=0.5 * (self.stiffness * (stretch * stretch)),
+            loss=self.damping * (rate * rate),
+        )
+
+    @property
+    def needs_direction(self) -> bool:
+        """Whether it has a free length."""
+        return self.free_length > 0.0
