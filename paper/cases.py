@@ -46,7 +46,7 @@ class Run:
 
 
 def name(kind: str, which: object, variant: Variant | None = None) -> str:
-    """Return the name of a run.
+    """Return the name of a run, and of the one file of its results.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def name(kind: str, which: object, variant: Variant | None = None) -> str:
         `bifurcation`); of an entry of `phase_ranges`, ``portrait`` (trajectory), ``approach``
         (sections before it has settled) and ``settled`` (sections afterwards, from several starts).
     """
-    return "-".join([kind, str(which), *([variant.name] if variant else [])])
+    return "-".join([kind, str(which), *([variant.name] if variant else [])]) + ".zarr.zip"
 
 
 def runs(size: Size) -> list[Run]:

@@ -17,7 +17,7 @@ class Stores:
         self._run, self._study = cache(ResultReader), cache(StudyReader)
 
     def path(self, kind: str, which: object, variant: Variant | None = None) -> Path:
-        """Return the folder of a store."""
+        """Return the file of a store."""
         return self._folder / cases.name(kind, which, variant)
 
     def run(self, kind: str, which: object, variant: Variant | None = None) -> ResultReader:

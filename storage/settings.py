@@ -6,6 +6,9 @@ from typing import Self
 from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
+from jointplay.storage.packed.running import Running
+from jointplay.storage.places import Place, StoredObject, place_at
+
 
 class Settings(BaseSettings):
     """Where things are, and how patient the platform is; all durations are in seconds.
@@ -24,6 +27,11 @@ class Settings(BaseSettings):
     catalogue_url: str = Field(
         default="",
         description="SQLAlchemy URL of the catalogue; empty: SQLite inside the data folder.",
+    )
+    results_url: str = Field(
+        default="",
+        description="Place for finished results, such as file:/srv/results; empty: the folder"
+        " `results` inside the data folder.",
     )
     redis_url: str | None = Field(
         default=None,
@@ -95,7 +103,14 @@ class Settings(BaseSettings):
     def _catalogue_beside_the_data(cls, values: dict[str, object]) -> dict[str, object]:
         data = Path(str(values.get("data") or cls.model_fields["data"].default)).absolute()
         url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
-        return values | {"data": data, "catalogue_url": url}
+        results = values.get("results_url") or f"file:{data / 'results'}"
+        return values | {"data": data, "catalogue_url": url, "results_url": results}
+
+    @field_validator("results_url")
+    @classmethod
+    def _names_a_place(cls, url: str) -> str:
+        place_at(url)
+        return url
 
     @field_validator("redis_url")
     @classmethod
@@ -113,18 +128,36 @@ class Settings(BaseSettings):
             )
         return self
 
-    def job_folder(self, job: str) -> Path:
-        """Folder of everything that was computed for a job.
+    @property
+    def place(self) -> Place:
+        """Where sealed results are kept."""
+        return place_at(self.results_url)
+
+    def results_prefix(self, job: str) -> str:
+        """Return the beginning of the keys of all sealed results of a job.
 
         Grouped by the last two characters of the job's id: the first ones are its date, and
         would put every job of a year into one folder.
         """
-        return self.data / "results" / job[-2:] / job
+        return f"{job[-2:]}/{job}-"
 
-    def result_folder(self, job: str, attempt: int) -> Path:
-        """Folder of one attempt's results store."""
-        return self.job_folder(job) / f"a{attempt}"
+    def sealed_run(self, job: str, attempt: int) -> StoredObject:
+        """Sealed results of one attempt at a simulation; need not be there."""
+        return StoredObject(self.place, f"{self.results_prefix(job)}a{attempt}.zarr.zip")
 
-    def study_folder(self, job: str) -> Path:
-        """Folder of a study's store, which all blocks and attempts of the job fill together."""
-        return self.job_folder(job) / "study"
+    def sealed_study(self, job: str) -> StoredObject:
+        """Sealed results of a study; need not be there."""
+        return StoredObject(self.place, f"{self.results_prefix(job)}study.zarr.zip")
+
+    def running_folder(self, job: str) -> Path:
+        """Folder of everything that a job needs while it runs."""
+        return self.data / "running" / job[-2:] / job
+
+    def running_run(self, job: str, attempt: int) -> Running:
+        """Growing results of one attempt at a simulation."""
+        folder = self.running_folder(job) / f"a{attempt}"
+        return Running(folder, self.sealed_run(job, attempt))
+
+    def running_study(self, job: str) -> Running:
+        """Growing results of a study, which all blocks and attempts of the job fill together."""
+        return Running(self.running_folder(job) / "study", self.sealed_study(job))

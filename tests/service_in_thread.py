@@ -22,6 +22,7 @@ from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.storage.catalogue import BlockState, Catalogue, Claim
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyBlock, create, seal
@@ -146,7 +147,7 @@ class Worker:
 
     def store(self, claim: Claim, *, complete: bool = True) -> None:
         """Store value = column + time, peaks -1 and 1, and one impact without a release."""
-        admission, writer = self._writer(claim)
+        admission, writer, target = self._writer(claim)
         channels = admission.channels
         time = np.linspace(0.0, admission.job["duration"], admission.samples)
         section_time = np.arange(float(admission.sections))
@@ -165,23 +166,24 @@ class Worker:
         energy = dict.fromkeys(LEDGER, 0.0) | {"driver_work": 2.5, "residual": 1e-6}
         summary = {"steps": 7, "rejections": 1, "onsets": 2, "smallest_step": 1e-6}
         summary |= {"solver_seconds": 0.25, "energy": energy}
-        writer.seal(peaks=peaks, summary=summary, complete=complete)
+        writer.seal(target, peaks=peaks, summary=summary, complete=complete)
 
     def store_nothing(self, claim: Claim) -> None:
         """Seal the results of a run that ended before its first sample."""
-        _, writer = self._writer(claim)
-        writer.seal(peaks={}, summary={}, complete=False)
+        _, writer, target = self._writer(claim)
+        writer.seal(target, peaks={}, summary={}, complete=False)
 
-    def _writer(self, claim: Claim) -> tuple[Admission, ResultWriter]:
+    def _writer(self, claim: Claim) -> tuple[Admission, ResultWriter, StoredObject]:
         admission = admit(claim.job.spec)
         assert isinstance(admission, Admission)
-        folder = self._settings.result_folder(claim.job.id, claim.block.attempt)
+        attempt = claim.job.id, claim.block.attempt
         channels = admission.channels
         attributes = {"job": admission.job, "scene": admission.scene_document(), "section_note": ""}
         layout = ResultLayout(
             channels, admission.samples, admission.sections, admission.joints, attributes
         )
-        return admission, ResultWriter.create(folder, layout)
+        folder = self._settings.running_run(*attempt).folder
+        return admission, ResultWriter.create(folder, layout), self._settings.sealed_run(*attempt)
 
     def compute(
         self,
@@ -197,7 +199,7 @@ class Worker:
         """
         study = admit(claim.job.spec)
         assert isinstance(study, Study)
-        folder = self._settings.study_folder(claim.job.id)
+        folder = self._settings.running_study(claim.job.id).folder
         layout = layout_of(study)
         create(folder, layout)
         first, count = study.blocks[claim.block.index]
@@ -246,7 +248,8 @@ class Worker:
             self.compute(claim, failing=failing)
             self.finish(claim, BlockState.done)
         claim = self.start(job_id, len(study.blocks))
-        seal(self._settings.study_folder(job_id), layout_of(study))
+        running, target = self._settings.running_study(job_id), self._settings.sealed_study(job_id)
+        seal(running.folder, layout_of(study), target)
         self.finish(claim, BlockState.done)
         return job_id
 

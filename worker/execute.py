@@ -1,6 +1,5 @@
 """The one loop that turns a checked job into a results store, for workers and local runs."""
 
-import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -15,11 +14,11 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultLayout, ResultWriter
 from jointplay.worker.certificates import appendix_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
-JOB_FILE = "job.json"
 _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
 
@@ -67,6 +66,7 @@ class Outcome:
 def execute(
     admission: Admission,
     folder: Path,
+    target: StoredObject,
     *,
     report: Callable[[Progress], Answer | str],
     restart: RestartPoint | None = None,
@@ -79,7 +79,9 @@ def execute(
     admission
         The job as `solver.kinds.admit` filled it in.
     folder
-        Where the store and `job.json` go; made here, and must not hold a store.
+        Where the store grows; made here, and must not hold a store.
+    target
+        Where the sealed store goes.
     report
         Called before each slice of at most about 0.25 s of computing, hence several times a
         second; answers "continue", "cancel" or "leave".
@@ -91,18 +93,17 @@ def execute(
     Returns
     -------
     Outcome
-        The store is sealed and durable, unless the state is "left".
+        The store is sealed and durable, unless the state is "left"; the folder stays, for those
+        who read it.
 
     Raises
     ------
     StoreExists
-        The folder holds results already.
+        The folder or the target holds results already.
     OSError
         The store cannot be written, for example because the disk is full.
     """
     layout = layout_of(admission)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
     if restart is None:
         writer = ResultWriter.create(folder, layout)
     else:
@@ -113,13 +114,13 @@ def execute(
     try:
         simulation = Simulation(admission, restart.simulation if restart else None)
     except InvalidInput as refused:
-        writer.seal(peaks={}, summary={}, complete=False)
+        writer.seal(target, peaks={}, summary={}, complete=False)
         return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
     outcome = _advance(simulation, simulation.slices(longest), writer, folder, report, begin)
     if outcome.state == "left":
         return outcome
     summary = simulation.summary()
-    _seal(writer, summary, simulation.certificate(), complete=outcome.state == "succeeded")
+    _seal(writer, target, summary, simulation.certificate(), complete=outcome.state == "succeeded")
     return replace(outcome, statistics=summary.statistics)
 
 
@@ -194,9 +195,18 @@ def layout_of(admission: Admission) -> ResultLayout:
 
 
 def _seal(
-    writer: ResultWriter, summary: Summary, certificate: Certificate | None, *, complete: bool
+    writer: ResultWriter,
+    target: StoredObject,
+    summary: Summary,
+    certificate: Certificate | None,
+    *,
+    complete: bool,
 ) -> None:
     appendix = None if certificate is None else appendix_of(certificate)
     writer.seal(
-        peaks=summary.peaks, summary=summary.statistics, complete=complete, certificate=appendix
+        target,
+        peaks=summary.peaks,
+        summary=summary.statistics,
+        complete=complete,
+        certificate=appendix,
     )

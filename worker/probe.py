@@ -20,8 +20,11 @@ from typing import Any
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.simulate import Simulation
+from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.certificate_group import CERTIFICATE
-from jointplay.worker.execute import JOB_FILE, Answer, Outcome, Progress, execute
+from jointplay.worker.execute import Answer, Outcome, Progress, execute
 from jointplay.worker.study_block import computation_of
 
 BUDGET = 0.5
@@ -107,19 +110,18 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
         return Answer.cancel if len(marks) > 1 and spent > budget else Answer.go_on
 
     with tempfile.TemporaryDirectory(prefix="jointplay-", dir=_scratch()) as name:
-        folder = Path(name) / "store"
-        outcome = execute(admission, folder, report=report)
+        target = StoredObject(Folder(name), "store.zip")
+        outcome = execute(admission, Path(name) / "running", target, report=report)
         marks.append(Mark(time.process_time() - began, outcome.fraction, 0))
-        sizes = {path: path.stat().st_size for path in folder.rglob("*") if path.is_file()}
-    fixed = sum(
-        size
-        for path, size in sizes.items()
-        if path.suffix == ".json" or path.is_relative_to(folder / CERTIFICATE)
+        total, entries = target.size(), Packed(target).entries
+    growing = sum(
+        entry.size
+        for key, entry in entries.items()
+        if not key.endswith(".json") and not key.startswith(CERTIFICATE)
     )
-    fixed -= next((size for path, size in sizes.items() if path.name == JOB_FILE), 0)
     if outcome.state == "cancelled":
         marks.pop()  # sealing a part says nothing about the rest
-    return outcome, marks, fixed, sum(sizes.values()) - fixed
+    return outcome, marks, total - growing, growing
 
 
 def _scratch() -> str | None:

@@ -11,15 +11,15 @@ _log = logging.getLogger(__name__)
 
 
 def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
-    """Remove the folders of some expired jobs; what cannot be removed is tried again.
+    """Remove the results of some expired jobs; what cannot be removed is tried again.
 
     It takes seconds a job where disks are slow.
     """
     for job in catalogue.removable(_AT_ONCE):
         try:
-            shutil.rmtree(settings.job_folder(job))
-        except FileNotFoundError:
-            pass  # it ended before it computed anything
+            settings.place.remove(settings.results_prefix(job))
+            if (folder := settings.running_folder(job)).exists():  # it ended without results
+                shutil.rmtree(folder)
         except OSError as error:
             _log.warning("the results of job %s cannot be removed: %s", job, error)
             continue

@@ -1,9 +1,7 @@
 """From one block of a study to the study's store, for workers and local runs."""
 
-import json
 import logging
 import math
-import secrets
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,9 +18,10 @@ from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultsError
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
-from jointplay.worker.execute import JOB_FILE, Answer, Outcome
+from jointplay.worker.execute import Answer, Outcome
 
 _log = logging.getLogger(__name__)
 
@@ -76,7 +75,7 @@ def layout_of(study: Study) -> StudyLayout:
 
 
 def create_store(study: Study, folder: Path) -> None:
-    """Make the store that a study's blocks fill, with its `job.json`, or find it there.
+    """Make the store that a study's blocks fill, or find it there.
 
     Several processes may do it at once.
 
@@ -87,7 +86,7 @@ def create_store(study: Study, folder: Path) -> None:
     OSError
         The store cannot be written.
     """
-    _create(study, layout_of(study), folder)
+    create(folder, layout_of(study))
 
 
 def computation_of(
@@ -156,7 +155,7 @@ def run_laid_out(
     longest: float = math.inf,
 ) -> Outcome:
     """As `run_block`, with the study's layout at hand; it fails after `longest` seconds."""
-    _create(study, layout, folder)
+    create(folder, layout)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
     block, carried, fraction = _begin(layout, index, folder, attempt, resume_from)
@@ -187,17 +186,15 @@ def run_laid_out(
         fraction = piece.fraction
 
 
-def seal_store(study: Study, folder: Path, advanced: Callable[[], None] = lambda: None) -> Outcome:
+def seal_store(study: Study, folder: Path, target: StoredObject) -> Outcome:
     """Finish the store of a study whose blocks are all done; it is durable on return.
-
-    `advanced` is called now and then: a large store takes a while.
 
     Raises
     ------
     IncompleteStudy
         A block is not done.
     """
-    seal(folder, layout_of(study), advanced)
+    seal(folder, layout_of(study), target)
     return Outcome("succeeded", 0.0, 1.0)
 
 
@@ -225,12 +222,3 @@ def _begin(
         except (FileNotFoundError, ResultsError) as error:
             _log.warning("block %s begins anew: %s", index, error)
     return StudyBlock(folder, layout, index, attempt), None, 0.0
-
-
-def _create(study: Study, layout: StudyLayout, folder: Path) -> None:
-    create(folder, layout)
-    path = folder / JOB_FILE
-    if not path.exists():
-        partial = path.with_name(f"{JOB_FILE}.{secrets.token_hex(4)}.partial")
-        partial.write_text(json.dumps(study.job, indent=2) + "\n")
-        partial.replace(path)

@@ -9,7 +9,9 @@ from typing import Protocol
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Claim
-from jointplay.storage.results.layout import MANIFEST
+from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.results import NotAStore, ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyLayout, seal
 from jointplay.worker import checkpoints
@@ -69,11 +71,14 @@ class SimulationWork:
     def __init__(self, admission: Admission, claim: Claim, settings: Settings) -> None:
         self._admission = admission
         self._block = claim.block
-        self._folder = settings.result_folder(claim.job.id, claim.block.attempt)
-        self._longest = settings.longest
+        self._folder = settings.running_run(claim.job.id, claim.block.attempt).folder
+        self._settings = settings
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Simulate, from the restart point of the attempt before if there is one."""
+        target = self._sealed(self._block.attempt)
+        if (outcome := self._adopted(target)) is not None:
+            return outcome
 
         def between_slices(progress: Progress) -> Answer:
             return report(progress, lambda: self._keep(progress.restart_point()))
@@ -81,22 +86,36 @@ class SimulationWork:
         return execute(
             self._admission,
             self._folder,
+            target,
             report=between_slices,
             restart=self._restart_point(),
-            longest=self._longest,
+            longest=self._settings.longest,
         )
 
     def tidy(self) -> None:
-        """Remove earlier attempts and checkpoints: the job's results are in this folder."""
-        if not (self._folder / MANIFEST).exists():
-            return
-        for path in self._folder.parent.iterdir():
-            if path == self._folder:
+        """Remove what earlier attempts left, and all that is needed only while the job runs."""
+        if self._sealed(self._block.attempt).exists():
+            for attempt in range(1, self._block.attempt):
+                lost = self._sealed(attempt)
+                lost.place.remove(lost.key)
+            shutil.rmtree(self._folder.parent, ignore_errors=True)
+
+    def _sealed(self, attempt: int) -> StoredObject:
+        return self._settings.sealed_run(self._block.job, attempt)
+
+    def _adopted(self, target: StoredObject) -> Outcome | None:
+        """Take over what an attempt sealed that was lost before it could say so; None: nothing."""
+        for attempt in range(self._block.attempt - 1, 0, -1):
+            lost = self._sealed(attempt)
+            try:
+                run = ResultReader(Packed(lost))
+            except NotAStore:
                 continue
-            if path.is_dir():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                path.unlink(missing_ok=True)
+            if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
+                target.place.adopt(target.key, lost.key)
+                end = float(self._admission.job["duration"])
+                return Outcome("succeeded", end, 1.0, statistics=run.attributes["summary"])
+        return None
 
     def _keep(self, point: RestartPoint) -> Kept:
         path = self._folder.parent / f"block{self._block.index}-a{self._block.attempt}"
@@ -153,16 +172,17 @@ class SealWork:
 
     recognised = False  # with it the job ends, which must be durable
 
-    def __init__(self, layout: StudyLayout, folder: Path) -> None:
-        self._layout, self._folder = layout, folder
+    def __init__(self, layout: StudyLayout, folder: Path, target: StoredObject) -> None:
+        self._layout, self._folder, self._target = layout, folder, target
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Seal. It takes a moment and is not interrupted: all that was asked for is computed."""
-        seal(self._folder, self._layout, advanced)
+        seal(self._folder, self._layout, self._target, advanced)
         return Outcome("succeeded", 0.0, 1.0)
 
     def tidy(self) -> None:
-        """Leave nothing to remove: sealing did it."""
+        """Remove what was needed only while the study ran."""
+        shutil.rmtree(self._folder.parent, ignore_errors=True)
 
 
 _last_study: tuple[str, Study, StudyLayout] | None = None
@@ -186,7 +206,7 @@ def work_of(claim: Claim, settings: Settings) -> Work:
             return SimulationWork(admitted, claim, settings)
         _last_study = job.id, admitted, layout_of(admitted)
     _, study, layout = _last_study
-    folder = settings.study_folder(job.id)
+    folder = settings.running_study(job.id).folder
     if claim.block.count == 0:
-        return SealWork(layout, folder)
+        return SealWork(layout, folder, settings.sealed_study(job.id))
     return StudyWork(study, layout, claim, folder, settings.longest)

@@ -24,9 +24,11 @@ def open_group(job: JobRecord, store: Store, group: str) -> "xr.Dataset":
     """
     try:
         import xarray as xr
+        from zarr.storage import ZipStore
 
+        local = store.options is None
         found: xr.Dataset = xr.open_zarr(
-            store.address,
+            ZipStore(store.address, mode="r") if local else store.address,
             group=group or None,
             chunks=None,  # lazy by itself, without dask
             storage_options=store.options,

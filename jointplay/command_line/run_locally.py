@@ -50,9 +50,9 @@ def run(
 ) -> None:
     """Simulate here and now, without any service; a study on all cores.
 
-    OUT gets job.json (every default filled in: running it repeats the result), results.zarr,
-    outcome.json, peaks.csv, of a study points.csv or accuracy.json, and figures.  Ctrl-C ends the
-    run and keeps what was computed.
+    OUT gets job.json (every default filled in: running it repeats the result), results.zarr.zip
+    (a Zarr store in one file), outcome.json, peaks.csv, of a study points.csv or accuracy.json,
+    and figures.  Ctrl-C ends the run and keeps what was computed.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`

@@ -1,8 +1,8 @@
 """Jobs without a service: computed on this machine's cores, their results in a folder.
 
-The folder holds ``job.json`` (the filled-in job: running it repeats the result), ``results.zarr``
-(the store) and ``outcome.json`` (how it ended).  What computes is loaded when something is
-computed: importing this loads no compiler.
+The folder holds ``job.json`` (the filled-in job: running it repeats the result),
+``results.zarr.zip`` (the store, in one file) and ``outcome.json`` (how it ended).  What computes
+is loaded when something is computed: importing this loads no compiler.
 """
 
 from jointplay.local.loading import load

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import NotFound
-from jointplay.worker.local.folder import OUTCOME_FILE, STORE
+from jointplay.worker.local.folder import OUTCOME_FILE, RUNNING, STORE
 
 if TYPE_CHECKING:
     from jointplay.storage.results import ResultReader
@@ -14,15 +14,19 @@ if TYPE_CHECKING:
 
 
 def store_in(folder: Path) -> Path:
-    """Return the store in a run's folder; the store itself may be given too.
+    """Return the store in a run's folder: packed, or still in pieces if the run was cut short.
+
+    The packed store itself may be given too.
 
     Raises
     ------
     NotFound
         There is none.
     """
-    for store in (folder / STORE, folder):
-        if (store / "zarr.json").is_file():
+    if folder.is_file():
+        return folder
+    for store in (folder / STORE, folder / RUNNING):
+        if store.exists():
             return store
     sentence = f"{folder} holds no results: give a folder that a run made, or a job's id."
     raise NotFound(sentence, status=404, problem="no-results")
@@ -43,7 +47,12 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
     try:
         return StudyReader(store)
     except NotAStore:
+        pass
+    try:
         return ResultReader(store)
+    except NotAStore as error:
+        sentence = f"{store} holds no results that this version reads: {error}."
+        raise NotFound(sentence, status=404, problem="no-results") from error
 
 
 def job_document(folder: Path) -> dict[str, Any]:
@@ -80,7 +89,10 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
 def _outcome_in(folder: Path, job: dict[str, Any], *, complete: bool) -> dict[str, Any]:
     try:
         found: dict[str, Any] = json.loads((folder / OUTCOME_FILE).read_bytes())
-    except FileNotFoundError:  # a store alone: only that it is whole, or not, is known
+    except (
+        FileNotFoundError,
+        NotADirectoryError,
+    ):  # a store alone: only that it is whole, or not, is known
         written = datetime.fromtimestamp(folder.stat().st_mtime, UTC).isoformat()
         end = float(job.get("duration") or 0.0)
         found = {

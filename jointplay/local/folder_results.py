@@ -29,7 +29,19 @@ class FolderResults:
         self._reader = results_in(folder)
 
     def store(self) -> Store:
-        """Return the path of the store."""
+        """Return the path of the store.
+
+        Raises
+        ------
+        NotFound
+            The run was cut short: its arrays were never packed for other programs.
+        """
+        if self._store.is_dir():
+            sentence = (
+                f"{self._store} holds what a run computed that was cut short; other programs"
+                " cannot open it. Read it here, or run the job again to its end."
+            )
+            raise NotFound(sentence, status=404, problem="no-results")
         return Store(str(self._store), None)
 
     def window(

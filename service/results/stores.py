@@ -4,15 +4,16 @@ Stores can be read as they grow: what a job has committed, and nothing else.
 """
 
 from functools import lru_cache
-from pathlib import Path
 from typing import Annotated
 
 from fastapi import Depends, Request
 
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
-from jointplay.service.jobs.results_of_kinds import insist
+from jointplay.service.jobs.results_of_kinds import insist, is_study
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import NotAStore, ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
@@ -30,22 +31,26 @@ def open_store(job: Job, settings: Settings, catalogue: Catalogue) -> ResultRead
         409 before the job has begun, 404 if it ended before anything was computed.
     """
     if job.attempt > 0:
-        try:
-            return _sealed(settings.result_folder(job.id, job.attempt))
-        except NotAStore:
-            pass
-        folder, samples = committed_so_far(job, catalogue, settings)
-        try:
-            return ResultReader(folder, samples)
-        except NotAStore:
-            pass
+        sealed = sealed_of(job, settings)
+        for _ in range(2):  # it may be sealed between the two looks
+            try:
+                return _sealed(sealed)
+            except NotAStore:
+                pass
+            attempt, samples = committed_so_far(job, catalogue)
+            try:
+                growing = ResultReader(settings.running_run(job.id, attempt), samples)
+            except NotAStore:
+                continue
+            if not sealed.exists():
+                return growing
     if job.state.terminal:
         raise _nothing(job)
     raise not_ready(job, "its results can be read once it has begun")
 
 
-def committed_so_far(job: Job, catalogue: Catalogue, settings: Settings) -> tuple[Path, int]:
-    """Return the folder of a growing store, and how many samples are committed there.
+def committed_so_far(job: Job, catalogue: Catalogue) -> tuple[int, int]:
+    """Return the attempt whose growing store counts, and how many samples are committed there.
 
     Until an attempt has a restart point of its own, what counts is that of the one before.
     """
@@ -53,7 +58,20 @@ def committed_so_far(job: Job, catalogue: Catalogue, settings: Settings) -> tupl
     attempt = job.attempt
     if block.checkpoint is not None:
         attempt = int(block.checkpoint.rpartition("-a")[2])
-    return settings.result_folder(job.id, attempt), block.watermark
+    return attempt, block.watermark
+
+
+def sealed_of(job: Job, settings: Settings) -> StoredObject:
+    """Return where the sealed results of a job are, or will be."""
+    if is_study(job):
+        return settings.sealed_study(job.id)
+    return settings.sealed_run(job.id, job.attempt)
+
+
+@lru_cache(maxsize=_OPEN_STORES)
+def packed(source: StoredObject) -> Packed:
+    """Return the files of a sealed store, which never change again; NotAStore if there is none."""
+    return Packed(source)
 
 
 def open_study(job: Job, settings: Settings) -> StudyReader:
@@ -64,17 +82,19 @@ def open_study(job: Job, settings: Settings) -> StudyReader:
     RequestRefused
         409 before its first block has begun, 404 if it ended before that.
     """
-    folder = settings.study_folder(job.id)
-    try:
-        return _sealed_study(folder)
-    except NotAStore:
-        pass
-    try:
-        return StudyReader(folder)
-    except NotAStore:
-        if job.state.terminal:
-            raise _nothing(job) from None
-        raise not_ready(job, "its points can be read once the first ones are computed") from None
+    sealed = sealed_of(job, settings)
+    for _ in range(2):  # it may be sealed between the two looks
+        try:
+            return _sealed_study(sealed)
+        except NotAStore:
+            pass
+        try:
+            return StudyReader(settings.running_study(job.id))
+        except NotAStore:
+            pass
+    if job.state.terminal:
+        raise _nothing(job)
+    raise not_ready(job, "its points can be read once the first ones are computed")
 
 
 def not_ready(job: Job, when: str) -> RequestRefused:
@@ -94,20 +114,14 @@ def _nothing(job: Job) -> RequestRefused:
 
 
 @lru_cache(maxsize=_OPEN_STORES)
-def _sealed(folder: Path) -> ResultReader:
-    """Return a reader to be shared: a finished job's store never changes again."""
-    reader = ResultReader(folder)
-    if not reader.sealed:
-        raise NotAStore(f"{folder} was never finished")
-    return reader
+def _sealed(source: StoredObject) -> ResultReader:
+    """Return a reader to be shared."""
+    return ResultReader(packed(source))
 
 
 @lru_cache(maxsize=_OPEN_STUDIES)
-def _sealed_study(folder: Path) -> StudyReader:
-    reader = StudyReader(folder)
-    if not reader.sealed:
-        raise NotAStore(f"{folder} is being filled")
-    return reader
+def _sealed_study(source: StoredObject) -> StudyReader:
+    return StudyReader(packed(source))
 
 
 def _store_of_the_path(

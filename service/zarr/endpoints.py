@@ -64,10 +64,7 @@ def show_root(
     content = content_of(job, _DOCUMENT, catalogue, settings)
     if content is None:
         raise _nothing_at(job, _DOCUMENT)
-    try:
-        root: dict[str, Any] = json.loads(content.read(0, content.size))
-    finally:
-        content.close()
+    root: dict[str, Any] = json.loads(content.read(0, content.size))
     return root
 
 
@@ -113,8 +110,6 @@ def show_stored(
             return _answer(request, key, former)
     except ranges.Unsatisfiable:
         raise _not_satisfiable(request, key, content.size) from None
-    finally:
-        content.close()
 
 
 def _answer(request: Request, key: str, content: Content) -> Response:
@@ -129,7 +124,8 @@ def _answer(request: Request, key: str, content: Content) -> Response:
         headers["Vary"] = "Accept-Encoding"
         if asked is None and _takes_gzip(request.headers.get("accept-encoding", "")):
             packed = gzip.compress(content.read(0, content.size), 6, mtime=0)
-            content = Content(len(packed), f'{content.tag[:-1]}-gzip"', packed)
+            tag = f'{content.tag[:-1]}-gzip"'
+            content = Content(len(packed), tag, lambda start, stop: packed[start:stop])
             headers["Content-Encoding"] = "gzip"
     headers["ETag"] = content.tag
     if ranges.names(request.headers.get("if-none-match"), content.tag):

@@ -4,8 +4,7 @@
 what it holds. The package stores named columns over time and knows nothing of their meaning.
 """
 
-from jointplay.storage.results.certificate_group import Appendix, SmallArray
-from jointplay.storage.results.errors import (
+from jointplay.storage.errors import (
     CheckpointMismatch,
     CorruptStore,
     InvalidAppend,
@@ -16,6 +15,7 @@ from jointplay.storage.results.errors import (
     StoreSealed,
     UnknownChannel,
 )
+from jointplay.storage.results.certificate_group import Appendix, SmallArray
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.partition import Partition
 from jointplay.storage.results.reader import ResultReader

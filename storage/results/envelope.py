@@ -1,17 +1,16 @@
 """Extremes of a history over bins of samples: from its pyramid, at the ends from samples."""
 
 import json
-import os
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE
-from jointplay.storage.results.pyramid import FOLDER
+from jointplay.storage.results.pyramid import ARRAY, GROUP
 
 Floats = NDArray[np.float64]
 Column = Callable[[int, int], Floats]
@@ -23,20 +22,23 @@ _DOUBLE: Final = np.dtype("<f8")
 
 
 class StoredLevel:
-    """One level of the pyramid on the disk.
+    """One level of a stored pyramid.
 
     Parameters
     ----------
-    folder
-        Of the level's array.
+    files
+        Of the store.
+    size
+        Samples of a bucket.
     samples
         Of the history; none while it grows.
     """
 
-    def __init__(self, folder: Path, samples: int | None) -> None:
-        self.size = int(folder.name)
-        self._folder = folder
-        document = json.loads((folder / FILE).read_bytes())
+    def __init__(self, files: Files, size: int, samples: int | None) -> None:
+        self.size = size
+        self._files = files
+        self._path = f"{GROUP}/{size}/{ARRAY}"
+        document = json.loads(files.read(f"{self._path}/{FILE}"))
         self._rows, self._width = document["chunk_grid"]["configuration"]["chunk_shape"]
         self._samples = samples
         self._indices: dict[int, list[tuple[int, int]]] = {}
@@ -44,12 +46,9 @@ class StoredLevel:
     @property
     def buckets(self) -> int:
         """Buckets that can be read."""
-        if self._samples is not None:
-            return -(-self._samples // self.size)
-        files = 0
-        while (self._folder / f"c/{files}/0").exists():
-            files += 1
-        return files * int(self._rows)
+        if self._samples is not None or not isinstance(self._files, Running):
+            return -(-(self._samples or 0) // self.size)
+        return self._files.shards(f"{self._path}/c/{{}}/0") * int(self._rows)
 
     def read(self, column: int, first: int, last: int) -> Floats:
         """Read (last - first, 2) minima and maxima of a column in buckets [first, last)."""
@@ -61,18 +60,14 @@ class StoredLevel:
         return np.concatenate(pieces) if pieces else np.empty((0, 2))
 
     def _chunk(self, file: int, column: int) -> Floats:
-        descriptor = os.open(f"{self._folder}/c/{file}/0", os.O_RDONLY)
-        try:
-            index = self._indices.get(file)
-            if index is None:
-                length = shards.index_bytes(self._width // 2)
-                end = os.fstat(descriptor).st_size
-                index = shards.unpack_index(os.pread(descriptor, length, end - length))
-                self._indices[file] = index
-            offset, length = index[column]
-            content = os.pread(descriptor, length, offset)
-        finally:
-            os.close(descriptor)
+        key = f"{self._path}/c/{file}/0"
+        index = self._indices.get(file)
+        if index is None:
+            size = self._files.entry(key).size
+            packed = self._files.read(key, size - shards.index_bytes(self._width // 2), size)
+            index = self._indices[file] = shards.unpack_index(packed)
+        offset, length = index[column]
+        content = self._files.read(key, offset, offset + length)
         return shards.decompress(content, _DOUBLE).reshape(-1, 2)
 
 
@@ -81,16 +76,16 @@ class Envelope:
 
     Parameters
     ----------
-    root
-        Folder of the store.
+    files
+        Of the store.
     samples
         Of the history; none while it grows.
     """
 
-    def __init__(self, root: Path, samples: int | None) -> None:
-        found = [path for path in (root / FOLDER).glob("*") if (path / FILE).exists()]
-        levels = [StoredLevel(path, samples) for path in found]
-        self.levels = sorted(levels, key=lambda level: level.size)
+    def __init__(self, files: Files, samples: int | None) -> None:
+        found = (key.split("/") for key in files if key.endswith(f"{ARRAY}/{FILE}"))
+        sizes = sorted(int(size) for group, size, *_ in found if group == GROUP)
+        self.levels = [StoredLevel(files, size, samples) for size in sizes]
 
     def bins(self, first: int, last: int, points: int) -> "Bins":
         """Cut samples [first, last) into at most `points` bins, which begin with buckets."""

@@ -1,15 +1,14 @@
 """Rows of one table on their way to the disk: buffered until a whole shard of them is there."""
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.storage.errors import CheckpointMismatch, InvalidAppend
+from jointplay.storage.packed.running import Running
 from jointplay.storage.results import shards
-from jointplay.storage.results.durable import DurableFolder
-from jointplay.storage.results.errors import CheckpointMismatch, InvalidAppend
 from jointplay.storage.results.tables import Table
 
 Columns = Sequence[NDArray[Any]]
@@ -24,22 +23,22 @@ class GrowingTable:
     ----------
     table
         Columns and shard size.
-    folder
+    files
         Where shards are written.
     """
 
-    def __init__(self, table: Table, folder: DurableFolder) -> None:
+    def __init__(self, table: Table, files: Running) -> None:
         self.table = table
         self.durable = 0
         self.rows = 0
-        self._folder = folder
+        self._files = files
         self._shard_rows = table.shard_rows
         self._buffers = [np.empty(self._shard_rows, column.dtype) for column in table.columns]
 
     def append(self, columns: Columns) -> None:
         """Add rows, writing every shard that fills up but the one with the table's last rows.
 
-        That one waits for `finishing`, where all tables' last shards go to the disk together.
+        That one goes right into the sealed store.
 
         Parameters
         ----------
@@ -73,62 +72,45 @@ class GrowingTable:
         stop = self.rows - self.durable
         return [buffer[start:stop] for buffer in self._buffers]
 
-    def take_over(self, source: Path, durable: int) -> None:
-        """Begin with the first `durable` rows of the same table of another store.
+    def take_over(self, lost: Running, durable: int) -> None:
+        """Begin with the first `durable` rows of the same table of a lost attempt's store.
 
         Raises
         ------
         CheckpointMismatch
             A shard of these rows is not there.
         """
-        for key in self.shard_keys(0, durable // self._shard_rows):
+        for index in range(durable // self._shard_rows):
+            (key, *_) = self.shard_keys(index)
             try:
-                self._folder.adopt(key, source / key)
+                self._files.adopt(lost, key)
             except FileNotFoundError as error:
                 raise CheckpointMismatch(
-                    f"{source / key} is gone, which the checkpoint builds on"
+                    f"{lost.folder} lacks {key}, which the checkpoint builds on"
                 ) from error
-        self._folder.commit()
         self.rows = self.durable = durable
 
-    def finishing(self) -> Iterator[None]:
-        """Write the rows of the last shard, full or not, in two steps.
-
-        The folder is to be committed after each: several tables are finished with one wait.
-        """
+    def files(self) -> Iterator[tuple[str, bytes]]:
+        """Give key and content of every file of the table, in order of their rows."""
+        for index in range(self.durable // self._shard_rows):
+            yield from self._files.chunks(self.shard_keys(index)[0])
         if self.rows > self.durable:
-            yield from self._writing()
+            yield from self._next_shard()
 
-    def shard_keys(self, first: int, stop: int) -> list[str]:
-        """Name the files that hold shards `first` to `stop` - 1 of every column."""
-        return [
-            f"{self.table.key(column.name)}/c/{index}"
-            for index in range(first, stop)
-            for column in self.table.columns
-        ]
+    def shard_keys(self, index: int) -> list[str]:
+        """Name the files that hold a shard of every column."""
+        return [f"{self.table.key(column.name)}/c/{index}" for column in self.table.columns]
 
     def _write_shard(self) -> None:
-        for _ in self._writing():
-            self._folder.commit()
-
-    def _writing(self) -> Iterator[None]:
-        """Write the next shard of every column, the last one's in a step of its own.
-
-        Readers take that for the sign that all others are there.
-        """
-        keys = self.shard_keys(*self._next_shard())
-        for key, content in zip(keys, self._contents(), strict=True):
-            if key == keys[-1]:
-                yield
-            self._folder.write(key, content)
-        yield
+        self._files.write(self._next_shard(), self.shard_keys(self.durable // self._shard_rows)[0])
         self.durable = self.rows
 
-    def _next_shard(self) -> tuple[int, int]:
-        index = self.durable // self._shard_rows
-        return index, index + 1
+    def _next_shard(self) -> Iterator[tuple[str, bytes]]:
+        """Encode the waiting rows as the files of the next shard."""
+        keys = self.shard_keys(self.durable // self._shard_rows)
+        return zip(keys, self._contents(), strict=True)
 
     def _contents(self) -> Iterator[bytes]:
-        """Encode the waiting rows as the files of the next shard, in the order of `shard_keys`."""
+        """Encode the waiting rows of each column, in the order of `shard_keys`."""
         for column, rows in zip(self.table.columns, self.pending(), strict=True):
             yield shards.encode(rows, self.table.chunk_rows, self._shard_rows, column.fill)

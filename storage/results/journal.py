@@ -1,6 +1,6 @@
 """Rows that wait for their shard, kept on the disk so that a checkpoint stays small.
 
-One file per generation below `.journal`; a generation begins with all rows that wait at its
+One file per generation below `parts`; a generation begins with all rows that wait at its
 first checkpoint and grows by what is appended between checkpoints; a written shard starts the
 next one. So no generation holds more than the buffers of the tables.
 
@@ -12,7 +12,6 @@ and their columns. `storage.results.waiting` reads it for those who follow a gro
 import hashlib
 import json
 import os
-import shutil
 import struct
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,11 +19,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from jointplay.storage.results.durable import sync
-from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.durable import sync
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results.growing_table import GrowingTable
 
-FOLDER: Final = ".journal"
+FOLDER: Final = PARTS
 _KEPT_GENERATIONS: Final = 3
 ROWS: Final = struct.Struct("<Q")
 _FORMAT: Final = 2
@@ -90,12 +90,7 @@ class Journal:
         }
         return json.dumps(token).encode()
 
-    def remove(self) -> None:
-        """Delete all generations: no checkpoint will be resumed any more."""
-        shutil.rmtree(self._folder, ignore_errors=True)
-
     def _begin(self, durable: list[int]) -> None:
-        self._folder.mkdir(exist_ok=True)
         self._generation += 1
         self._size = 0
         self._hash = hashlib.sha256()

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from jointplay.records.channel import Channel
 from jointplay.records.names import STORED, is_storable
-from jointplay.storage.results.errors import InvalidLayout
+from jointplay.storage.errors import InvalidLayout
 from jointplay.storage.results.partition import Partition
 
 MANIFEST: Final = "MANIFEST.json"

@@ -6,16 +6,16 @@ committed. The last shard, which is not full yet, is made of the rows that wait 
 
 import copy
 import json
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
+from jointplay.storage.errors import NotAStore
+from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
-from jointplay.storage.results.errors import NotAStore
+from jointplay.storage.results.layout import SCHEMA_VERSION
 from jointplay.storage.results.metadata import FILE, Document, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
 
@@ -27,7 +27,7 @@ class LiveStore:
 
     Parameters
     ----------
-    folder
+    files
         Of the store.
     samples
         That are committed: those of its last recorded checkpoint.
@@ -38,16 +38,13 @@ class LiveStore:
         There is none.
     """
 
-    def __init__(self, folder: Path, samples: int) -> None:
-        self.folder = folder
-        try:
-            root: Document = json.loads((folder / FILE).read_bytes())
-            self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
-            self._attributes: dict[str, Any] = root["attributes"]
-        except (FileNotFoundError, ValueError, KeyError) as error:
-            raise NotAStore(f"{folder} holds no results store") from error
+    def __init__(self, files: Running, samples: int) -> None:
+        self.files = files
+        root = root_of(files)
+        self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
+        self._attributes: dict[str, Any] = root["attributes"]
         self._columns = columns_of(self._attributes)
-        self._waiting = committed(folder, samples, self._attributes, self._in_shards)
+        self._waiting = committed(files, samples, root)
 
     def document(self, key: str) -> bytes | None:
         """Give a zarr.json, or None where there is no group or array."""
@@ -97,10 +94,6 @@ class LiveStore:
         chunks = [rows[i : i + chunk_rows] for i in range(0, shard_rows, chunk_rows)]
         return shards.loose(chunks, chunk_rows, fill)
 
-    def _in_shards(self, key: str) -> int:
-        array = self._members[key]
-        return rows_in_shards(self.folder, key, shape_of(array)[0], int(array["shape"][0]))
-
     def _shown(self, name: str) -> Document:
         document = self._members[name]
         group, _, column = name.rpartition("/")
@@ -138,31 +131,46 @@ def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     return {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
 
 
-def rows_in_shards(folder: Path, key: str, shard_rows: int, most: int) -> int:
-    """Count the rows of a growing array whose shards are on the disk."""
-    found = 0
-    while (folder / key / "c" / str(found)).exists():
-        found += 1
-    return min(found * shard_rows, most)
+def root_of(files: Files) -> Document:
+    """Read the root's document, with those of everything below it.
+
+    Raises
+    ------
+    NotAStore
+        There is none of a results store.
+    """
+    try:
+        root: Document = json.loads(files.read(FILE))
+        schema = root["attributes"].get("result_schema")
+        _ = root["consolidated_metadata"]["metadata"]
+    except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise NotAStore("there are no results of a run") from error
+    if schema != SCHEMA_VERSION:
+        raise NotAStore(f"these have result schema {schema}; this version reads {SCHEMA_VERSION}")
+    return root
 
 
-def committed(
-    folder: Path, samples: int, attributes: dict[str, Any], in_shards: Callable[[str], int]
-) -> dict[str, Waiting]:
+def rows_in_shards(files: Running, root: Document, group: str) -> int:
+    """Count the rows of a growing table whose shards are on the disk."""
+    key = f"{group}/{columns_of(root['attributes'])[group][-1]}".lstrip("/")
+    array = root["consolidated_metadata"]["metadata"][key]
+    shards_there = files.shards(f"{key}/c/{{}}")
+    return min(shards_there * shape_of(array)[0], int(array["shape"][0]))
+
+
+def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting]:
     """Find how far each table was when that many samples were committed, by group.
 
-    Without the journal of that moment only whole shards count, which `in_shards` counts by the
-    key of an array.
+    Without the journal of that moment only whole shards count.
     """
-    columns = columns_of(attributes)
+    columns = columns_of(root["attributes"])
     sampled = [_DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
-    found = waiting_rows(folder, samples, dtypes)
+    found = waiting_rows(files.folder, samples, dtypes)
     if found is not None:
         return dict(zip(columns, found, strict=True))
-    alone = {}
-    for group, names in columns.items():
-        last = f"{group}/{names[-1]}".lstrip("/")
-        rows = in_shards(last)
-        alone[group] = Waiting(rows if group else min(rows, samples), ())
-    return alone
+    in_shards = {group: rows_in_shards(files, root, group) for group in columns}
+    return {
+        group: Waiting(rows if group else min(rows, samples), ())
+        for group, rows in in_shards.items()
+    }

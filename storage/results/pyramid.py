@@ -14,13 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.names import TIME
+from jointplay.storage.packed.running import Running
 from jointplay.storage.results import metadata, shards
-from jointplay.storage.results.durable import DurableFolder
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.tables import Column, Table
 
-FOLDER: Final = "pyramid"
+GROUP: Final = "pyramid"
+ARRAY: Final = "extremes"
+"""Name of a level's array in the group that its number of samples names."""
 FACTOR: Final = 16
 """Buckets of one level that make a bucket of the next."""
 
@@ -39,11 +41,11 @@ class Level(GrowingTable):
         Of the store.
     size
         Samples of a bucket.
-    folder
+    files
         Where its files are written.
     """
 
-    def __init__(self, layout: ResultLayout, size: int, folder: DurableFolder) -> None:
+    def __init__(self, layout: ResultLayout, size: int, files: Running) -> None:
         names = [*(channel.name for channel in layout.channels), TIME]
         columns = tuple(
             Column(f"{name} {extreme}", _DOUBLE, {})
@@ -51,19 +53,19 @@ class Level(GrowingTable):
             for extreme in ("minimum", "maximum")
         )
         rows = layout.partition.level_rows
-        group = f"{FOLDER}/{size}"
+        group = f"{GROUP}/{size}"
         self.size = size
         self.capacity = -(-layout.samples // size)
-        super().__init__(Table(group, "bucket", columns, None, rows, rows, {}), folder)
+        super().__init__(Table(group, "bucket", columns, None, rows, rows, {}), files)
 
-    def shard_keys(self, first: int, stop: int) -> list[str]:
-        """Name the files of shards `first` to `stop` - 1: one holds all columns."""
-        return [f"{self.table.group}/c/{index}/0" for index in range(first, stop)]
+    def shard_keys(self, index: int) -> list[str]:
+        """Name the one file of a shard, which holds all columns."""
+        return [f"{self.table.key(ARRAY)}/c/{index}/0"]
 
     def document(self) -> tuple[str, metadata.Document]:
         """Give key and document of the level's array, as long as the history will be."""
         width, rows = len(self.table.columns), self.table.shard_rows
-        return f"{self.table.group}/{metadata.FILE}", metadata.array(
+        return f"{self.table.key(ARRAY)}/{metadata.FILE}", metadata.array(
             [self.capacity, width],
             [rows, 2],
             _DOUBLE,
@@ -93,14 +95,14 @@ class Pyramid:
         Of the store.
     history
         The table that it follows.
-    folder
+    files
         Where files are written.
     """
 
-    def __init__(self, layout: ResultLayout, history: GrowingTable, folder: DurableFolder) -> None:
+    def __init__(self, layout: ResultLayout, history: GrowingTable, files: Running) -> None:
         self._history = history
         self._bucket = layout.partition.bucket
-        self.levels = [Level(layout, size, folder) for size in _sizes(layout, history)]
+        self.levels = [Level(layout, size, files) for size in _sizes(layout, history)]
 
     def append(self, columns: Columns) -> None:
         """Follow rows that are about to be appended to the history."""

@@ -1,6 +1,5 @@
 """Read a results store with stock zarr, also while it is being written."""
 
-import json
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
 from pathlib import Path
@@ -14,13 +13,14 @@ from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK, Peak
+from jointplay.storage.errors import NotAStore, UnknownChannel
+from jointplay.storage.packed import Files, Packed, Running, files_at
+from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.results import manifest
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
 from jointplay.storage.results.envelope import Envelope
-from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import MANIFEST, SCHEMA_VERSION
-from jointplay.storage.results.live import columns_of, committed, rows_in_shards, shape_of
-from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.results.live import columns_of, committed, root_of, rows_in_shards
+from jointplay.storage.results.metadata import Document
 from jointplay.storage.results.waiting import Waiting
 
 Floats = NDArray[np.float64]
@@ -31,8 +31,8 @@ class ResultReader:
 
     Parameters
     ----------
-    path
-        Folder of the store.
+    source
+        Its files, or the path of a packed store or of the folder of a growing one.
     watermark
         Samples that may be read while the store grows: those of a checkpoint, of which some may
         wait for their shard, or fewer than are in shards. By default those in shards. A sealed
@@ -44,28 +44,20 @@ class ResultReader:
         There is no store, or one of a schema that this version does not know.
     """
 
-    def __init__(self, path: Path, watermark: int | None = None) -> None:
-        self.path = Path(path)
-        try:
-            root: Document = json.loads((self.path / FILE).read_bytes())
-            self.attributes: dict[str, Any] = root["attributes"]
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise NotAStore(f"{self.path} holds no results store") from error
-        schema = self.attributes.get("result_schema")
-        if schema != SCHEMA_VERSION:
-            raise NotAStore(
-                f"{self.path} has result schema {schema}; this version reads {SCHEMA_VERSION}"
-            )
+    def __init__(self, source: Files | Path, watermark: int | None = None) -> None:
+        self.files = files_at(source) if isinstance(source, Path) else source
+        self._document = root = root_of(self.files)
+        self.attributes: dict[str, Any] = root["attributes"]
         self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
-        self.sealed = (self.path / MANIFEST).exists()
+        self.sealed = isinstance(self.files, Packed)
         """Nothing will be added any more."""
         self.complete = bool(self.attributes["complete"])
         """The run came to its end; False while it runs and when it failed or was cancelled."""
         self.joints: tuple[str, ...] = tuple(self.attributes["joints"])
         """Names that the `joint` of an impact points to."""
         self._waiting: dict[str, Waiting] = {}
-        if watermark is not None and not self.sealed:
-            self._waiting = committed(self.path, watermark, self.attributes, self._in_shards)
+        if watermark is not None and isinstance(self.files, Running):
+            self._waiting = committed(self.files, watermark, root)
         self.samples = self._rows("")
         """Samples that can be read."""
 
@@ -178,7 +170,7 @@ class ResultReader:
         """Read the signed extremes by channel; none before the store is sealed."""
         if not self.sealed:
             return {}
-        group = _opened(self.path / "peaks")  # alone: without a look at hundreds of channels
+        group = _opened(self.files, "peaks")  # alone: without a look at hundreds of channels
         columns = [np.asarray(group[name]).tolist() for name in PEAK]
         return {
             name: Peak(*values)
@@ -199,21 +191,16 @@ class ResultReader:
         CorruptStore
             A file is missing, differs or was added.
         """
-        manifest.verify(self.path)
+        manifest.verify(self.files)
 
     def _rows(self, group: str) -> int:
         """Rows of a table that are there: all once sealed, else those committed or in shards."""
         if group in self._waiting:
             return self._waiting[group].rows
+        if isinstance(self.files, Running):
+            return rows_in_shards(self.files, self._document, group)
         last = columns_of(self.attributes)[group][-1]
-        key = f"{group}/{last}" if group else last
-        if self.sealed:
-            return int(self._members[key]["shape"][0])
-        return self._in_shards(key)
-
-    def _in_shards(self, key: str) -> int:
-        array = self._members[key]
-        return rows_in_shards(self.path, key, shape_of(array)[0], int(array["shape"][0]))
+        return int(self._members[f"{group}/{last}".lstrip("/")]["shape"][0])
 
     def _window(self, start: int, stop: int | None) -> tuple[int, int]:
         stop = self.samples if stop is None else min(stop, self.samples)
@@ -243,11 +230,11 @@ class ResultReader:
 
     @cached_property
     def _root(self) -> zarr.Group:
-        return _opened(self.path)
+        return _opened(self.files)
 
     @cached_property
     def _envelope(self) -> Envelope:
-        return Envelope(self.path, self.samples if self.sealed else None)
+        return Envelope(self.files, self.samples if self.sealed else None)
 
     @cached_property
     def _last_times(self) -> tuple[int, Floats] | None:
@@ -290,9 +277,9 @@ class ResultReader:
     def _array(self, key: str) -> zarr.Array[Any]:
         found = self._root[key]
         if not isinstance(found, zarr.Array):
-            raise NotAStore(f"{self.path} has no array {key!r}")
+            raise NotAStore(f"the store has no array {key!r}")
         return found
 
 
-def _opened(folder: Path) -> zarr.Group:
-    return zarr.open_group(folder, mode="r", zarr_format=3)
+def _opened(files: Files, group: str = "") -> zarr.Group:
+    return zarr.open_group(FilesStore(files), path=group, mode="r", zarr_format=3)

@@ -13,7 +13,7 @@ import numpy as np
 from numcodecs import blosc
 from numpy.typing import NDArray
 
-from jointplay.storage.results.errors import CorruptStore
+from jointplay.storage.errors import CorruptStore
 
 COMPRESSOR: Final = "zstd"
 COMPRESSION_LEVEL: Final = 3

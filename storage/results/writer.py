@@ -1,6 +1,6 @@
 """Write the results of one attempt, from empty store to sealed store."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any, Final, Self
@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
+from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
+from jointplay.storage.packed import Running, pack
+from jointplay.storage.packed.running import DOCUMENTS
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata
 from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix
-from jointplay.storage.results.durable import PARTIAL, DurableFolder
-from jointplay.storage.results.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.journal import Checkpoint, Journal
 from jointplay.storage.results.layout import ResultLayout
@@ -26,26 +28,23 @@ _NO_PEAK: Final = Peak(*[float("nan")] * 4)
 class ResultWriter:
     """One store being written by one process; make it with `create` or `resume`.
 
-    The files of a sealed store depend on the layout, the rows and the summary alone: not on how
+    The bytes of a sealed store depend on the layout, the rows and the summary alone: not on how
     the rows were sliced into `append` calls, nor on whether and where the run was interrupted
     and resumed.
     """
 
     def __init__(self, path: Path, layout: ResultLayout) -> None:
-        self._path = path
         self._layout = layout
-        self._folder = DurableFolder(path)
+        self._files = Running(path)
         self._journal = Journal(path, layout.digest)
-        self._tables = [GrowingTable(table, self._folder) for table in tables(layout)]
+        self._tables = [GrowingTable(table, self._files) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
-        self._pyramid = Pyramid(layout, self._history, self._folder)
+        self._pyramid = Pyramid(layout, self._history, self._files)
         self._sealed = False
 
     @classmethod
     def create(cls, path: Path, layout: ResultLayout) -> Self:
         """Begin an empty store in a folder, which is made if it does not exist.
-
-        The folder may hold other files (they join the manifest), but no store.
 
         Raises
         ------
@@ -53,12 +52,9 @@ class ResultWriter:
             There is a store in it already.
         """
         path = Path(path)
-        if (path / metadata.FILE).exists():
+        if (path / DOCUMENTS).exists():
             raise StoreExists(f"{path} holds results already; choose another folder")
-        path.mkdir(parents=True, exist_ok=True)
         writer = cls(path, layout)
-        for key, document in writer._pyramid.documents().items():
-            writer._folder.draft(key, metadata.serialise(document))
         writer._show()
         return writer
 
@@ -102,8 +98,9 @@ class ResultWriter:
         taken_over_from = Path(taken_over_from)
         state = Checkpoint(checkpoint, layout.digest)
         writer = cls.create(path, layout)
+        lost = Running(taken_over_from)
         for table, durable in zip(writer._growing, state.durable, strict=True):
-            table.take_over(taken_over_from, durable)
+            table.take_over(lost, durable)
         state.replay(taken_over_from, writer._growing)
         if writer._impacts.durable:
             writer._show()
@@ -193,16 +190,21 @@ class ResultWriter:
 
     def seal(
         self,
+        target: StoredObject,
         *,
         peaks: Mapping[str, Peak],
         summary: Mapping[str, Any],
         complete: bool = True,
         certificate: Appendix | None = None,
     ) -> None:
-        """Finish the store: it is durable, and never changes, when this returns.
+        """Finish the store: packed, durable and never to change when this returns.
+
+        The folder stays, for those who read it: remove it when everybody knows of the sealed one.
 
         Parameters
         ----------
+        target
+            Where the packed store goes.
         peaks
             Signed extremes by channel; a channel without them gets NaN.
         summary
@@ -216,6 +218,8 @@ class ResultWriter:
         ------
         StoreSealed
             When called twice.
+        StoreExists
+            There is a store at the target.
         InvalidAppend
             `complete` although samples or sections are missing, a peak of an unknown channel,
             or a summary that JSON cannot carry; the store may still be sealed then.
@@ -254,25 +258,21 @@ class ResultWriter:
         rows = np.array([astuple(peaks.get(name, _NO_PEAK)) for name in names]).reshape(-1, 4)
         self._peaks.append(list(rows.T))
         self._pyramid.close()
-        for litter in self._path.rglob(f"*{PARTIAL}"):
-            litter.unlink()
-        for key, content in (certificate.chunks(CERTIFICATE) if certificate else {}).items():
-            self._folder.write(key, content)
-        tables = [table.finishing() for table in self._growing]
-        for table in tables:
-            next(table, None)
-        self._folder.commit()
-        for table in tables:
-            next(table, None)
         shown = [table.rows for table in self._tables]
         documents = metadata.documents(self._layout, shown, attributes, more)
-        for key, document in (self._pyramid.documents() | documents).items():
-            self._folder.write(key, metadata.serialise(document))
-        self._folder.commit()
-        for table in tables:
-            next(table, None)
-        manifest.seal(self._folder)
-        self._journal.remove()
+
+        def entries() -> Iterator[tuple[str, bytes]]:
+            for table in self._growing:
+                yield from table.files()
+            if certificate is not None:
+                yield from certificate.chunks(CERTIFICATE).items()
+            for key, document in (self._pyramid.documents() | documents).items():
+                yield key, metadata.serialise(document)
+
+        try:
+            target.put(pack(manifest.listed(entries())))
+        except FileExistsError as error:
+            raise StoreExists(f"{target} holds results already") from error
 
     @property
     def _growing(self) -> list[GrowingTable]:
@@ -286,9 +286,10 @@ class ResultWriter:
         """
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
-        for key, document in metadata.documents(layout, shown, {}).items():
-            if document["node_type"] == "group":
-                self._folder.draft(key, metadata.serialise(document))
+        documents = metadata.documents(layout, shown, {})
+        groups = {key: one for key, one in documents.items() if one["node_type"] == "group"}
+        shown_now = (self._pyramid.documents() | groups).items()
+        self._files.write_documents((key, metadata.serialise(one)) for key, one in shown_now)
 
     def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:
         expected = (len(time), len(self._layout.channels))
@@ -297,4 +298,4 @@ class ResultWriter:
 
     def _refuse_when_sealed(self) -> None:
         if self._sealed:
-            raise StoreSealed(f"{self._path} is sealed and takes no more rows")
+            raise StoreSealed(f"{self._files.folder} is sealed and takes no more rows")

@@ -4,7 +4,6 @@ A file of an array is written once, when nothing in it can change any more: its 
 the results alone, and a worker that was given up and comes back late writes the same bytes.
 """
 
-import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Self
@@ -13,9 +12,9 @@ import numpy as np
 
 from jointplay.records.names import TIME
 from jointplay.records.point import Failure, PointEnd, PointStatus, SectionRows, StudySlice
+from jointplay.storage.errors import CorruptStore, InvalidAppend, ResultsError
+from jointplay.storage.packed import Running
 from jointplay.storage.results import shards
-from jointplay.storage.results.durable import PARTIAL, DurableFolder
-from jointplay.storage.results.errors import CorruptStore, InvalidAppend, ResultsError
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Floats, Part
@@ -45,7 +44,7 @@ class StudyBlock:
         self._layout = layout
         self._first, self._count = layout.blocks[index]
         self._attempt = attempt
-        self._folder = DurableFolder(folder, f".{secrets.token_hex(4)}{PARTIAL}")
+        self._files = Running(folder)
         self._part = Part.empty(layout, index)
 
     @classmethod
@@ -66,7 +65,7 @@ class StudyBlock:
         """
         block = cls(folder, layout, index, attempt)
         found = Part.read(folder / part.FOLDER / name, layout.digest)
-        require_chunks(folder, layout, found)
+        require_chunks(block._files, layout, found)
         for key, rows in found.open.items():
             chunk = block._new_chunk()
             chunk[:, :, : rows.shape[2]] = rows
@@ -80,7 +79,7 @@ class StudyBlock:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
             found = Part.read(folder / part.FOLDER / part.final_name(index), layout.digest)
-            require_chunks(folder, layout, found)
+            require_chunks(Running(folder), layout, found)
         except (FileNotFoundError, ResultsError):
             return False
         return True
@@ -91,7 +90,7 @@ class StudyBlock:
         return int(np.isin(self._part.status, _ENDED).sum())
 
     def take(self, piece: StudySlice) -> None:
-        """Add what became known; chunks that are full go to the disk, durable with `flush`.
+        """Add what became known; chunks that are full go to the disk.
 
         Raises
         ------
@@ -133,7 +132,7 @@ class StudyBlock:
         if missing:
             raise InvalidAppend(f"{missing} points of block {self._part.index} have not ended")
         self._write_part(part.final_name(self._part.index), self._trimmed(), b"")
-        for path in (self._folder.root / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
+        for path in (self._files.folder / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
             path.unlink(missing_ok=True)
 
     def _add_rows(self, rows: SectionRows) -> int:
@@ -199,20 +198,15 @@ class StudyBlock:
         passed = int(counts.min()) // sections if going.any() else self._layout.record
         full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)
         for key in full:
-            chunk = self._part.open.pop(key)
-            for path, content in chunk_files(self._layout, key, chunk):
-                self._folder.write(path, content)
+            self._files.write(chunk_files(self._layout, key, self._part.open[key]), _place(key))
+            del self._part.open[key]
 
     def _trimmed(self) -> dict[tuple[int, int], Floats]:
         """Open chunks without the columns that no point has reached."""
         return {key: chunk[:, :, : _last(chunk[-1])] for key, chunk in self._part.open.items()}
 
     def _write_part(self, name: str, chunks: dict[tuple[int, int], Floats], carried: bytes) -> None:
-        """Write a part, and bring it to the disk together with the chunks that it builds on.
-
-        Should a power cut leave the part without them, whoever reads it finds that they are
-        missing.
-        """
+        """Write a part; the chunks that it builds on are on the disk."""
         known = self._part
         shown = Part(
             known.index,
@@ -225,13 +219,7 @@ class StudyBlock:
             chunks,
             carried,
         )
-        try:
-            self._folder.write(f"{part.FOLDER}/{name}", shown.encode(self._layout))
-            self._folder.commit()
-        except OSError:
-            self._folder.discard()
-            raise
-        self._folder.records.clear()
+        self._files.write_other(f"{part.FOLDER}/{name}", [shown.encode(self._layout)])
 
     def _new_chunk(self) -> Floats:
         return np.full((len(self._layout.observables) + 1, *self._layout.chunk), np.nan)
@@ -257,12 +245,24 @@ def chunk_files(
         yield path, shards.compress(values)
 
 
-def require_chunks(folder: Path, layout: StudyLayout, found: Part) -> None:
+def require_chunks(files: Running, layout: StudyLayout, found: Part) -> None:
     """Raise `CorruptStore` if a chunk is missing that a part builds on."""
     for key in found.written(layout):
-        for path in _paths(layout, key):
-            if not (folder / path).exists():
-                raise CorruptStore(f"{folder / path} is missing, though block {found.index} had it")
+        if not files.has(_place(key)):
+            raise CorruptStore(
+                f"{files.folder} lacks {_place(key)}, though block {found.index} had written it"
+            )
+
+
+def written_chunks(files: Running, layout: StudyLayout, found: Part) -> Iterator[tuple[str, bytes]]:
+    """Give path and content of the chunks that a finished block wrote."""
+    for key in found.written(layout):
+        yield from files.chunks(_place(key))
+
+
+def _place(key: tuple[int, int]) -> str:
+    """Return the key of some array's chunk at a place of the grid."""
+    return f"sections/{TIME}/c/{key[0]}/{key[1]}"
 
 
 def _paths(layout: StudyLayout, key: tuple[int, int]) -> list[str]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
-from jointplay.storage.results.errors import InvalidLayout
+from jointplay.storage.errors import InvalidLayout
 from jointplay.storage.results.layout import check_name
 
 STUDY_SCHEMA: Final = 1

@@ -6,7 +6,6 @@ of all arrays, and the chunks of what is still in the parts of blocks.
 
 from collections.abc import Mapping
 from functools import partial
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
+from jointplay.storage.packed import Files
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
@@ -28,7 +28,7 @@ class LiveStudy:
 
     Parameters
     ----------
-    folder
+    files
         Of the store.
     meanings
         Units and long names of statistics and indicators that any study may have.
@@ -39,8 +39,9 @@ class LiveStudy:
         There is no store of a study.
     """
 
-    def __init__(self, folder: Path, meanings: Mapping[str, Channel]) -> None:
-        self._reader = reader = StudyReader(folder)
+    def __init__(self, files: Files, meanings: Mapping[str, Channel]) -> None:
+        self.files = files
+        self._reader = reader = StudyReader(files)
         self._layout = StudyLayout(
             parameters=reader.parameters,
             values=reader.values,

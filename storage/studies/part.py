@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.point import Failure
-from jointplay.storage.results.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.studies.layout import StudyLayout
 
-FOLDER: Final = ".parts"
+FOLDER: Final = PARTS
 _MAGIC: Final = b"jointplay part of a study 1\n"
 
 Floats = NDArray[np.float64]

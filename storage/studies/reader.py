@@ -15,9 +15,10 @@ from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure
+from jointplay.storage.errors import NotAStore, UnknownChannel
+from jointplay.storage.packed import Files, Packed, Running, files_at
+from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.results import manifest
-from jointplay.storage.results.errors import NotAStore, UnknownChannel
-from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import STUDY_SCHEMA
@@ -35,8 +36,8 @@ class StudyReader:
 
     Parameters
     ----------
-    folder
-        Of the store.
+    source
+        Its files, or the path of a packed store or of the folder of one that is being filled.
 
     Raises
     ------
@@ -44,23 +45,20 @@ class StudyReader:
         There is no store of a study, or one of a schema that this version does not know.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self.path = Path(folder)
-        self._open()
+    def __init__(self, source: Files | Path) -> None:
+        self._open(files_at(source) if isinstance(source, Path) else source)
 
-    def _open(self) -> None:
-        self.sealed = (self.path / MANIFEST).exists()
+    def _open(self, files: Files) -> None:
+        self.files = files
+        self.sealed = isinstance(files, Packed)
         """Nothing will be added any more."""
         try:
-            root = json.loads((self.path / FILE).read_bytes())
-            self.attributes: dict[str, Any] = root["attributes"]
+            self.attributes: dict[str, Any] = json.loads(files.read(FILE))["attributes"]
             schema = self.attributes.get("study_schema")
-        except (FileNotFoundError, ValueError, KeyError, TypeError) as error:
-            raise NotAStore(f"{self.path} holds no store of a study") from error
+        except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise NotAStore("there is no store of a study") from error
         if schema != STUDY_SCHEMA:
-            raise NotAStore(
-                f"{self.path} has study schema {schema}; this version reads {STUDY_SCHEMA}"
-            )
+            raise NotAStore(f"this has study schema {schema}; this version reads {STUDY_SCHEMA}")
         self.complete = bool(self.attributes["complete"])
         """Every point has ended; False while it runs and when it failed or was cancelled."""
         self.points = int(self.attributes["points"])
@@ -201,7 +199,7 @@ class StudyReader:
         CorruptStore
             A file is missing, differs or was added.
         """
-        manifest.verify(self.path)
+        manifest.verify(self.files)
 
     def _sections(self, name: str, column: int, start: int, stop: int | None) -> Floats:
         points = slice(*slice(start, stop).indices(self.points))
@@ -227,24 +225,24 @@ class StudyReader:
     def _parts(self) -> dict[int, Part]:
         """Parts of a store that is not sealed, by block, each of one moment.
 
-        They go when the study is sealed, after the manifest is there: if there is none when they
-        have been read, they were all there.
+        They go when the study is sealed, after the packed store is there: if there is none when
+        they have been read, they were all there.
         """
-        found: dict[int, Part] = {}
         for _ in range(_PATIENCE):
-            if self.sealed:
+            if not isinstance(self.files, Running):
                 return {}
             try:
                 found = {
                     index: Part.read(path, self.attributes["layout"])
-                    for index, path in part.newest(self.path).items()
+                    for index, path in part.newest(self.files.folder).items()
                 }
             except FileNotFoundError:  # one was replaced by the last part of its block
                 continue
-            if not (self.path / MANIFEST).exists():
+            sealed = self.files.sealed()
+            if sealed is None:
                 return found
-            self._open()
-        raise NotAStore(f"{self.path} changes faster than it can be read")
+            self._open(sealed)
+        raise NotAStore("the study changes faster than it can be read")
 
     @cached_property
     def _numbers(self) -> Points:
@@ -268,7 +266,7 @@ class StudyReader:
 
     def _failures(self) -> dict[int, Failure]:
         try:
-            found = json.loads((self.path / FAILURES).read_bytes())
+            found = json.loads(self.files.read(FAILURES))
         except FileNotFoundError:
             return {}
         return {
@@ -285,7 +283,7 @@ class StudyReader:
 
     @cached_property
     def _root(self) -> zarr.Group:
-        return zarr.open_group(self.path, mode="r", zarr_format=3)
+        return zarr.open_group(FilesStore(self.files), mode="r", zarr_format=3)
 
 
 def _specs(listed: Sequence[Sequence[str]]) -> tuple[Channel, ...]:

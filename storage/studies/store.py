@@ -2,10 +2,9 @@
 
 import json
 import math
-import secrets
 from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
-from shutil import rmtree
 from typing import Any, Final
 
 import numpy as np
@@ -13,12 +12,12 @@ from numpy.typing import NDArray
 
 from jointplay.records.peak import PEAK
 from jointplay.records.point import Failure, PointStatus
+from jointplay.storage.errors import IncompleteStudy, NotAStore, StoreExists
+from jointplay.storage.packed import Running, pack
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
-from jointplay.storage.results.durable import PARTIAL, DurableFolder
-from jointplay.storage.results.errors import IncompleteStudy, StoreExists
-from jointplay.storage.results.layout import MANIFEST
 from jointplay.storage.studies import documents, part
-from jointplay.storage.studies.block import chunk_files, require_chunks
+from jointplay.storage.studies.block import chunk_files, require_chunks, written_chunks
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Floats, Part
 from jointplay.storage.studies.points import Points, together
@@ -38,10 +37,10 @@ def create(folder: Path, layout: StudyLayout) -> None:
         The folder holds a store of something else, or of the same study computed by another
         version of the program.
     """
+    files = Running(folder)
     try:
-        root = json.loads((folder / metadata.FILE).read_bytes())
-        present = root["attributes"].get("layout")
-    except (FileNotFoundError, ValueError, KeyError, TypeError):
+        present = json.loads(files.read(metadata.FILE))["attributes"].get("layout")
+    except (NotAStore, FileNotFoundError, ValueError, KeyError, TypeError):
         pass  # none, or cut off by a power failure
     else:
         if present != layout.digest:
@@ -50,23 +49,28 @@ def create(folder: Path, layout: StudyLayout) -> None:
                 " the program; choose another folder, or submit the study again"
             )
         return
-    folder.mkdir(parents=True, exist_ok=True)
-    writing = _writer(folder)
-    for key, content in _values(layout):
-        writing.draft(key, content)
-    for key, document in documents.running(layout).items():
-        writing.draft(key, metadata.serialise(document))
+    running = documents.running(layout).items()
+    shown = ((key, metadata.serialise(document)) for key, document in running)
+    files.write_documents(chain(_values(layout), shown))
 
 
-def seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None] = lambda: None) -> None:
-    """Finish a store whose blocks are all done; it is durable, and never changes, on return.
+def seal(
+    folder: Path,
+    layout: StudyLayout,
+    target: StoredObject,
+    advanced: Callable[[], None] = lambda: None,
+) -> None:
+    """Pack a study whose blocks are all done; it is durable, and never changes, on return.
 
-    May be repeated, also after an interruption and by several processes.
+    May be repeated, also after an interruption and by several processes. The folder stays, for
+    those who read it; memory is bounded by the part of one block.
 
     Parameters
     ----------
     folder, layout
         As for `create`.
+    target
+        Where the packed store goes.
     advanced
         Called now and then; a large store takes a while.
 
@@ -77,16 +81,20 @@ def seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None] = lambd
     CorruptStore
         What a block left is damaged or missing.
     """
+    if target.exists():
+        return
     try:
-        _seal(folder, layout, advanced)
-    except (FileNotFoundError, IncompleteStudy):
-        if not (folder / MANIFEST).exists():
+        target.put(pack(manifest.listed(_files(folder, layout, advanced))))
+    except (FileNotFoundError, FileExistsError, IncompleteStudy):
+        if not target.exists():
             raise
-        # sealed before, or by somebody else in the meantime
-    rmtree(folder / part.FOLDER, ignore_errors=True)
+        # by somebody else in the meantime
 
 
-def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> None:
+def _files(
+    folder: Path, layout: StudyLayout, advanced: Callable[[], None]
+) -> Iterator[tuple[str, bytes]]:
+    """Give key and content of every file of the sealed store, in the same order always."""
     finals = {
         index: folder / part.FOLDER / part.final_name(index) for index in range(len(layout.blocks))
     }
@@ -97,32 +105,26 @@ def _seal(folder: Path, layout: StudyLayout, advanced: Callable[[], None]) -> No
         )
 
     def part_of(index: int) -> Part:
+        advanced()
         return Part.read(finals[index], layout.digest)
 
-    writing = _writer(folder)
-    for key, content in _values(layout):
-        writing.write(key, content)
-    names, failures, ended = _survey(folder, part_of, layout)
+    files = Running(folder)
+    names, failures, ended = _survey(files, part_of, layout)
     codes = sorted({failure.code for failure in failures.values()})
-    for key, content in _columns(part_of, layout, names, codes):
-        writing.write(key, content)
-        advanced()
-    for key, content in _boundary_chunks(part_of, layout):
-        writing.write(key, content)
-        advanced()
+    yield from _values(layout)
+    yield from _columns(part_of, layout, names, codes)
+    for index in finals:
+        yield from written_chunks(files, layout, part_of(index))
+    yield from _boundary_chunks(part_of, layout)
     if failures:
-        writing.write(FAILURES, metadata.serialise(_told(failures)))
+        yield FAILURES, metadata.serialise(_as_json(failures))
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
     for key, document in documents.sealed(layout, names, attributes).items():
-        writing.write(key, metadata.serialise(document))
-    writing.commit()
-    for litter in folder.rglob(f"*{PARTIAL}"):
-        litter.unlink(missing_ok=True)
-    manifest.seal(writing, advanced)
+        yield key, metadata.serialise(document)
 
 
 def _survey(
-    folder: Path, part_of: Callable[[int], Part], layout: StudyLayout
+    files: Running, part_of: Callable[[int], Part], layout: StudyLayout
 ) -> tuple[dict[str, list[str]], dict[int, Failure], dict[str, int]]:
     """Names of all numbers by group, failed points, and how many points are done and failed."""
     groups: dict[str, set[str]] = {"statistics": set(), "indicators": set()}
@@ -130,7 +132,7 @@ def _survey(
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
-        require_chunks(folder, layout, found)
+        require_chunks(files, layout, found)
         groups["statistics"] |= found.statistics.keys()
         groups["indicators"] |= found.indicators.keys()
         failures |= found.failures
@@ -164,8 +166,8 @@ def _columns(
                 yield f"peaks/{name}/c/{chunk}/0", _encoded(peaks[:, :, position], size)
 
 
-def _told(failures: dict[int, Failure]) -> dict[str, tuple[str, str, float | None]]:
-    """Failures as JSON has them: no number is infinite or not a number."""
+def _as_json(failures: dict[int, Failure]) -> dict[str, tuple[str, str, float | None]]:
+    """Return failures by point; a time that is not finite, which JSON has not, is null."""
     return {
         str(point): (code, detail, time if math.isfinite(time) else None)
         for point, (code, detail, time) in failures.items()
@@ -225,7 +227,3 @@ def _encoded(column: NDArray[Any], size: int) -> bytes:
         empty = np.full((missing, *column.shape[1:]), shards.fill(column.dtype), column.dtype)
         column = np.concatenate([column, empty])
     return shards.compress(column)
-
-
-def _writer(folder: Path) -> DurableFolder:
-    return DurableFolder(folder, f".{secrets.token_hex(4)}{PARTIAL}")

@@ -33,7 +33,7 @@ def test_a_run_leaves_the_filled_in_job_the_store_the_peaks_and_figures(press):
     assert job["scene"]["parameters"]["clearance"] == 3e-4
     assert job["scene"]["parameters"]["restitution"] == 0.9
     assert job["tolerance"] == 1e-6
-    reader = ResultReader(press / "results.zarr")
+    reader = ResultReader(press / "results.zarr.zip")
     reader.verify()
     assert reader.complete
     assert reader.attributes["job"] == job
@@ -50,7 +50,10 @@ def test_the_job_it_leaves_repeats_every_bit(jointplay, press, tmp_path):
     ended = jointplay("run", press / "job.json", "-o", again)
     assert ended.code == 0
     assert "displacement" in ended.out
-    first, second = ResultReader(press / "results.zarr"), ResultReader(again / "results.zarr")
+    first, second = (
+        ResultReader(press / "results.zarr.zip"),
+        ResultReader(again / "results.zarr.zip"),
+    )
     for (time, ours), (other_time, theirs) in (
         (first.history(), second.history()),
         (first.sections(), second.sections()),
@@ -71,7 +74,7 @@ def test_local_results_are_exported_bit_for_bit(jointplay, press, tmp_path):
         header, *rows = csv.reader(lines)
     assert header[0] == "time [s]"
     table = np.array(rows, dtype=float)
-    time, columns = ResultReader(press / "results.zarr").history(["slider7.vx"])
+    time, columns = ResultReader(press / "results.zarr.zip").history(["slider7.vx"])
     assert (table[:, 0] == time).all()
     assert (table[:, header.index("slider7.vx [m/s]")] == columns["slider7.vx"]).all()
     near = jointplay("export", press, "--channels", "slider7.vX")
@@ -92,7 +95,7 @@ def test_selected_channels_are_all_that_is_stored(jointplay, tmp_path):
     output = tmp_path / "OUT"
     arguments = [*PRESS, "--channels", "displacement,B.*force", "-o", output]
     assert jointplay(*arguments).code == 0
-    stored = [channel.name for channel in ResultReader(output / "results.zarr").channels]
+    stored = [channel.name for channel in ResultReader(output / "results.zarr.zip").channels]
     assert stored == ["B.normal_force", "B.friction_force", "displacement"]
 
 
@@ -105,7 +108,7 @@ def test_a_run_that_fails_ends_with_three_says_what_to_try_and_keeps_the_rest(jo
     line = ended.err.splitlines()[-1]
     assert "step" in line
     assert "larger tolerance" in line
-    reader = ResultReader(output / "results.zarr")
+    reader = ResultReader(output / "results.zarr.zip")
     assert not reader.complete
     assert 0 < reader.samples < 51
     assert reader.history(["displacement"])[0][-1] < 0.05
@@ -187,7 +190,7 @@ def test_a_run_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(tm
         rest = process.stderr.read()
     assert process.returncode == 4, rest
     assert "cancelled" in rest.splitlines()[-1]
-    reader = ResultReader(output / "results.zarr")
+    reader = ResultReader(output / "results.zarr.zip")
     assert reader.sealed
     assert not reader.complete
     assert 0 < reader.samples < 200_001

@@ -10,20 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import zarr
+from zarr.storage import ZipStore
 
 from jointplay.command_line.application import run
 from jointplay.storage.studies import StudyReader
+from jointplay.worker.local.folder import STORE
 
 CRANK = ["run", "slider-crank"]
 DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:17", "--settle", "2", "--record", "4"]
-
-
-def files_of(store: Path) -> dict[str, bytes]:
-    return {
-        str(path.relative_to(store)): path.read_bytes()
-        for path in store.rglob("*")
-        if path.is_file()
-    }
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +31,7 @@ def diagram(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_study_leaves_the_filled_in_job_the_store_the_points_and_figures(diagram):
     job = json.loads((diagram / "job.json").read_text())
     assert (job["kind"], job["settle"], job["continuation"]) == ("bifurcation", 2, "none")
-    reader = StudyReader(diagram / "results.zarr")
+    reader = StudyReader(diagram / "results.zarr.zip")
     reader.verify()
     assert reader.complete
     assert reader.attributes["job"] == job
@@ -60,7 +54,7 @@ def test_the_number_of_processes_changes_no_byte(jointplay, diagram, tmp_path):
     ended = jointplay("run", diagram / "job.json", "--processes", "1", "-o", again)
     assert ended.code == 0, ended.err
     assert "17 done" in ended.out
-    assert files_of(again / "results.zarr") == files_of(diagram / "results.zarr")
+    assert (again / STORE).read_bytes() == (diagram / STORE).read_bytes()
 
 
 def test_sections_are_exported_bit_for_bit_and_drawn(jointplay, diagram, tmp_path):
@@ -70,7 +64,7 @@ def test_sections_are_exported_bit_for_bit_and_drawn(jointplay, diagram, tmp_pat
     with file.open() as lines:
         header, *rows = csv.reader(lines)
     table = np.array(rows, dtype=float)
-    reader = StudyReader(diagram / "results.zarr")
+    reader = StudyReader(diagram / "results.zarr.zip")
     column = table[:, header.index("P.eccentricity_y [m]")]
     np.testing.assert_array_equal(column, reader.sections("P.eccentricity_y").ravel())
     ended = jointplay("plot", diagram, "section", "--start", "16", "--stop", "17", "-o", tmp_path)
@@ -95,7 +89,7 @@ def test_every_kind_of_study_runs_locally(jointplay, tmp_path, options, points):
     ended = jointplay(*CRANK, *options, *periods, "-o", output)
     assert ended.code == 0, ended.err
     assert f"points    {points} done" in ended.out
-    reader = StudyReader(output / "results.zarr")
+    reader = StudyReader(output / "results.zarr.zip")
     assert reader.complete
     assert reader.points == points
     assert list((output / "figures").iterdir()) != []
@@ -107,9 +101,11 @@ def test_statistics_of_a_sweep_are_in_the_store_and_in_the_table(jointplay, tmp_
     sweep = [*CRANK, "--sweep", "clearance=1e-4,3e-4", "--periods", "2", "--settle", "1"]
     ended = jointplay(*sweep, *chosen, "-o", output)
     assert ended.code == 0, ended.err
-    reader = StudyReader(output / "results.zarr")
+    reader = StudyReader(output / "results.zarr.zip")
     reader.verify()
-    mean = zarr.open_group(output / "results.zarr", mode="r")["statistics/P.normal_force.mean"]
+    mean = zarr.open_group(ZipStore(output / "results.zarr.zip"), mode="r")[
+        "statistics/P.normal_force.mean"
+    ]
     assert mean.attrs["units"] == "N"
     assert mean.attrs["long_name"] == "mean of normal contact force (joint P)"
     square = reader.statistics["P.normal_force.root_mean_square"]
@@ -132,7 +128,7 @@ def test_points_that_fail_are_named_and_the_others_stand(jointplay, tmp_path):
     assert ended.code == 0, ended.err
     assert "points    1 done, 1 failed" in ended.out
     assert "point 0 (dynamic_velocity = 1e-12)" in ended.out
-    reader = StudyReader(output / "results.zarr")
+    reader = StudyReader(output / "results.zarr.zip")
     assert reader.failures.keys() == {0}
     assert np.isfinite(reader.peaks("displacement").maximum[1])
     alone = jointplay("run", "seven-bar-press", *stiff, "--sweep", "dynamic_velocity=1e-12",
@@ -162,7 +158,7 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     assert process.returncode == 4, rest
     assert "cancelled" in rest.splitlines()[-1]
     assert "waiting" in out
-    reader = StudyReader(output / "results.zarr")
+    reader = StudyReader(output / "results.zarr.zip")
     assert not reader.complete
     done = int((reader.status == 2).sum())
     assert 0 < done < 400

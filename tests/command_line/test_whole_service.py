@@ -30,7 +30,7 @@ def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path
     assert submitted.code == 0, submitted.err
     job_id = submitted.out.strip()
     assert jointplay("run", *PRESS, "-o", tmp_path / "OUT").code == 0
-    local = ResultReader(tmp_path / "OUT" / "results.zarr")
+    local = ResultReader(tmp_path / "OUT" / "results.zarr.zip")
     with Client(url) as client:
         job = client.job(job_id)
         assert job.job == local.attributes["job"]
@@ -67,7 +67,7 @@ def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_pa
     assert submitted.code == 0, submitted.err
     job_id = submitted.out.strip()
     assert jointplay("run", *diagram, "-o", tmp_path / "OUT").code == 0
-    local = StudyReader(tmp_path / "OUT" / "results.zarr")
+    local = StudyReader(tmp_path / "OUT" / "results.zarr.zip")
     with Client(url) as client:
         job = client.job(job_id)
         assert job.job == local.attributes["job"]

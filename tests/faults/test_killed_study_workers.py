@@ -6,7 +6,6 @@ import sqlite3
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 from jobs import IMPATIENT, ended, pid_of
@@ -15,9 +14,11 @@ from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
+from jointplay.storage.packed import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.study_block import run_block, seal_store
+from tests.stores import files_of, packed, target
 from tests.waiting import until
 
 # two blocks of some two seconds of computing each; contacts at both joints all along
@@ -44,17 +45,8 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[
     folder = tmp_path_factory.mktemp("undisturbed") / "study"
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    seal_store(study, folder)
-    return files(folder)
-
-
-def files(folder: Path) -> dict[str, bytes]:
-    """Every file of a store with its bytes; what a late worker left beside it is none of them."""
-    return {
-        key: path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file() and not (key := path.relative_to(folder).as_posix()).startswith(".")
-    }
+    seal_store(study, folder, target(folder))
+    return files_of(packed(folder))
 
 
 def submit(catalogue: Catalogue, study: Study) -> str:
@@ -79,11 +71,11 @@ def in_mid_block(catalogue: Catalogue, job: str, index: int, after: float = 0.0)
 
 def assert_same_bytes(settings: Settings, job: Job, undisturbed: dict[str, bytes]) -> None:
     assert job.state is JobState.succeeded
-    folder = settings.study_folder(job.id)
-    stored = files(folder)
+    sealed = settings.sealed_study(job.id)
+    stored = files_of(sealed)
     assert stored.keys() == undisturbed.keys()
     assert [key for key, content in undisturbed.items() if stored[key] != content] == []
-    reader = StudyReader(folder)
+    reader = StudyReader(Packed(sealed))
     assert reader.complete
     reader.verify()
 
@@ -181,7 +173,7 @@ def test_a_cancelled_study_ends_soon_and_keeps_what_it_computed(
         took = time.monotonic() - asked
     assert finished.state is JobState.cancelled
     assert took < 5  # a slice of computing and a restart point
-    reader = StudyReader(settings.study_folder(job))
+    reader = StudyReader(settings.running_study(job))
     assert not reader.complete
     assert reader.counts[:8].min() > 0
     assert (reader.status[:8] >= 1).all()

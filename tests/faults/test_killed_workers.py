@@ -11,9 +11,11 @@ from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue import Catalogue, Job, JobState
+from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
+from tests.stores import files_of, packed, sealed_run, target
 from tests.waiting import until
 
 # some 3 s of computing; more samples than one shard holds, contacts at both joints all along
@@ -35,27 +37,24 @@ def admission() -> Admission:
 @pytest.fixture(scope="module")
 def undisturbed(admission: Admission, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("undisturbed") / "store"
-    assert execute(admission, folder, report=lambda _: "continue").state == "succeeded"
-    return folder
+    ended = execute(admission, folder, target(folder), report=lambda _: "continue")
+    assert ended.state == "succeeded"
+    return packed(folder)
 
 
-def arrays(store: Path) -> dict[str, bytes]:
+def arrays(store: Path | StoredObject) -> dict[str, bytes]:
     """Every chunk of every array, and what describes it, by its key."""
-    return {
-        str(path.relative_to(store)): path.read_bytes()
-        for path in sorted(store.rglob("*"))
-        if path.is_file() and path.parent != store
-    }
+    return {key: content for key, content in files_of(store).items() if "/" in key}
 
 
 def assert_same_bits(settings: Settings, job: Job, undisturbed: Path) -> None:
-    store = settings.result_folder(job.id, job.attempt)
+    store = settings.sealed_run(job.id, job.attempt)
     stored, expected = arrays(store), arrays(undisturbed)
     assert len(expected) > 50
     assert stored.keys() == expected.keys()
     assert [key for key in expected if stored[key] != expected[key]] == []
-    assert (store / "job.json").read_bytes() == (undisturbed / "job.json").read_bytes()
-    reader = ResultReader(store)
+    reader = sealed_run(settings, job)
+    assert reader.attributes["job"] == ResultReader(undisturbed).attributes["job"]
     assert reader.complete
     reader.verify()
 
@@ -80,8 +79,9 @@ def test_a_block_goes_on_where_its_killed_worker_left_it(
     assert outcomes[:2] == ["lost", "lost"]
     assert outcomes[-1] == "done"
     assert_same_bits(settings, finished, undisturbed)
-    left = settings.result_folder(job, 1).parent
-    assert [path.name for path in left.iterdir()] == [f"a{finished.attempt}"]
+    assert not settings.running_folder(job).exists()
+    left = list(settings.place.list(settings.results_prefix(job)))
+    assert left == [settings.sealed_run(job, finished.attempt).key]
 
 
 def test_a_whole_worker_killed_is_replaced(
@@ -126,7 +126,7 @@ def test_a_cancelled_job_keeps_what_it_computed(
         took = time.monotonic() - asked
     assert finished.state is JobState.cancelled
     assert took < 5  # a slice of computing and the closing of the store
-    reader = ResultReader(settings.result_folder(job, finished.attempt))
+    reader = sealed_run(settings, finished)
     assert not reader.complete
     reader.verify()
     when, values = reader.history(["slider7.x"])

@@ -26,12 +26,13 @@ def computed(http: httpx.Client, worker: Worker, settings: Settings) -> tuple[st
     """A job that was really computed, and the folder of its store."""
     job_id = worker.submit(**JOB)
     claim = worker.start(job_id)
-    folder = settings.result_folder(job_id, claim.block.attempt)
+    running = settings.running_run(job_id, claim.block.attempt)
+    target = settings.sealed_run(job_id, claim.block.attempt)
     admission = admit(claim.job.spec)
     assert isinstance(admission, Admission)
-    execute(admission, folder, report=lambda _: "continue")
+    execute(admission, running.folder, target, report=lambda _: "continue")
     worker.finish(claim, BlockState.done)
-    return job_id, folder
+    return job_id, settings.data / "results" / target.key
 
 
 def test_it_says_how_far_the_numbers_can_be_believed(

@@ -1,5 +1,6 @@
 """A simulation that is read while it runs: what is committed is there, and nothing else."""
 
+import shutil
 from dataclasses import dataclass
 
 import numpy as np
@@ -52,7 +53,9 @@ class Running:
         return token
 
     def seal(self):
-        self.writer.seal(peaks={}, summary={}, complete=False)
+        target = self.settings.sealed_run(self.claim.job.id, self.claim.block.attempt)
+        self.writer.seal(target, peaks={}, summary={}, complete=False)
+        shutil.rmtree(self.settings.running_folder(self.claim.job.id))
         error = JobError("solver", "step-size-underflow", "No step.")
         self.worker.finish(self.claim, BlockState.failed, error)
 
@@ -73,7 +76,7 @@ def start(worker, catalogue, settings):
     def start(**fields):
         claim = worker.start(worker.submit(**fields))
         admission = admit(claim.job.spec)
-        folder = settings.result_folder(claim.job.id, claim.block.attempt)
+        folder = settings.running_run(claim.job.id, claim.block.attempt).folder
         writer = ResultWriter.create(folder, layout_of(admission))
         return Running(worker, catalogue, settings, claim, admission, writer)
 
@@ -183,7 +186,7 @@ def test_the_next_attempt_shows_what_was_committed_before_it_commits(http, start
     claim = running.worker.start(running.claim.job.id)
     assert claim.block.attempt == 2
     assert len(history_of(http, running)["time"]["values"]) == 300
-    folders = [running.settings.result_folder(claim.job.id, n) for n in (1, 2)]
+    folders = [running.settings.running_run(claim.job.id, n).folder for n in (1, 2)]
     layout = layout_of(running.admission)
     running.writer = ResultWriter.resume(folders[1], layout, token, taken_over_from=folders[0])
     running.claim = claim

@@ -9,6 +9,7 @@ import pytest
 from scipy.io import loadmat
 
 from jointplay.service.results import schemas
+from jointplay.storage.packed import Packed
 from jointplay.storage.results import ResultReader
 
 
@@ -20,7 +21,7 @@ def job(worker):
 
 @pytest.fixture(scope="module")
 def values(settings, job):
-    reader = ResultReader(settings.result_folder(job, 1))
+    reader = ResultReader(Packed(settings.sealed_run(job, 1)))
     time, columns = reader.history(["slider7.x", "acceleration"])
     return {"time": time, **columns}
 

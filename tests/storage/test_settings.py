@@ -13,7 +13,9 @@ def test_everything_is_beside_the_data(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert settings.catalogue_url == f"sqlite:///{tmp_path}/catalogue.sqlite"
     assert settings.lease == 12.5
     job = "01M7YBSH1WSYHM7G141H5BWD2R"
-    assert settings.result_folder(job, 2) == tmp_path / "results" / "2R" / job / "a2"
+    assert settings.results_url == f"file:{tmp_path}/results"
+    assert settings.sealed_run(job, 2).key == f"2R/{job}-a2.zarr.zip"
+    assert settings.running_run(job, 2).folder == tmp_path / "running" / "2R" / job / "a2"
 
 
 def test_a_relative_folder_means_the_same_in_every_process(

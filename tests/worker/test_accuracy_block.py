@@ -9,9 +9,11 @@ import zarr
 
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
+from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.execute import Answer
 from jointplay.worker.study_block import StudyProgress, run_block, seal_store
+from tests.stores import packed, target
 
 JOB = {
     "kind": "accuracy-study",
@@ -34,8 +36,8 @@ def study() -> Study:
 def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> StudyReader:
     folder = tmp_path_factory.mktemp("undisturbed") / "store"
     assert run_block(study, 0, folder).state == "succeeded"
-    seal_store(study, folder)
-    return StudyReader(folder)
+    seal_store(study, folder, target(folder))
+    return StudyReader(packed(folder))
 
 
 def repeatable(reader: StudyReader) -> dict[str, Any]:
@@ -49,7 +51,7 @@ def test_what_is_stored_has_units_and_says_what_failed(undisturbed: StudyReader)
     assert undisturbed.complete
     assert undisturbed.points == 11
     assert {one.code for one in undisturbed.failures.values()} == {"fixed-step-too-long"}
-    numbers = zarr.open_group(undisturbed.path, mode="r")["statistics"]
+    numbers = zarr.open_group(FilesStore(undisturbed.files), mode="r")["statistics"]
     assert isinstance(numbers, zarr.Group)
     units = {name: numbers[name].attrs["units"] for name in ("error", "window", "seconds")}
     assert units == {"error": "1", "window": "s", "seconds": "s"}
@@ -78,8 +80,8 @@ def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
     assert np.isfinite(seconds).tolist() == [True] * 5 + [False] * 6
     resume_from = (names[0], first.fraction)
     assert run_block(study, 0, tmp_path, attempt=2, resume_from=resume_from).state == "succeeded"
-    seal_store(study, tmp_path)
-    resumed = StudyReader(tmp_path)
+    seal_store(study, tmp_path, target(tmp_path))
+    resumed = StudyReader(packed(tmp_path))
     np.testing.assert_array_equal(resumed.statistics["seconds"][:5], seconds[:5])
     assert repeatable(resumed) == repeatable(undisturbed)
 

@@ -9,11 +9,12 @@ import pytest
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
-from jointplay.storage.results import ResultReader
+from jointplay.storage.packed import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
 from jointplay.worker import block_run, work
 from jointplay.worker.block_run import BlockRun
+from tests.stores import sealed_run
 
 JOB = {
     "kind": "simulate",
@@ -86,7 +87,7 @@ def test_success_is_told_after_the_store_is_sealed(
     assert (state, ended.state) == (JobState.succeeded, BlockState.done)
     job = catalogue.get(ended.job)
     assert (job.progress_time, job.progress_fraction) == (20.0, 1.0)
-    reader = ResultReader(settings.result_folder(job.id, job.attempt))
+    reader = sealed_run(settings, job)
     reader.verify()
     assert reader.samples == admission.samples
 
@@ -107,7 +108,7 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
 ) -> None:
     _, released = run(catalogue, settings, block, draining=True)
     assert released.checkpoint is not None
-    path = settings.result_folder(released.job, 1).parent / released.checkpoint
+    path = settings.running_folder(released.job) / released.checkpoint
     content = path.read_bytes()
     if damage == "cut":
         path.write_bytes(content[:-100])
@@ -140,7 +141,7 @@ def test_a_cancelled_blocks_store_is_closed_by_whoever_takes_it_over(
     assert catalogue.request_cancel(released.job).state is JobState.cancelling
     state, ended = run(catalogue, settings, block)
     assert (state, ended.state) == (JobState.cancelled, BlockState.cancelled)
-    reader = ResultReader(settings.result_folder(ended.job, ended.attempt))
+    reader = sealed_run(settings, catalogue.get(ended.job))
     reader.verify()
     assert not reader.complete
 
@@ -157,7 +158,7 @@ def test_a_fenced_worker_leaves_without_a_word(
     BlockRun(catalogue, settings, first, threading.Event()).run()
     assert catalogue.events(ended.job) == before
     assert catalogue.get(ended.job).state is state is JobState.succeeded
-    ResultReader(settings.result_folder(ended.job, 2)).verify()
+    sealed_run(settings, catalogue.get(ended.job)).verify()
 
 
 def test_a_spec_this_solver_refuses_fails_as_the_users(
@@ -178,13 +179,13 @@ def test_a_study_succeeds_when_its_store_is_sealed(
     for index in (1, 0):
         state, ended = run(catalogue, settings, f"{study}-{index}")
         assert (state, ended.state) == (JobState.running, BlockState.done)
-    reader = StudyReader(settings.study_folder(study))
+    reader = StudyReader(settings.running_study(study))
     assert (reader.status == 2).all()
     assert not reader.sealed
     state, ended = run(catalogue, settings, f"{study}-2")
     assert (state, ended.state) == (JobState.succeeded, BlockState.done)
     assert catalogue.get(study).progress_fraction == 1.0
-    reader = StudyReader(settings.study_folder(study))
+    reader = StudyReader(Packed(settings.sealed_study(study)))
     reader.verify()
     assert reader.complete
     assert reader.peaks("displacement").maximum == pytest.approx(0.527, abs=0.003)
@@ -198,7 +199,7 @@ def test_a_block_given_back_goes_on_from_its_restart_point(
     assert released.checkpoint == "00000-a1"
     state, ended = run(catalogue, settings, f"{study}-0")
     assert (ended.state, ended.attempt) == (BlockState.done, 2)
-    left = [path.name for path in (settings.study_folder(study) / ".parts").iterdir()]
+    left = [path.name for path in (settings.running_study(study).folder / "parts").iterdir()]
     assert left == ["00000"]
 
 
@@ -212,7 +213,7 @@ def test_a_cancelled_study_keeps_what_it_computed(
     BlockRun(catalogue, settings, claim, threading.Event()).run()
     assert catalogue.get(study).state is JobState.cancelled
     assert catalogue.claim_block(f"{study}-2", "this process", 30) is None
-    reader = StudyReader(settings.study_folder(study))
+    reader = StudyReader(settings.running_study(study))
     assert reader.status.tolist() == [2] * 8 + [0] * 4
     assert not reader.complete
 
@@ -221,9 +222,11 @@ def test_part_of_a_study_by_another_solver_is_not_mixed_with_ours(
     catalogue: Catalogue, settings: Settings, study: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(catalogue, settings, f"{study}-0")
-    root = settings.study_folder(study) / "zarr.json"
-    layout = StudyReader(root.parent).attributes["layout"]
-    root.write_text(root.read_text().replace(layout, "of another version"))
+    running = settings.running_study(study)
+    layout = StudyReader(running).attributes["layout"]
+    documents = {key: running.read(key) for key in running}
+    root = documents["zarr.json"].replace(layout.encode(), b"of another version")
+    running.write_documents((documents | {"zarr.json": root}).items())
     state, _ = run(catalogue, settings, f"{study}-1")
     error = catalogue.get(study).error
     assert state is JobState.failed

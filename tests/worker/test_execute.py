@@ -1,4 +1,3 @@
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -7,6 +6,7 @@ import pytest
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.results import ResultReader, StoreExists
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from tests.stores import files_of, target
 
 JOB = {
     "kind": "simulate",
@@ -38,23 +38,19 @@ def after(slices: int, answer: Answer, points: list[RestartPoint]) -> Callable[[
 
 
 def arrays(store: Path) -> dict[str, bytes]:
-    return {
-        str(path.relative_to(store)): path.read_bytes()
-        for path in store.rglob("*")
-        if path.is_file() and path.parent != store
-    }
+    return {key: content for key, content in files_of(store).items() if "/" in key}
 
 
 def run(admission: Admission, folder: Path, restart: RestartPoint | None = None) -> Outcome:
-    return execute(admission, folder, report=lambda _: "continue", restart=restart)
+    return execute(admission, folder, target(folder), report=lambda _: "continue", restart=restart)
 
 
 def test_a_store_repeats_itself_from_its_job_file(admission: Admission, tmp_path: Path) -> None:
     assert run(admission, tmp_path / "first").state == "succeeded"
-    again = admit(json.loads((tmp_path / "first" / "job.json").read_text()))
+    again = admit(ResultReader(tmp_path / "first.zip").attributes["job"])
     assert run(again, tmp_path / "again").state == "succeeded"
-    assert arrays(tmp_path / "first") == arrays(tmp_path / "again")
-    reader = ResultReader(tmp_path / "first")
+    assert arrays(tmp_path / "first.zip") == arrays(tmp_path / "again.zip")
+    reader = ResultReader(tmp_path / "first.zip")
     assert reader.complete
     assert reader.attributes["job"] == admission.job
     assert reader.attributes["digest"] == admission.digest
@@ -73,19 +69,22 @@ def test_however_often_it_is_left_and_resumed_the_bits_are_the_same(
     for leg in range(3):
         report = after(1 + leg, Answer.leave, points)
         folder = tmp_path / f"a{leg}"
-        assert execute(admission, folder, report=report, restart=restart).state == "left"
+        assert (
+            execute(admission, folder, target(folder), report=report, restart=restart).state
+            == "left"
+        )
         restart = points[-1]
     assert 0 < points[0].fraction < points[1].fraction < points[2].fraction < 1
     assert run(admission, tmp_path / "a3", restart).state == "succeeded"
-    assert arrays(tmp_path / "a3") == arrays(tmp_path / "undisturbed")
+    assert arrays(tmp_path / "a3.zip") == arrays(tmp_path / "undisturbed.zip")
 
 
 def test_a_cancelled_run_keeps_what_it_computed(admission: Admission, tmp_path: Path) -> None:
     report = after(2, Answer.cancel, [])
-    outcome = execute(admission, tmp_path / "out", report=report)
+    outcome = execute(admission, tmp_path / "out", target(tmp_path / "out"), report=report)
     assert outcome.state == "cancelled"
     assert outcome.error is None
-    reader = ResultReader(tmp_path / "out")
+    reader = ResultReader(tmp_path / "out.zip")
     reader.verify()
     time, _ = reader.history(["slider7.x"])
     assert not reader.complete
@@ -102,7 +101,7 @@ def test_a_run_that_cannot_go_on_says_why_and_keeps_what_it_computed(tmp_path: P
     assert (outcome.error.error_class, outcome.error.code) == ("solver", "step-size-underflow")
     assert outcome.error.time is not None
     assert 0 < outcome.error.time < 1
-    reader = ResultReader(tmp_path / "out")
+    reader = ResultReader(tmp_path / "out.zip")
     reader.verify()
     time, _ = reader.history(["slider7.x"])
     assert len(time) > 0
@@ -112,11 +111,17 @@ def test_a_run_that_cannot_go_on_says_why_and_keeps_what_it_computed(tmp_path: P
 def test_a_run_that_computes_too_long_fails_with_what_it_has(
     admission: Admission, tmp_path: Path
 ) -> None:
-    outcome = execute(admission, tmp_path / "out", report=lambda _: Answer.go_on, longest=1e-6)
+    outcome = execute(
+        admission,
+        tmp_path / "out",
+        target(tmp_path / "out"),
+        report=lambda _: Answer.go_on,
+        longest=1e-6,
+    )
     assert outcome.state == "failed"
     assert outcome.error is not None
     assert (outcome.error.error_class, outcome.error.code) == ("limit", "time-limit")
-    reader = ResultReader(tmp_path / "out")
+    reader = ResultReader(tmp_path / "out.zip")
     reader.verify()
     time, _ = reader.history(["slider7.x"])
     assert not reader.complete

@@ -1,6 +1,5 @@
 """Blocks of a real study into a real store, as workers and local runs compute them."""
 
-import json
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -10,8 +9,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kinds import Study, admit
+from jointplay.storage.errors import IncompleteStudy
 from jointplay.storage.results import StoreExists
-from jointplay.storage.results.errors import IncompleteStudy
 from jointplay.storage.studies import StudyReader
 from jointplay.worker.execute import Answer, Outcome
 from jointplay.worker.study_block import (
@@ -22,6 +21,7 @@ from jointplay.worker.study_block import (
     run_laid_out,
     seal_store,
 )
+from tests.stores import packed, target
 
 PARAMETERS = {"clearance": 5e-4, "friction": 0.1, "stiffness": 5e9}
 JOB = {
@@ -53,16 +53,8 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def write(study: Study, folder: Path) -> Path:
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    assert seal_store(study, folder).state == "succeeded"
-    return folder
-
-
-def files(folder: Path) -> dict[str, bytes]:
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }
+    assert seal_store(study, folder, target(folder)).state == "succeeded"
+    return packed(folder)
 
 
 def after(slices: int, answer: Answer, names: list[str]) -> Callable[[StudyProgress], Answer]:
@@ -106,8 +98,8 @@ def test_a_study_is_readable_and_repeats_itself_from_its_job_file(
     )
     assert (eccentricity < reader.values + 2e-5).all()
     assert (reader.statistics["steps"] > 100).all()
-    again = admitted(json.loads((undisturbed / "job.json").read_text()))
-    assert files(write(again, tmp_path / "again")) == files(undisturbed)
+    again = admitted(StudyReader(undisturbed).attributes["job"])
+    assert write(again, tmp_path / "again").read_bytes() == undisturbed.read_bytes()
 
 
 def test_the_bits_do_not_depend_on_processes_or_the_order_of_blocks(
@@ -120,8 +112,8 @@ def test_the_bits_do_not_depend_on_processes_or_the_order_of_blocks(
             for index in reversed(range(len(study.blocks)))
         ]
         assert {run.result().state for run in running} == {"succeeded"}
-    seal_store(study, tmp_path / "store")
-    assert files(tmp_path / "store") == files(undisturbed)
+    seal_store(study, tmp_path / "store", target(tmp_path / "store"))
+    assert packed(tmp_path / "store").read_bytes() == undisturbed.read_bytes()
 
 
 def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
@@ -144,8 +136,8 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
         assert run_block(study, index, folder, attempt=4, resume_from=resume_from) == Outcome(
             "succeeded", 0.0, 1.0
         )
-    seal_store(study, folder)
-    assert files(folder) == files(undisturbed)
+    seal_store(study, folder, target(folder))
+    assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
 def test_a_restart_point_that_is_no_good_costs_time_only(
@@ -154,14 +146,14 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
     folder = tmp_path / "store"
     names: list[str] = []
     run_block(study, 0, folder, report=after(1, Answer.leave, names))
-    path = folder / ".parts" / names[0]
+    path = folder / "parts" / names[0]
     path.write_bytes(path.read_bytes()[:-100])
     assert run_block(study, 0, folder, attempt=2, resume_from=(names[0], 0.1)).state == "succeeded"
     assert (
         run_block(study, 1, folder, attempt=2, resume_from=("00001-a1", 0.1)).state == "succeeded"
     )
-    seal_store(study, folder)
-    assert files(folder) == files(undisturbed)
+    seal_store(study, folder, target(folder))
+    assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
 def test_a_block_that_is_done_is_not_computed_again(study: Study, tmp_path: Path) -> None:
@@ -187,7 +179,7 @@ def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) 
     found = reader.sections("slider7.x")
     assert np.isfinite(found).sum() == reader.counts.sum()
     with pytest.raises(IncompleteStudy):
-        seal_store(study, tmp_path)
+        seal_store(study, tmp_path, target(tmp_path))
 
 
 def test_a_block_that_computes_too_long_fails_with_what_it_has(

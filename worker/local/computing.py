@@ -1,12 +1,15 @@
 """One job, computed here and now into a folder."""
 
+import json
 import shutil
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jointplay.worker.local.folder import JOB_FILE, STORE, write_outcome
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
+from jointplay.worker.local.folder import JOB_FILE, RUNNING, STORE, write_outcome
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
@@ -40,17 +43,21 @@ def compute(
     from jointplay.solver.kinds import Study
 
     begun = datetime.now(UTC)
-    store = folder / STORE
+    (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
+    running, target = folder / RUNNING, StoredObject(Folder(str(folder)), STORE)
     if isinstance(admission, Study):
-        outcome = _study(admission, store, processes, report)
+        outcome = _study(admission, running, target, processes, report)
     else:
-        outcome = _simulation(admission, store, report)
-    shutil.copyfile(store / JOB_FILE, folder / JOB_FILE)
+        outcome = _simulation(admission, running, target, report)
+    if target.exists():
+        shutil.rmtree(running)
     write_outcome(folder, begun, outcome)
     return outcome
 
 
-def _simulation(admission: "Admission", store: Path, report: Report) -> "Outcome":
+def _simulation(
+    admission: "Admission", running: Path, target: StoredObject, report: Report
+) -> "Outcome":
     report(0.0, "preparing the kernel")
     from jointplay.worker.execute import Progress, execute
 
@@ -60,10 +67,12 @@ def _simulation(admission: "Admission", store: Path, report: Report) -> "Outcome
             report(done.fraction, f"t = {done.time:.4g} s")
             return "cancel" if asked_to_end() else "continue"
 
-        return execute(admission, store, report=go_on)
+        return execute(admission, running, target, report=go_on)
 
 
-def _study(study: "Study", store: Path, processes: int | None, report: Report) -> "Outcome":
+def _study(
+    study: "Study", running: Path, target: StoredObject, processes: int | None, report: Report
+) -> "Outcome":
     from jointplay.records.job import JobError
     from jointplay.worker.execute import Outcome
     from jointplay.worker.local.study import ProcessDied, compute
@@ -76,7 +85,7 @@ def _study(study: "Study", store: Path, processes: int | None, report: Report) -
         report(fraction, note)
 
     try:
-        complete = compute(study, store, processes, tell)
+        complete = compute(study, running, target, processes, tell)
     except ProcessDied as died:
         sentence = died.__doc__ or ""
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", sentence))

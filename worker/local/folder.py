@@ -9,7 +9,10 @@ if TYPE_CHECKING:
     from jointplay.worker.execute import Outcome
 
 JOB_FILE = "job.json"
-STORE = "results.zarr"
+STORE = "results.zarr.zip"
+"""The sealed store, in one file."""
+RUNNING = "running"
+"""Folder of a store that is not sealed yet, or never was."""
 OUTCOME_FILE = "outcome.json"
 
 

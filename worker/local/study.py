@@ -12,6 +12,7 @@ from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
+    from jointplay.storage.places import StoredObject
 
 
 class ProcessDied(Exception):
@@ -21,7 +22,9 @@ class ProcessDied(Exception):
 Report = Callable[[float, str], None]
 
 
-def compute(study: "Study", folder: Path, processes: int | None, report: Report) -> bool:
+def compute(
+    study: "Study", folder: Path, target: "StoredObject", processes: int | None, report: Report
+) -> bool:
     """Compute a study into a store; what is computed does not depend on the processes.
 
     Parameters
@@ -29,7 +32,9 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     study
         As admitted.
     folder
-        For the store.
+        Where the store is filled.
+    target
+        Where the sealed store goes.
     processes
         How many; by default one for each core.
     report
@@ -55,7 +60,7 @@ def compute(study: "Study", folder: Path, processes: int | None, report: Report)
     if not run(study, folder, wanted, report):
         return False
     report(1.0, f"{study.points} of {study.points} points")
-    seal_store(study, folder)
+    seal_store(study, folder, target)
     return True
 
 

@@ -10,6 +10,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.storage.results import Partition, ResultLayout, ResultWriter
+from tests.stores import packed, target
 
 # many small stores: there fsync costs nothing, and it is their bytes that count
 MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
@@ -65,13 +66,13 @@ class MadeUpRun:
             self.impacts[impacts],
         )
 
-    def write(self, path, fractions=(0.0, 1.0)):
-        """Store the whole run, sliced at the given fractions, and seal it."""
-        writer = ResultWriter.create(path, self.layout)
+    def write(self, folder, fractions=(0.0, 1.0)):
+        """Store the whole run, sliced at the given fractions, and seal it; return the file."""
+        writer = ResultWriter.create(folder, self.layout)
         for start, stop in pairwise(fractions):
             self.append(writer, start, stop)
-        writer.seal(peaks=self.peaks, summary={"steps": 3})
-        return path
+        writer.seal(target(folder), peaks=self.peaks, summary={"steps": 3})
+        return packed(folder)
 
 
 def made_up_impacts(count, seed=1):
@@ -85,12 +86,3 @@ def made_up_impacts(count, seed=1):
 
 def cut(fraction, rows):
     return round(fraction * rows)
-
-
-def files(folder):
-    """Every file below a folder with its bytes."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import zarr
-from made_up_runs import MadeUpRun, made_up_layout
+from made_up_runs import MadeUpRun, made_up_layout, target
+from zarr.storage import ZipStore
 
 from jointplay.records.impact import IMPACT
 from jointplay.storage.results import (
@@ -27,11 +28,12 @@ APPENDIX = Appendix(
 
 def sealed(folder, certificate):
     run = MadeUpRun(made_up_layout(6, 0), np.zeros(0, IMPACT))
-    writer = ResultWriter.create(folder, run.layout)
+    writer = ResultWriter.create(folder / "store", run.layout)
     run.append(writer, 0.0, 1.0)
-    assert ResultReader(folder).certificate() is None
-    writer.seal(peaks=run.peaks, summary={}, certificate=certificate)
-    return ResultReader(folder)
+    assert ResultReader(folder / "store").certificate() is None
+    there = target(folder / "store")
+    writer.seal(there, peaks=run.peaks, summary={}, certificate=certificate)
+    return ResultReader(folder / "store.zip")
 
 
 def test_it_is_read_as_it_was_written(tmp_path):
@@ -48,14 +50,15 @@ def test_it_is_read_as_it_was_written(tmp_path):
 
 def test_stock_zarr_reads_it_alone(tmp_path):
     sealed(tmp_path, APPENDIX)
-    group = zarr.open_group(tmp_path / "certificate", mode="r")
+    group = zarr.open_group(ZipStore(tmp_path / "store.zip"), path="certificate", mode="r")
     assert group.attrs["horizon"] == 0.5
     np.testing.assert_array_equal(group["error"][:], TABLE)
 
 
 def test_a_store_without_one_has_none(tmp_path):
-    assert sealed(tmp_path, None).certificate() is None
-    assert not (tmp_path / "certificate").exists()
+    reader = sealed(tmp_path, None)
+    assert reader.certificate() is None
+    assert not any(key.startswith("certificate") for key in reader.files)
 
 
 def test_a_document_that_json_cannot_carry_is_refused(tmp_path):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from jointplay.storage.packed import Running
 from jointplay.storage.results import ResultReader, ResultWriter
 from jointplay.storage.results.live import LiveStore
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
@@ -44,7 +45,7 @@ def test_a_checkpoint_that_is_half_written_does_not_count(tmp_path, run):
     run.append(writer, 0.0, 0.02)
     writer.checkpoint()
     committed = writer.samples
-    (journal,) = (tmp_path / "store/.journal").iterdir()
+    (journal,) = (tmp_path / "store/parts").iterdir()
     whole = journal.read_bytes()
     run.append(writer, 0.02, 0.025)
     writer.checkpoint()
@@ -68,7 +69,7 @@ def test_documents_of_groups_and_arrays_agree(tmp_path, run):
     writer = ResultWriter.create(tmp_path / "store", run.layout)
     run.append(writer, 0.0, 0.3)
     writer.checkpoint()
-    store = LiveStore(tmp_path / "store", writer.samples)
+    store = LiveStore(Running(tmp_path / "store"), writer.samples)
     assert store.document("nothing/zarr.json") is None
     assert b'"shape":[60]' in (store.document("time/zarr.json") or b"")
     root = store.document("zarr.json") or b""

@@ -2,16 +2,19 @@
 
 import errno
 import os
+import shutil
 import tracemalloc
 from itertools import count
 
 import numpy as np
 import pytest
 import zarr
-from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout, packed, target
+from zarr.storage import ZipStore
 
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
+from jointplay.storage.packed import Running
 from jointplay.storage.results import (
     InvalidAppend,
     InvalidLayout,
@@ -52,57 +55,58 @@ def test_a_given_watermark_hides_what_lies_above_it(tmp_path, run, writer):
     assert len(ResultReader(tmp_path / "store", watermark=10).history()[0]) == 10
 
 
-def test_stock_zarr_sees_nan_where_nothing_is_yet(tmp_path, run, writer):
-    run.append(writer, 0.0, 0.7)
-    values = zarr.open_group(tmp_path / "store", mode="r")["slider7.q0"][:]
-    assert np.isfinite(values[:24]).all()
-    assert np.isnan(values[24:]).all()
-
-
 def test_a_run_that_ended_early_keeps_what_it_computed(tmp_path, run, writer):
     run.append(writer, 0.0, 0.7)
-    writer.seal(peaks={"slider7.q0": Peak(1.0, 2.0, 3.0, 4.0)}, summary={}, complete=False)
-    reader = ResultReader(tmp_path / "store")
+    writer.seal(
+        target(tmp_path / "store"),
+        peaks={"slider7.q0": Peak(1.0, 2.0, 3.0, 4.0)},
+        summary={},
+        complete=False,
+    )
+    reader = ResultReader(tmp_path / "store.zip")
     assert (reader.sealed, reader.complete, reader.samples) == (True, False, 28)
     assert (reader.attributes["samples"], reader.attributes["sections"]) == (28, 4)
     np.testing.assert_array_equal(reader.history()[1]["slider7.q1"], run.samples[:28, 1])
     assert np.isnan(reader.peaks()["slider7.q1"].minimum)
-    stock = zarr.open_group(tmp_path / "store", mode="r")
+    stock = zarr.open_group(ZipStore(tmp_path / "store.zip"), mode="r")
     assert stock["time"].shape == (28,)
     reader.verify()
 
 
 def test_a_run_without_rows_seals(tmp_path, writer):
-    writer.seal(peaks={}, summary={}, complete=False)
-    reader = ResultReader(tmp_path / "store")
+    writer.seal(target(tmp_path / "store"), peaks={}, summary={}, complete=False)
+    reader = ResultReader(tmp_path / "store.zip")
     assert len(reader.history()[0]) == len(reader.sections()[0]) == len(reader.impacts()) == 0
 
 
-def test_an_incomplete_run_is_not_sealed_as_complete(run, writer):
+def test_an_incomplete_run_is_not_sealed_as_complete(tmp_path, run, writer):
     run.append(writer, 0.0, 0.7)
     with pytest.raises(InvalidAppend, match="28 of 40 samples and 4 of 5 sections"):
-        writer.seal(peaks=run.peaks, summary={})
+        writer.seal(target(tmp_path / "store"), peaks=run.peaks, summary={})
 
 
-def test_scaffolding_is_gone_after_sealing(tmp_path, run, writer):
+def test_a_sealed_store_needs_nothing_of_its_folder(tmp_path, run, writer):
     run.append(writer, 0.0, 1.0)
     writer.checkpoint()
-    (tmp_path / "store/time/c/9.partial").write_bytes(b"litter of a killed writer")
-    writer.seal(peaks=run.peaks, summary={})
-    names = {path.name for path in (tmp_path / "store").rglob("*")}
-    assert ".journal" not in names
-    assert not any(name.endswith(".partial") for name in names)
+    early = ResultReader(Running(tmp_path / "store", target(tmp_path / "store")), writer.samples)
+    assert len(early.history(["slider7.q0"])[0]) == 40
+    writer.seal(target(tmp_path / "store"), peaks=run.peaks, summary={})
+    shutil.rmtree(tmp_path / "store")
+    ResultReader(tmp_path / "store.zip").verify()
+    # who began to read the growing store reads on
+    np.testing.assert_array_equal(early.history()[1]["slider7.q1"], run.samples[:, 1])
+    np.testing.assert_array_equal(early.impacts(), run.impacts)
 
 
-def test_a_sealed_store_takes_nothing_more(run, writer):
+def test_a_sealed_store_takes_nothing_more(tmp_path, run, writer):
     run.append(writer, 0.0, 1.0)
-    writer.seal(peaks=run.peaks, summary={})
+    writer.seal(target(tmp_path / "store"), peaks=run.peaks, summary={})
     with pytest.raises(StoreSealed):
         run.append(writer, 1.0, 1.0)
     with pytest.raises(StoreSealed):
         writer.checkpoint()
     with pytest.raises(StoreSealed):
-        writer.seal(peaks=run.peaks, summary={})
+        writer.seal(target(tmp_path / "store"), peaks=run.peaks, summary={})
 
 
 def test_a_store_is_written_once(tmp_path, run, writer):
@@ -110,24 +114,26 @@ def test_a_store_is_written_once(tmp_path, run, writer):
         ResultWriter.create(tmp_path / "store", run.layout)
 
 
-@pytest.mark.parametrize("written", [0, 1, 5, 8])
+@pytest.mark.parametrize("written", [0, 1, 2, 6])
 def test_a_full_disk_loses_no_row_that_was_taken(tmp_path, run, writer, monkeypatch, written):
     run.append(writer, 0.0, 0.2)
-    write, calls = os.write, count()
+    write, calls = os.fsync, count()
 
-    def write_until_full(descriptor, content):
+    def write_until_full(descriptor):
         if next(calls) >= written:
             raise OSError(errno.ENOSPC, "No space left on device")
-        return write(descriptor, content)
+        write(descriptor)
 
     with monkeypatch.context() as patch:
-        patch.setattr(os, "write", write_until_full)
+        patch.setattr(os, "fsync", write_until_full)
         with pytest.raises(OSError, match="No space left"):
             run.append(writer, 0.2, 0.9)
     kept = writer.samples
     assert kept >= 8
-    writer.seal(peaks=run.peaks, summary={}, complete=False)  # somebody made room
-    reader = ResultReader(tmp_path / "store")
+    writer.seal(
+        target(tmp_path / "store"), peaks=run.peaks, summary={}, complete=False
+    )  # somebody made room
+    reader = ResultReader(tmp_path / "store.zip")
     reader.verify()
     np.testing.assert_array_equal(reader.history()[1]["slider7.q1"], run.samples[:kept, 1])
 
@@ -158,16 +164,18 @@ def test_impacts_need_their_fields(writer):
 
 
 @pytest.mark.parametrize("summary", [{"seconds": float("nan")}, {"seconds": {1, 2}}])
-def test_a_summary_that_json_cannot_carry_is_refused(run, writer, summary):
+def test_a_summary_that_json_cannot_carry_is_refused(tmp_path, run, writer, summary):
     run.append(writer, 0.0, 1.0)
     with pytest.raises(InvalidAppend, match="finite JSON"):
-        writer.seal(peaks=run.peaks, summary=summary)
+        writer.seal(target(tmp_path / "store"), peaks=run.peaks, summary=summary)
 
 
-def test_peaks_of_unknown_channels_are_refused(run, writer):
+def test_peaks_of_unknown_channels_are_refused(tmp_path, run, writer):
     run.append(writer, 0.0, 1.0)
     with pytest.raises(InvalidAppend, match=r"slider8\.x"):
-        writer.seal(peaks={"slider8.x": Peak(0.0, 0.0, 0.0, 0.0)}, summary={})
+        writer.seal(
+            target(tmp_path / "store"), peaks={"slider8.x": Peak(0.0, 0.0, 0.0, 0.0)}, summary={}
+        )
 
 
 @pytest.mark.parametrize(
@@ -210,10 +218,9 @@ def test_a_table_that_ends_with_a_whole_shard_is_finished_by_sealing(tmp_path):
     resumed = ResultWriter.resume(
         tmp_path / "again", run.layout, token, taken_over_from=tmp_path / "store"
     )
-    for one in (writer, resumed):
-        one.seal(peaks=run.peaks, summary={})
-    for name in ("store", "again"):
-        reader = ResultReader(tmp_path / name)
+    for name, one in (("store", writer), ("again", resumed)):
+        one.seal(target(tmp_path / name), peaks=run.peaks, summary={})
+        reader = ResultReader(packed(tmp_path / name))
         reader.verify()
         np.testing.assert_array_equal(reader.history()[0], run.time)
         np.testing.assert_array_equal(reader.sections()[0], run.section_time)

@@ -1,6 +1,5 @@
 """What is on the disk depends on the rows alone: not on slices, kills or resumptions."""
 
-import contextlib
 import os
 import shutil
 import tempfile
@@ -15,11 +14,14 @@ from made_up_runs import (
     PLAIN_FILES,
     SMALL_FILES,
     MadeUpRun,
-    files,
     made_up_impacts,
     made_up_layout,
+    packed,
+    target,
 )
 
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
 from jointplay.storage.results import (
     CheckpointMismatch,
     CorruptStore,
@@ -67,19 +69,26 @@ def test_any_slicing_and_any_kill_gives_the_files_of_an_undisturbed_run(run, eve
         run.append(writer, reached, 1.0)
         for attempt in attempts[:-1]:
             shutil.rmtree(attempt)
-        writer.seal(peaks=run.peaks, summary={"steps": 3})
-        assert files(attempts[-1]) == files(undisturbed)
-        ResultReader(attempts[-1]).verify()
+        writer.seal(target(attempts[-1]), peaks=run.peaks, summary={"steps": 3})
+        assert packed(attempts[-1]).read_bytes() == undisturbed.read_bytes()
+        ResultReader(undisturbed).verify()
+
+
+def sealed(writer, folder, run):
+    writer.seal(target(folder), peaks=run.peaks, summary={"steps": 3})
+    return packed(folder).read_bytes()
+
+
+def undisturbed(run, folder):
+    return run.write(folder / "undisturbed").read_bytes()
 
 
 class Killed(Exception):
     """Stands for the end of the process."""
 
 
-@pytest.mark.parametrize("survived", range(9))
-def test_a_kill_amid_the_files_of_a_shard_leaves_the_checkpoint_valid(
-    tmp_path, monkeypatch, survived
-):
+@pytest.mark.parametrize("survived", range(3))
+def test_a_kill_amid_the_shards_leaves_the_checkpoint_valid(tmp_path, monkeypatch, survived):
     run = MadeUpRun(made_up_layout(samples=40, sections=2), made_up_impacts(40))
     writer = ResultWriter.create(tmp_path / "a1", run.layout)
     run.append(writer, 0.0, 0.4)
@@ -99,8 +108,7 @@ def test_a_kill_amid_the_files_of_a_shard_leaves_the_checkpoint_valid(
         tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
     )
     run.append(resumed, 0.4, 1.0)
-    resumed.seal(peaks=run.peaks, summary={"steps": 3})
-    assert files(tmp_path / "a2") == files(run.write(tmp_path / "undisturbed"))
+    assert sealed(resumed, tmp_path / "a2", run) == undisturbed(run, tmp_path)
 
 
 def test_a_checkpoint_survives_the_two_that_follow_it(tmp_path):
@@ -117,31 +125,36 @@ def test_a_checkpoint_survives_the_two_that_follow_it(tmp_path):
     assert (resumed.samples, resumed.sections, resumed.impacts) == (20, 1, 6)
 
 
-@pytest.mark.parametrize("survived", range(0, 60, 7))
+class HalfWay(Folder):
+    """A folder whose process is killed after so many pieces of an object."""
+
+    survived = 0
+
+    def put(self, key, pieces):
+        def some():
+            for index, piece in enumerate(pieces):
+                if index == self.survived:
+                    raise Killed
+                yield piece
+
+        super().put(key, some())
+
+
+@pytest.mark.parametrize("survived", range(0, 80, 9))
 def test_a_kill_amid_sealing_leaves_the_checkpoint_valid(tmp_path, monkeypatch, survived):
     run = MadeUpRun(made_up_layout(samples=40, sections=2), made_up_impacts(40))
     writer = ResultWriter.create(tmp_path / "a1", run.layout)
     run.append(writer, 0.0, 1.0)
     checkpoint = writer.checkpoint()
-    replace, calls = os.replace, count()
-
-    def replace_until_killed(source, target):
-        if next(calls) == survived:
-            raise Killed
-        replace(source, target)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "replace", replace_until_killed)
-        with contextlib.suppress(Killed):
-            writer.seal(peaks=run.peaks, summary={"steps": 3})
-    if (tmp_path / "a1/MANIFEST.json").exists():
-        ResultReader(tmp_path / "a1").verify()
-        return
+    monkeypatch.setattr(HalfWay, "survived", survived)
+    place = StoredObject(HalfWay(str(tmp_path)), "a1.zip")
+    with pytest.raises(Killed):
+        writer.seal(place, peaks=run.peaks, summary={"steps": 3})
+    assert not place.exists()
     resumed = ResultWriter.resume(
         tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
     )
-    resumed.seal(peaks=run.peaks, summary={"steps": 3})
-    assert files(tmp_path / "a2") == files(run.write(tmp_path / "undisturbed"))
+    assert sealed(resumed, tmp_path / "a2", run) == undisturbed(run, tmp_path)
 
 
 def test_a_checkpoint_is_small_whatever_waits(tmp_path):
@@ -164,8 +177,7 @@ def test_taking_over_copies_where_it_cannot_link(tmp_path, tmp_path_factory):
         elsewhere / "a2", run.layout, writer.checkpoint(), taken_over_from=tmp_path / "a1"
     )
     run.append(resumed, 0.8, 1.0)
-    resumed.seal(peaks=run.peaks, summary={"steps": 3})
-    assert files(elsewhere / "a2") == files(run.write(tmp_path / "undisturbed"))
+    assert sealed(resumed, elsewhere / "a2", run) == undisturbed(run, tmp_path)
 
 
 def started(folder, run, reached=0.5):
@@ -195,8 +207,8 @@ def test_bytes_that_are_no_checkpoint_are_refused(tmp_path, run, nonsense):
 
 def test_a_shard_that_is_gone_is_named(tmp_path, run):
     checkpoint = started(tmp_path / "a1", run)
-    (tmp_path / "a1/slider7.q1/c/1").unlink()
-    with pytest.raises(CheckpointMismatch, match=r"slider7\.q1/c/1 is gone"):
+    (tmp_path / "a1/rows/history-1.zip").unlink()
+    with pytest.raises(CheckpointMismatch, match=r"a1 lacks slider7\.q0/c/1"):
         ResultWriter.resume(
             tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"
         )
@@ -204,7 +216,7 @@ def test_a_shard_that_is_gone_is_named(tmp_path, run):
 
 def test_a_damaged_journal_is_found_out(tmp_path, run):
     checkpoint = started(tmp_path / "a1", run)
-    (journal,) = (tmp_path / "a1/.journal").iterdir()
+    (journal,) = (tmp_path / "a1/parts").iterdir()
     content = bytearray(journal.read_bytes())
     content[-1] ^= 1
     journal.write_bytes(content)
@@ -216,7 +228,7 @@ def test_a_damaged_journal_is_found_out(tmp_path, run):
 
 def test_a_journal_that_is_gone_is_named(tmp_path, run):
     checkpoint = started(tmp_path / "a1", run)
-    shutil.rmtree(tmp_path / "a1/.journal")
+    shutil.rmtree(tmp_path / "a1/parts")
     with pytest.raises(CheckpointMismatch, match="is gone"):
         ResultWriter.resume(
             tmp_path / "a2", run.layout, checkpoint, taken_over_from=tmp_path / "a1"

@@ -4,6 +4,7 @@ import json
 import tempfile
 from itertools import pairwise
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -18,8 +19,11 @@ from made_up_runs import (
     MadeUpRun,
     made_up_impacts,
     made_up_layout,
+    target,
 )
+from zarr.storage import ZipStore
 
+from jointplay.storage.packed import pack
 from jointplay.storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
 
 json_documents = st.dictionaries(
@@ -84,8 +88,9 @@ def test_every_double_survives(samples):
 def test_attributes_and_summary_come_back(attributes, summary):
     layout = made_up_layout(0, 0, attributes={"job": attributes})
     with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
-        ResultWriter.create(Path(folder), layout).seal(peaks={}, summary=summary)
-        found = ResultReader(Path(folder)).attributes
+        writer = ResultWriter.create(Path(folder, "store"), layout)
+        writer.seal(target(Path(folder, "store")), peaks={}, summary=summary)
+        found = ResultReader(Path(folder, "store.zip")).attributes
     assert found["job"] == attributes
     assert found["summary"] == summary
 
@@ -115,7 +120,7 @@ def test_times_find_their_samples(store, run):
 
 
 def test_stock_zarr_sees_names_units_and_values(store, run):
-    root = zarr.open_group(store, mode="r")
+    root = zarr.open_group(ZipStore(store), mode="r")
     assert sorted(root.array_keys()) == ["slider7.q0", "slider7.q1", "time"]
     assert sorted(root.group_keys()) == ["impacts", "peaks", "poincare"]
     channel = root["slider7.q1"]
@@ -134,13 +139,14 @@ def test_stock_zarr_sees_names_units_and_values(store, run):
 
 @pytest.mark.parametrize("group", ["", "poincare", "impacts", "peaks"])
 def test_every_group_lists_its_arrays_without_listing_a_folder(store, group):
-    document = json.loads((store / group / "zarr.json").read_bytes())
-    below = document["consolidated_metadata"]["metadata"]
-    on_disk = {
-        path.parent.relative_to(store / group).as_posix(): json.loads(path.read_bytes())
-        for path in (store / group).rglob("zarr.json")
-        if path.parent != store / group
-    }
+    begin = f"{group}/" if group else ""
+    with ZipFile(store) as archive:
+        on_disk = {
+            name.removeprefix(begin).removesuffix("/zarr.json"): json.loads(archive.read(name))
+            for name in archive.namelist()
+            if name.startswith(begin) and name.endswith("zarr.json")
+        }
+    below = on_disk.pop("zarr.json")["consolidated_metadata"]["metadata"]
     assert below.keys() == on_disk.keys()
     for name, entry in below.items():
         if entry["node_type"] == "array":
@@ -149,10 +155,15 @@ def test_every_group_lists_its_arrays_without_listing_a_folder(store, group):
 
 def test_stock_zarr_agrees_on_what_the_metadata_means(store):
     """Zarr writes the same document for the array as it understood ours."""
-    for path in store.rglob("zarr.json"):
-        ours = json.loads(path.read_bytes())
+    with ZipFile(store) as archive:
+        documents = {
+            name.removesuffix("/zarr.json"): json.loads(archive.read(name))
+            for name in archive.namelist()
+            if name.endswith("/zarr.json")
+        }
+    for path, ours in documents.items():
         if ours["node_type"] == "array":
-            understood = zarr.open_array(path.parent, mode="r").metadata.to_dict()
+            understood = zarr.open_array(ZipStore(store), path=path, mode="r").metadata.to_dict()
             for member in ("shape", "data_type", "chunk_grid", "codecs", "dimension_names"):
                 # through JSON, which knows no tuples
                 assert json.loads(json.dumps(understood[member])) == ours[member]
@@ -166,14 +177,17 @@ def test_an_unknown_channel_is_refused_with_those_there_are(store):
 
 
 @pytest.mark.parametrize("content", [None, b"", b"{}", b"[]", b'{"zarr_format": 2}'])
-def test_a_folder_without_a_store_is_refused(tmp_path, content):
-    if content is not None:
-        (tmp_path / "zarr.json").write_bytes(content)
+def test_what_holds_no_store_is_refused(tmp_path, content):
     with pytest.raises(NotAStore):
         ResultReader(tmp_path)
+    if content is not None:
+        (tmp_path / "store.zip").write_bytes(b"".join(pack([("zarr.json", content)])))
+    with pytest.raises(NotAStore):
+        ResultReader(tmp_path / "store.zip")
 
 
 def test_a_foreign_group_is_refused(tmp_path):
-    zarr.create_group(tmp_path / "foreign", attributes={"result_schema": 99})
+    document = b'{"attributes": {"result_schema": 99}, "consolidated_metadata": {"metadata": {}}}'
+    (tmp_path / "store.zip").write_bytes(b"".join(pack([("zarr.json", document)])))
     with pytest.raises(NotAStore, match="this version reads 1"):
-        ResultReader(tmp_path / "foreign")
+        ResultReader(tmp_path / "store.zip")

@@ -12,4 +12,5 @@ MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 @pytest.fixture
 def tmp_path():
     with tempfile.TemporaryDirectory(dir=MEMORY) as folder:
-        yield Path(folder)
+        (Path(folder) / "test").mkdir()  # stores are sealed beside their folders
+        yield Path(folder) / "test"

@@ -5,6 +5,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
+from tests.stores import packed, target
 
 
 def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, attributes=None):
@@ -100,14 +101,5 @@ class MadeUpStudy:
         create(folder, self.layout)
         for index in range(len(self.layout.blocks)):
             self.write_block(folder, index)
-        seal(folder, self.layout)
-        return folder
-
-
-def files(folder):
-    """Every file below a folder with its bytes."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }
+        seal(folder, self.layout, target(folder))
+        return packed(folder)

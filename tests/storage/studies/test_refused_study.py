@@ -7,7 +7,7 @@ from itertools import count
 
 import numpy as np
 import pytest
-from made_up_studies import MadeUpStudy, files, made_up_layout
+from made_up_studies import MadeUpStudy, made_up_layout, packed, target
 
 from jointplay.records.point import StudySlice
 from jointplay.storage.results import CheckpointMismatch, CorruptStore, InvalidAppend, StoreExists
@@ -39,7 +39,7 @@ def step(shape):
 
 @pytest.fixture
 def undisturbed(tmp_path, study):
-    return files(study.write(tmp_path / "undisturbed"))
+    return study.write(tmp_path / "undisturbed").read_bytes()
 
 
 def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path):
@@ -48,7 +48,7 @@ def test_a_restart_file_that_is_damaged_or_of_another_study_is_refused(tmp_path)
     block = StudyBlock(tmp_path / "store", study.layout, 0)
     block.take(next(study.slices(0)))
     name = block.flush(b"checkpoint")
-    path = tmp_path / "store/.parts" / name
+    path = tmp_path / "store/parts" / name
     content = path.read_bytes()
     for damaged in (content[:-3], content[:-3] + b"xyz", b"other" + content, b""):
         path.write_bytes(damaged)
@@ -74,10 +74,10 @@ def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
         block.take(piece)
     name = block.flush(b"")
     first = 1 if record == 7 else 8  # chunks of eight points, or of one
-    missing = tmp_path / f"sections/slider7.q1/c/{first}/0"
+    missing = tmp_path / f"rows/sections-{first}-0.zip"
     content = missing.read_bytes()
     missing.unlink()
-    with pytest.raises(CorruptStore, match=f"q1/c/{first}/0 is missing, though block 1"):
+    with pytest.raises(CorruptStore, match=f"lacks sections/time/c/{first}/0, though block 1"):
         StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
     missing.write_bytes(content)
     StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
@@ -86,14 +86,14 @@ def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
     missing.unlink()
     assert StudyBlock.done(tmp_path, study.layout, 0)
     assert not StudyBlock.done(tmp_path, study.layout, 1)
-    with pytest.raises(CorruptStore, match="is missing"):
-        seal(tmp_path, study.layout)
+    with pytest.raises(CorruptStore, match="lacks"):
+        seal(tmp_path, study.layout, target(tmp_path))
 
 
 @pytest.mark.parametrize("written", [0, 1, 3, 5, 8])
 def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, written):
     study = MadeUpStudy(made_up_layout(points=10, record=9000, blocks=((0, 8), (8, 2))))
-    undisturbed = files(study.write(tmp_path / "undisturbed"))
+    undisturbed = study.write(tmp_path / "undisturbed").read_bytes()
     folder = tmp_path / "store"
     create(folder, study.layout)
     pieces = list(study.slices(0, 1500))
@@ -101,12 +101,12 @@ def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, writ
     for piece in pieces[:2]:
         block.take(piece)
     name = block.flush(b"")
-    write, calls = os.write, count()
+    write, calls = os.fsync, count()
 
-    def write_until_full(descriptor, content):
+    def write_until_full(descriptor):
         if next(calls) >= written:
             raise OSError(errno.ENOSPC, "No space left on device")
-        return write(descriptor, content)
+        write(descriptor)
 
     def go_on():
         for piece in pieces[2:]:
@@ -114,7 +114,7 @@ def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, writ
             block.flush(b"")
 
     with monkeypatch.context() as full:
-        full.setattr(os, "write", write_until_full)
+        full.setattr(os, "fsync", write_until_full)
         with pytest.raises(OSError, match="No space left"):
             go_on()
     assert (StudyReader(folder).counts[:8] > 0).any()
@@ -123,8 +123,8 @@ def test_after_a_full_disk_the_last_flush_is_resumed(tmp_path, monkeypatch, writ
         other.take(piece)
     other.finish()
     study.write_block(folder, 1)
-    seal(folder, study.layout)
-    assert files(folder) == undisturbed
+    seal(folder, study.layout, target(folder))
+    assert packed(folder).read_bytes() == undisturbed
 
 
 def test_a_failure_without_a_time_is_kept(tmp_path):
@@ -135,8 +135,8 @@ def test_a_failure_without_a_time_is_kept(tmp_path):
     block.take(StudySlice(1.0, tuple(range(8)), (), ends))
     block.finish()
     running = StudyReader(tmp_path).failures[3]
-    seal(tmp_path, study.layout)
-    sealed = StudyReader(tmp_path).failures[3]
+    seal(tmp_path, study.layout, target(tmp_path))
+    sealed = StudyReader(packed(tmp_path)).failures[3]
     assert running[:2] == sealed[:2]
     assert np.isnan(running.time)
     assert np.isnan(sealed.time)
@@ -145,10 +145,10 @@ def test_a_failure_without_a_time_is_kept(tmp_path):
 def test_a_store_cut_off_while_it_was_made_is_made_again(tmp_path):
     study = MadeUpStudy(made_up_layout())
     create(tmp_path, study.layout)
-    whole = files(tmp_path)
-    (tmp_path / "zarr.json").write_bytes(b"")
+    whole = (tmp_path / "documents.zip").read_bytes()
+    (tmp_path / "documents.zip").write_bytes(b"")
     create(tmp_path, study.layout)
-    assert files(tmp_path) == whole
+    assert (tmp_path / "documents.zip").read_bytes() == whole
 
 
 @pytest.mark.parametrize(

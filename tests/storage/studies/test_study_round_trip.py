@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 import zarr
 from made_up_studies import MadeUpStudy, made_up_layout
+from zarr.storage import ZipStore
 
 from jointplay.records.point import Failure
+from jointplay.storage.packed import Packed, files_at, pack
 from jointplay.storage.results import CorruptStore, InvalidLayout, NotAStore, UnknownChannel
 from jointplay.storage.studies import StudyReader, create
 from jointplay.storage.studies.layout import StudyLayout
@@ -93,7 +95,8 @@ def test_windows_of_points_and_of_sections(tmp_path):
 
 def test_stock_zarr_reads_a_sealed_study_with_units_and_dimensions(tmp_path):
     study = MadeUpStudy(made_up_layout())
-    stock = zarr.open_group(study.write(tmp_path / "study"), mode="r")
+    store = ZipStore(study.write(tmp_path / "study"))
+    stock = zarr.open_group(store, mode="r")
     array = stock["sections/slider7.q1"]
     assert array.metadata.dimension_names == ("point", "section")
     assert array.attrs["units"] == "m"
@@ -105,16 +108,17 @@ def test_stock_zarr_reads_a_sealed_study_with_units_and_dimensions(tmp_path):
     assert stock["failure_time"][3] == pytest.approx(0.3)
     assert stock["peaks/maximum"].shape == (20, 3)
     # every array's own document is there as well, for clients that open it alone
-    alone = zarr.open_array(tmp_path / "study/indicators/lyapunov", mode="r")
+    alone = zarr.open_array(store, path="indicators/lyapunov", mode="r")
     assert alone.shape == (20,)
 
 
 def test_a_store_of_a_study_is_found_by_its_schema(tmp_path):
-    with pytest.raises(NotAStore, match="no store of a study"):
+    with pytest.raises(NotAStore, match="holds no results"):
         StudyReader(tmp_path)
-    (tmp_path / "zarr.json").write_text('{"attributes": {"study_schema": 99}}')
+    store = tmp_path / "store.zip"
+    store.write_bytes(b"".join(pack([("zarr.json", b'{"attributes": {"study_schema": 99}}')])))
     with pytest.raises(NotAStore, match="schema 99; this version reads 1"):
-        StudyReader(tmp_path)
+        StudyReader(store)
 
 
 def test_what_was_not_kept_is_named(tmp_path):
@@ -127,12 +131,15 @@ def test_what_was_not_kept_is_named(tmp_path):
 
 @pytest.mark.parametrize("key", ["sections/slider7.q0/c/1/0", "failures.json", "status/c/0"])
 def test_a_flipped_bit_of_a_sealed_study_is_found(tmp_path, key):
-    folder = MadeUpStudy(made_up_layout()).write(tmp_path / "study")
-    content = bytearray((folder / key).read_bytes())
-    content[len(content) // 2] ^= 4
-    (folder / key).write_bytes(content)
+    store = MadeUpStudy(made_up_layout()).write(tmp_path / "study")
+    files = files_at(store)
+    assert isinstance(files, Packed)
+    offset, size, _ = files.entry(key)
+    content = bytearray(store.read_bytes())
+    content[offset + size // 2] ^= 4
+    store.write_bytes(content)
     with pytest.raises(CorruptStore, match=key):
-        StudyReader(folder).verify()
+        StudyReader(store).verify()
 
 
 @pytest.mark.parametrize(

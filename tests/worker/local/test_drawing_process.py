@@ -14,6 +14,8 @@ from jointplay.command_line.drawing import draw_all
 from jointplay.local import drawing_process
 from jointplay.local.drawing_process import DrawingProcess
 from jointplay.solver.kinds import admit
+from jointplay.storage.packed import pack
+from tests.stores import files_of
 from tests.waiting import until
 
 CRANK = {"clearance": 1e-4, "duration": 0.05}
@@ -105,7 +107,9 @@ def test_a_drawer_that_says_nothing_is_not_waited_for(job, alone, second, tmp_pa
 
 def test_a_figure_that_cannot_be_drawn_says_why_as_one_alone_does(second, tmp_path):
     broken = jointplay.run("slider-crank", output=tmp_path / "OUT", **CRANK)
-    (tmp_path / "OUT" / "results.zarr" / "displacement" / "c" / "0").write_bytes(b"no such thing")
+    store = tmp_path / "OUT" / "results.zarr.zip"
+    files = files_of(store) | {"displacement/c/0": b"no such thing"}
+    store.write_bytes(b"".join(pack(files.items())))
     with pytest.raises(Exception, match=r".") as told_alone:
         draw_all(broken, tmp_path / "alone")
     with pytest.raises(Exception, match=r".") as told:

@@ -58,7 +58,7 @@ def test_a_study_has_points_and_sections(study):
 def test_a_folder_is_loaded_later(job):
     again = jointplay.load(job.id)
     assert again.to_document() == job.to_document()
-    store = jointplay.load(f"{job.id}/results.zarr")  # alone: only that it is whole is known
+    store = jointplay.load(f"{job.id}/results.zarr.zip")  # alone: only that it is whole is known
     assert (store.state, store.progress) == ("succeeded", Progress(0.05, 1.0))
     with pytest.raises(NotFound, match="holds no results"):
         jointplay.load("/nowhere")

@@ -1,0 +1,186 @@
+"""The files of a store that is being filled: a folder with a few packed files.
+
+``documents.zip`` holds the documents and is replaced; ``rows`` has a packed file for the chunks of
+all columns at one place, such as ``history-3.zip``, which is written once, when they are full.
+"""
+
+import os
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Final, TypeVar
+
+from jointplay.storage import durable
+from jointplay.storage.errors import NotAStore
+from jointplay.storage.packed.files import Entry
+from jointplay.storage.packed.reading import Packed
+from jointplay.storage.packed.writing import pack
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
+
+DOCUMENTS: Final = "documents.zip"
+ROWS: Final = "rows"
+PARTS: Final = "parts"
+"""Folder of what is not stored yet: the journal of a run, the parts of a study's blocks."""
+Found = TypeVar("Found")
+
+
+class Running:
+    """Files of a running store; memory is bounded by its documents.
+
+    Parameters
+    ----------
+    folder
+        Of the store; need not be there yet.
+    sealed
+        Where the store will be once it is sealed. The folder goes then; what is not found in it
+        any more is read there, where every chunk has the same bytes.
+    """
+
+    def __init__(self, folder: Path, sealed: StoredObject | None = None) -> None:
+        self.folder = folder
+        self._target = sealed
+        self._packed: Packed | None = None
+        self._synced = False
+        self._packs: dict[str, Packed] = {}
+
+    def write_documents(self, entries: Iterable[tuple[str, bytes]]) -> None:
+        """Replace the documents: readers see all of them or none, a power cut may take them."""
+        for name in (ROWS, PARTS):
+            (self.folder / name).mkdir(parents=True, exist_ok=True)
+        durable.write(self.folder / DOCUMENTS, pack(entries), lasting=False)
+
+    def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
+        """Write the chunks that stand at one place, that of a key; durable on return."""
+        self._sync_folders()
+        durable.write(self._path(key), pack(entries))
+
+    def adopt(self, lost: "Running", key: str) -> None:
+        """Take over the chunks at one place from a lost attempt's store; durable on return.
+
+        Raises
+        ------
+        FileNotFoundError
+            They are not there.
+        """
+        self._sync_folders()
+        source, path = lost._path(key), self._path(key)
+        try:
+            os.link(source, path)
+        except FileNotFoundError:
+            raise
+        except OSError:  # another file system, or one that cannot link
+            durable.write(path, [source.read_bytes()])
+        else:
+            durable.sync(path.parent)
+
+    def has(self, key: str) -> bool:
+        """Whether the chunks at the place of a key were written, and the folder is there."""
+        return self._path(key).exists()
+
+    def shards(self, pattern: str) -> int:
+        """Count the shards of an array that were written, whose keys are made by a pattern."""
+        found = 0
+        while self.has(pattern.format(found)):
+            found += 1
+        return found
+
+    def chunks(self, key: str) -> Iterator[tuple[str, bytes]]:
+        """Yield key and content of all chunks at the place of a key."""
+        found = self._pack(key)
+        for one in found:
+            yield one, found.read(one)
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the keys of the documents."""
+        return iter(self.documents)
+
+    def read(self, key: str, start: int = 0, stop: int | None = None) -> bytes:
+        """Return bytes [start, stop) of a file, to its end by default."""
+        return self._ask(key, lambda files: files.read(key, start, stop))
+
+    def entry(self, key: str) -> Entry:
+        """Return size and CRC-32 of a file; FileNotFoundError if there is none."""
+        return self._ask(key, lambda files: files.entry(key))
+
+    def sealed(self) -> Packed | None:
+        """Return the sealed store, if there is one by now."""
+        if self._packed is None and self._target is not None and self._target.exists():
+            self._packed = Packed(self._target)
+        return self._packed
+
+    @cached_property
+    def documents(self) -> Packed:
+        """Documents of the store, all of one moment.
+
+        Raises
+        ------
+        NotAStore
+            There are none, or only a part of them.
+        """
+        try:
+            return Packed(InMemory((self.folder / DOCUMENTS).read_bytes()))
+        except FileNotFoundError as error:
+            raise NotAStore(f"{self.folder} holds no results") from error
+
+    def write_other(self, path: str, pieces: Iterable[bytes]) -> None:
+        """Write a file that is no part of the sealed store; durable on return."""
+        self._sync_folders()
+        durable.write(self.folder / path, pieces)
+
+    def remove(self) -> None:
+        """Delete the folder: the store is sealed."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def _ask(self, key: str, question: Callable[[Packed], Found]) -> Found:
+        """Ask the packed file that holds a key."""
+        if key in self.documents.entries:
+            return question(self.documents)
+        try:
+            return question(self._pack(key))
+        except FileNotFoundError:
+            sealed = self.sealed()
+            if sealed is None:
+                raise
+        return question(sealed)
+
+    def _pack(self, key: str) -> Packed:
+        name = _name(key)
+        if name not in self._packs:
+            if not self.has(key):
+                raise FileNotFoundError(f"{self.folder} has no {key!r}")
+            self._packs[name] = Packed(StoredObject(Folder(str(self.folder / ROWS)), name))
+        return self._packs[name]
+
+    def _sync_folders(self) -> None:
+        """Make the names of the folders durable, before the first file is."""
+        if not self._synced:
+            durable.sync(self.folder)
+            durable.sync(self.folder.parent)
+            self._synced = True
+
+    def _path(self, key: str) -> Path:
+        return self.folder / ROWS / _name(key)
+
+
+class InMemory:
+    """Bytes to be read by ranges."""
+
+    def __init__(self, content: bytes) -> None:
+        self._content = content
+
+    def size(self) -> int:
+        """Return how many there are."""
+        return len(self._content)
+
+    def read(self, start: int, stop: int) -> bytes:
+        """Return bytes [start, stop)."""
+        return self._content[start:stop]
+
+
+def _name(key: str) -> str:
+    """Name the packed file of a chunk by its group and its place in the grid of chunks."""
+    array, _, place = key.rpartition("/c/")
+    group = array.rpartition("/")[0] or "history"
+    return f"{group}-{place}.zip".replace("/", "-")

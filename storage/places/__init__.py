@@ -1,0 +1,111 @@
+"""Places for results: where sealed stores are kept, each as one object under a key.
+
+A place is a family member with one file and one line in `PLACES`; what it must do is said by
+`Place` and tested by `tests/storage/places/contract.py`. Its verbs are those of an object store:
+objects are put whole, once, and read by ranges; none is renamed or appended to.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final, Protocol
+
+from jointplay.storage.places.folder import Folder
+
+
+class Place(Protocol):
+    """Objects by key; keys are names with slashes between them, as those of files."""
+
+    def put(self, key: str, pieces: Iterable[bytes]) -> None:
+        """Store an object, given in pieces; it is there whole, and durable, on return.
+
+        Whoever reads or lists meanwhile, or after the writer was killed, does not see it.
+
+        Raises
+        ------
+        FileExistsError
+            There is an object of this key, which stays as it is.
+        OSError
+            It cannot be stored; nothing can be seen of it.
+        """
+        ...
+
+    def size(self, key: str) -> int:
+        """Return the bytes of an object; FileNotFoundError if there is none."""
+        ...
+
+    def read(self, key: str, start: int, stop: int) -> bytes:
+        """Return bytes [start, stop) of an object, fewer where it ends before.
+
+        Raises
+        ------
+        FileNotFoundError
+            There is no object of this key.
+        """
+        ...
+
+    def list(self, prefix: str) -> Iterator[str]:
+        """Yield the keys of all objects that begin with a prefix, in no order."""
+        ...
+
+    def remove(self, prefix: str) -> None:
+        """Remove all objects whose keys begin so, and what puts that were cut off left of them."""
+        ...
+
+    def adopt(self, key: str, lost: str) -> bool:
+        """Give the object of a lost attempt this key as well, durably; whether there was one.
+
+        An object that is there already stays.
+        """
+        ...
+
+
+PLACES: Final[dict[str, Callable[[str], Place]]] = {"file": Folder}
+"""By the scheme of a place's address; called with what follows it."""
+
+
+@lru_cache(maxsize=8)
+def place_at(address: str) -> Place:
+    """Return the place at an address such as ``file:/var/lib/jointplay/results``.
+
+    Raises
+    ------
+    ValueError
+        No place has this scheme.
+    """
+    scheme, colon, path = address.partition(":")
+    if not colon or scheme not in PLACES:
+        known = ", ".join(f"{name}:" for name in sorted(PLACES))
+        raise ValueError(f"{address!r} is no place for results; addresses begin with {known}")
+    return PLACES[scheme](path)
+
+
+@dataclass(frozen=True)
+class StoredObject:
+    """One object of a place by its key, there or not yet."""
+
+    place: Place
+    key: str
+
+    def put(self, pieces: Iterable[bytes]) -> None:
+        """See `Place.put`."""
+        self.place.put(self.key, pieces)
+
+    def size(self) -> int:
+        """See `Place.size`."""
+        return self.place.size(self.key)
+
+    def read(self, start: int, stop: int) -> bytes:
+        """See `Place.read`."""
+        return self.place.read(self.key, start, stop)
+
+    def exists(self) -> bool:
+        """Whether the object is there."""
+        try:
+            self.size()
+        except FileNotFoundError:
+            return False
+        return True
+
+    def __str__(self) -> str:
+        return self.key

@@ -1,0 +1,155 @@
+"""What every place for results must do; a place's own tests subclass this.
+
+They give the place, and how an object gets in and out past it, so that no place is asked about
+itself alone.
+"""
+
+import threading
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+
+import pytest
+
+from jointplay.storage.places import Place, StoredObject
+
+KEY = "2R/job-a1.zarr.zip"
+CONTENT = bytes(range(256)) * 20
+
+
+class CutOff(Exception):
+    """Stands for the end of a process while it stores an object."""
+
+
+def pieces(content: bytes = CONTENT, *, until: int | None = None) -> Iterator[bytes]:
+    """Give a content in pieces of uneven length, up to a byte at which the process ends."""
+    at, step = 0, 1
+    while at < len(content):
+        if until is not None and at >= until:
+            raise CutOff
+        yield content[at : at + step]
+        at, step = at + step, step * 3
+    yield b""
+
+
+class PlaceContract(ABC):
+    """One test for each promise of `storage.places.Place`."""
+
+    @abstractmethod
+    def raw_get(self, place: Place, key: str) -> bytes | None:
+        """Return an object's bytes without asking the place; None if there is none."""
+
+    @abstractmethod
+    def raw_set(self, place: Place, key: str, content: bytes) -> None:
+        """Put an object there without asking the place."""
+
+    @pytest.fixture
+    @abstractmethod
+    def place(self) -> Place:
+        """An empty place."""
+
+    def test_what_is_put_is_there(self, place: Place) -> None:
+        place.put(KEY, pieces())
+        assert self.raw_get(place, KEY) == CONTENT
+
+    @pytest.mark.parametrize("content", [b"", b"x", CONTENT])
+    def test_what_is_there_is_read(self, place: Place, content: bytes) -> None:
+        self.raw_set(place, KEY, content)
+        assert place.size(KEY) == len(content)
+        assert place.read(KEY, 0, len(content)) == content
+        assert StoredObject(place, KEY).exists()
+
+    @pytest.mark.parametrize(
+        ("start", "stop"), [(0, 1), (0, 0), (17, 300), (5119, 5120), (5000, 9999), (6000, 7000)]
+    )
+    def test_a_range_is_a_slice(self, place: Place, start: int, stop: int) -> None:
+        self.raw_set(place, KEY, CONTENT)
+        assert place.read(KEY, start, stop) == CONTENT[start:stop]
+
+    def test_what_is_not_there_is_said_to_be_missing(self, place: Place) -> None:
+        self.raw_set(place, KEY, CONTENT)
+        missing = StoredObject(place, "2R/job-a2.zarr.zip")
+        assert not missing.exists()
+        with pytest.raises(FileNotFoundError):
+            missing.size()
+        with pytest.raises(FileNotFoundError):
+            missing.read(0, 1)
+        assert not place.adopt("2R/other", missing.key)
+        assert not StoredObject(place, "2R/other").exists()
+        place.remove("2R/nothing")
+
+    def test_an_object_is_written_once(self, place: Place) -> None:
+        self.raw_set(place, KEY, CONTENT)
+        with pytest.raises(FileExistsError):
+            place.put(KEY, pieces(b"other"))
+        assert self.raw_get(place, KEY) == CONTENT
+
+    @pytest.mark.parametrize("until", [0, 1, 2000])
+    def test_a_put_that_is_cut_off_leaves_nothing_to_be_seen(
+        self, place: Place, until: int
+    ) -> None:
+        with pytest.raises(CutOff):
+            place.put(KEY, pieces(until=until))
+        assert self.raw_get(place, KEY) is None
+        assert list(place.list("")) == []
+        place.put(KEY, pieces())
+        assert self.raw_get(place, KEY) == CONTENT
+
+    def test_an_object_being_put_is_not_seen_before_it_is_whole(self, place: Place) -> None:
+        seen = []
+
+        def watched() -> Iterator[bytes]:
+            for piece in pieces():
+                seen.append((self.raw_get(place, KEY), list(place.list(""))))
+                yield piece
+
+        place.put(KEY, watched())
+        assert seen == [(None, [])] * len(seen)
+        assert len(seen) > 5
+
+    def test_of_several_who_put_at_once_one_succeeds(self, place: Place) -> None:
+        contents = [bytes([number]) * 10_000 for number in range(6)]
+        together = threading.Barrier(len(contents))
+        outcomes: list[bytes | None] = []
+
+        def put(content: bytes) -> None:
+            together.wait()
+            try:
+                place.put(KEY, pieces(content))
+                outcomes.append(content)
+            except FileExistsError:
+                outcomes.append(None)
+
+        writers = [threading.Thread(target=put, args=(content,)) for content in contents]
+        for writer in writers:
+            writer.start()
+        for writer in writers:
+            writer.join()
+        (kept,) = [content for content in outcomes if content is not None]
+        assert len(outcomes) == len(contents)
+        assert self.raw_get(place, KEY) == kept
+
+    def test_keys_are_listed_by_what_they_begin_with(self, place: Place) -> None:
+        keys = ["2R/a-1", "2R/a-2", "2R/b-1", "3R/a-1", "2R/a"]
+        for key in keys:
+            self.raw_set(place, key, b"x")
+        assert sorted(place.list("")) == sorted(keys)
+        assert sorted(place.list("2R/a-")) == ["2R/a-1", "2R/a-2"]
+        assert sorted(place.list("2R/")) == ["2R/a", "2R/a-1", "2R/a-2", "2R/b-1"]
+        assert list(place.list("2R/c")) == list(place.list("4R/")) == []
+
+    def test_what_begins_so_is_removed_and_nothing_else(self, place: Place) -> None:
+        for key in ("2R/a-1", "2R/a-2", "2R/b-1"):
+            self.raw_set(place, key, b"x")
+        place.remove("2R/a-")
+        assert list(place.list("")) == ["2R/b-1"]
+        assert self.raw_get(place, "2R/a-1") is None
+
+    def test_what_a_lost_attempt_stored_is_adopted(self, place: Place) -> None:
+        self.raw_set(place, "2R/job-a1", CONTENT)
+        assert place.adopt("2R/job-a2", "2R/job-a1")
+        assert self.raw_get(place, "2R/job-a2") == CONTENT
+        place.remove("2R/job-a1")
+        assert self.raw_get(place, "2R/job-a2") == CONTENT
+        self.raw_set(place, "2R/job-a3", b"another")
+        assert place.adopt("2R/job-a2", "2R/job-a3")  # what is there already stays
+        assert self.raw_get(place, "2R/job-a2") == CONTENT
