@@ -15,7 +15,7 @@ import tempfile
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -29,8 +29,8 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage import durable
 from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob
-from jointplay.storage.results import durable
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyBlock, create
 from jointplay.worker.app import RUN_BLOCK, make_app
@@ -68,33 +68,28 @@ def counted(counts: Counter[str]) -> Iterator[None]:
         if begin.startswith("BEGIN"):
             counts["writing" if "IMMEDIATE" in begin else "reading"] += 1
 
-    put, sync, sync_file_system = (
-        durable.DurableFolder._put,
-        durable.sync,
-        durable.sync_file_system,
-    )
+    draft, fsync = durable.draft, os.fsync
 
-    def counting_put(folder: durable.DurableFolder, key: str, content: bytes) -> None:
+    def measured(pieces: Iterable[bytes]) -> Iterator[bytes]:
+        for piece in pieces:
+            counts["bytes"] += len(piece)
+            yield piece
+
+    def counting_draft(path: Path, pieces: Iterable[bytes], *, lasting: bool = True) -> Path:
         counts["files"] += 1
-        counts["bytes"] += len(content)
-        put(folder, key, content)
+        return draft(path, measured(pieces), lasting=lasting)
 
-    def counting(call: Callable[[Any], Any]) -> Callable[[Any], Any]:
-        def wrapped(path: Any) -> Any:
-            counts["syncs"] += 1
-            return call(path)
+    def counting_fsync(descriptor: int) -> None:
+        counts["syncs"] += 1
+        fsync(descriptor)
 
-        return wrapped
-
-    durable.DurableFolder._put = counting_put  # type: ignore[method-assign]
-    durable.sync, durable.sync_file_system = counting(sync), counting(sync_file_system)
+    durable.draft, os.fsync = counting_draft, counting_fsync  # type: ignore[assignment]
     event.listen(Engine, "before_cursor_execute", statement)
     try:
         yield
     finally:
         event.remove(Engine, "before_cursor_execute", statement)
-        durable.DurableFolder._put = put  # type: ignore[method-assign]
-        durable.sync, durable.sync_file_system = sync, sync_file_system
+        durable.draft, os.fsync = draft, fsync
 
 
 def demand(folder: Path) -> tuple[Counter[str], float]:

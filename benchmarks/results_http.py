@@ -101,9 +101,9 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
     specs = admission.channels
     attributes = {"job": admission.job, "scene": admission.scene_document()}
     layout = ResultLayout(specs, admission.samples, 0, admission.joints, attributes)
-    folder = settings.result_folder(job_id, claim.block.attempt)
+    attempt = job_id, claim.block.attempt
     begun = time.perf_counter()
-    writer = ResultWriter.create(folder, layout)
+    writer = ResultWriter.create(settings.running_run(*attempt).folder, layout)
     show(f"create the arrays of {len(specs)} channels", time.perf_counter() - begun)
     noise = np.random.default_rng(0).normal(size=(50_000, len(specs)))
     nothing = np.empty(0), np.empty((0, len(specs))), np.empty(0, IMPACT)
@@ -112,7 +112,11 @@ def stored(http: httpx.Client, settings: Settings, channels: list[str], samples:
         moments = (writer.samples + np.arange(rows)) * STEP
         values = noise[:rows] + 3.0 * np.sin(30.0 * moments)[:, None]
         writer.append(writer.samples, moments, values, 0, *nothing)
-    writer.seal(peaks={}, summary={}, complete=samples == admission.samples)
+    target = settings.sealed_run(*attempt)
+    begun = time.perf_counter()
+    writer.seal(target, peaks={}, summary={}, complete=samples == admission.samples)
+    show(f"seal {target.size() / 1e6:.0f} MB", time.perf_counter() - begun)
+    shutil.rmtree(settings.running_folder(job_id))
     catalogue.finish(claim.block.id, claim.block.attempt, BlockState.done)
     catalogue.close()
     return str(job_id)

@@ -18,6 +18,9 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
+from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
 from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
 
 CHANNELS = 95
@@ -61,16 +64,17 @@ def default_history(folder: Path) -> None:
         impacts = np.zeros(100, IMPACT)
         writer.append(0, time, samples, 0, time[:2], samples[:2], impacts)
         appended = perf_counter()
-        writer.seal(peaks=peaks, summary={})
+        target = StoredObject(Folder(str(folder)), f"small{repeat}.zip")
+        writer.seal(target, peaks=peaks, summary={})
         sealed = perf_counter()
-        reader = ResultReader(path)
+        reader = ResultReader(Packed(target))
         opened = perf_counter()
         reader.history()
         read = perf_counter()
         for name, cost in (
             ("create (95 channels: documents of the groups)", created - begin),
-            ("append 2001 samples: one shard an array, fsynced", appended - created),
-            ("seal: sections, impacts, peaks, manifest, fsynced", sealed - appended),
+            ("append 2001 samples", appended - created),
+            ("seal into one file, fsynced", sealed - appended),
             ("open for reading", opened - sealed),
             ("read all channels", read - opened),
         ):
@@ -79,7 +83,7 @@ def default_history(folder: Path) -> None:
         show(f"2001 samples: {name}", min(values))
     show("2001 samples: read one channel", timed(lambda: reader.history(["body0.coordinate3"])))
     show("2001 samples: verify against the manifest", timed(reader.verify))
-    size = (folder / "small0/zarr.json").stat().st_size
+    size = reader.files.entry("zarr.json").size
     print(f"2001 samples: size of the root's zarr.json{size / 1e3:33.1f} kB")
 
 
@@ -88,6 +92,7 @@ def long_history(folder: Path) -> None:
     samples, piece = 1_000_000, 5000
     time, values = rows(piece)
     writer = ResultWriter.create(folder / "long", layout(samples, 0))
+    target = StoredObject(Folder(str(folder)), "long.zip")
     nothing = np.empty(0), np.empty((0, CHANNELS)), np.empty(0, IMPACT)
 
     def fill() -> None:
@@ -96,8 +101,8 @@ def long_history(folder: Path) -> None:
 
     show("1e6 samples: append, 760 MB", timed(fill))
     show("1e6 samples: checkpoint, 17 000 rows waiting", timed(writer.checkpoint))
-    show("1e6 samples: seal", timed(lambda: writer.seal(peaks={}, summary={})))
-    reader = ResultReader(folder / "long")
+    show("1e6 samples: seal", timed(lambda: writer.seal(target, peaks={}, summary={})))
+    reader = ResultReader(Packed(target))
     name = ["body0.coordinate3"]
     show("1e6 samples: slice of 1000", timed(lambda: reader.history(name, 500_000, 501_000)))
     show("1e6 samples: one whole channel", timed(lambda: reader.history(name)))
