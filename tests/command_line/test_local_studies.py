@@ -14,7 +14,7 @@ from zarr.storage import ZipStore
 
 from jointplay.command_line.application import run
 from jointplay.storage.studies import StudyReader
-from jointplay.worker.local.folder import STORE
+from jointplay.worker.local.folder import RUNNING, STORE
 
 CRANK = ["run", "slider-crank"]
 DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:17", "--settle", "2", "--record", "4"]
@@ -158,7 +158,8 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     assert process.returncode == 4, rest
     assert "cancelled" in rest.splitlines()[-1]
     assert "waiting" in out
-    reader = StudyReader(output / "results.zarr.zip")
+    assert not (output / STORE).exists()
+    reader = StudyReader(output / RUNNING)
     assert not reader.complete
     done = int((reader.status == 2).sum())
     assert 0 < done < 400

@@ -68,7 +68,8 @@ def test_it_is_drawn_alike_over_http_from_a_folder_and_by_the_command_line(
     assert "speed" in job.figures
     over_http = job.figure("speed").content
     assert over_http.startswith(b"\x89PNG")
-    local = load(platform.settings.result_folder(job.id, job.attempt))
+    sealed = platform.settings.sealed_run(job.id, job.attempt)
+    local = load(platform.settings.data / "results" / sealed.key)
     assert "speed" in local.figures
     assert local.figure("speed").content == over_http
     command = ["plot", job.id, "speed", "-o", str(tmp_path), "--url", service_url]
