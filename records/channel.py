@@ -14,6 +14,11 @@ class Channel(NamedTuple):
     """The quantity in a few words."""
 
     @property
+    def title(self) -> str:
+        """Title of its column in a table: name and unit."""
+        return f"{self.name} [{self.unit}]"
+
+    @property
     def attributes(self) -> dict[str, str]:
         """Attributes of its array by the CF conventions."""
         return {"units": self.unit, "long_name": self.long_name}

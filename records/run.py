@@ -20,7 +20,6 @@ class NumbersLike(Protocol):
     @property
     def values(self) -> Floats:
         """Its numbers."""
-        ...
 
 
 class CertificateLike(Protocol):
@@ -32,12 +31,10 @@ class CertificateLike(Protocol):
     @property
     def attributes(self) -> Mapping[str, Any]:
         """The document: "horizon" and "converged" among others."""
-        ...
 
     @property
     def arrays(self) -> Mapping[str, NumbersLike]:
         """Times, errors, extremes, histograms."""
-        ...
 
 
 class Source(Protocol):
@@ -46,50 +43,39 @@ class Source(Protocol):
     @property
     def attributes(self) -> Mapping[str, Any]:
         """At least "scene", the scene document with its parameters set."""
-        ...
 
     @property
     def channels(self) -> Sequence[Channel]:
         """Channels that were stored."""
-        ...
 
     @property
     def joints(self) -> Sequence[str]:
         """Names that the `joint` of an impact points to."""
-        ...
 
     @property
     def complete(self) -> bool:
         """The run came to its end."""
-        ...
 
     @property
     def samples(self) -> int:
         """Number of samples."""
-        ...
 
     def blocks(
         self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
     ) -> Iterator[Columns]:
         """Give samples `start` to `stop` - 1 in consecutive pieces that fit into memory."""
-        ...
 
     def between(self, start: float | None, stop: float | None) -> tuple[int, int]:
         """Find the samples [first, last) of start <= time <= stop [s]; None is unbounded."""
-        ...
 
     def sections(self, channels: Sequence[str] | None = None) -> Columns:
         """Give the Poincare sections."""
-        ...
 
     def peaks(self) -> Mapping[str, Peak]:
         """Give the signed extremes by channel."""
-        ...
 
     def impacts(self) -> NDArray[Any]:
         """Give the contacts in order of release: (j,) of dtype `records.impact.IMPACT`."""
-        ...
 
     def certificate(self) -> CertificateLike | None:
         """Give what is known of the errors; none where nobody asked for it, or not yet."""
-        ...

@@ -22,91 +22,72 @@ class StudySource(Protocol):
     @property
     def attributes(self) -> Mapping[str, Any]:
         """At least "job", with every default, and "scene", the scene at the first point."""
-        ...
 
     @property
     def kind(self) -> str:
         """Kind of the job."""
-        ...
 
     @property
     def parameters(self) -> Sequence[Channel]:
         """Parameters that differ between points; none for one point perturbed."""
-        ...
 
     @property
     def observables(self) -> Sequence[Channel]:
         """Channels that were taken at the sections."""
-        ...
 
     @property
     def channels(self) -> Sequence[Channel]:
         """Channels whose extremes were kept."""
-        ...
 
     @property
     def complete(self) -> bool:
         """Every point has ended."""
-        ...
 
     @property
     def points(self) -> int:
         """Number of points."""
-        ...
 
     @property
     def record(self) -> int:
         """Sections that a point records at most."""
-        ...
 
     @property
     def values(self) -> Floats:
         """(points, parameters), in the parameters' units."""
-        ...
 
     @property
     def status(self) -> NDArray[np.uint8]:
         """(points,) codes of `STATUS`."""
-        ...
 
     @property
     def failures(self) -> Mapping[int, Failure]:
         """Failed points."""
-        ...
 
     @property
     def counts(self) -> NDArray[np.int64]:
         """(points,) sections that were recorded so far."""
-        ...
 
     def section_times(self, start: int = 0, stop: int | None = None) -> Floats:
         """Give (stop - start, record) times [s] of the sections of points, NaN-filled."""
-        ...
 
     def sections(self, observable: str, start: int = 0, stop: int | None = None) -> Floats:
         """Give (stop - start, record) values of an observable at points, NaN-filled."""
-        ...
 
     def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point."""
-        ...
 
     @property
     def statistics(self) -> Mapping[str, Floats]:
         """(points,) by name: steps, onsets, energy_residual and the like."""
-        ...
 
     @property
     def indicators(self) -> Mapping[str, Floats]:
         """(points,) by name: lyapunov, zero_one, period and the like."""
-        ...
 
     @property
     def verdicts(self) -> NDArray[np.int64] | None:
         """(points,) codes into `verdict_names`, -1 where there is none yet; None: not asked for."""
-        ...
 
     @property
     def verdict_names(self) -> Sequence[str]:
         """Names of the verdicts."""
-        ...

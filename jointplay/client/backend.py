@@ -15,23 +15,18 @@ class Backend(Protocol):
 
     def results(self, job: JobRecord) -> Results:
         """Return the way to its results."""
-        ...
 
     def look(self, job: JobRecord) -> dict[str, Any]:
         """Return its document as it is now."""
-        ...
 
     def follow(self, job: JobRecord, deadline: float | None) -> Iterator[None]:
         """Keep a job up to date until it is finished; yield whenever it has changed."""
-        ...
 
     def cancel(self, job: JobRecord) -> dict[str, Any]:
         """Ask for it to be cancelled, and return its document."""
-        ...
 
     def delete(self, job: JobRecord) -> None:
         """Delete it with its results."""
-        ...
 
 
 class ServiceBackend:

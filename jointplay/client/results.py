@@ -54,7 +54,6 @@ class Results(Protocol):
 
     def store(self) -> Store:
         """Return where stock Zarr clients find the stored arrays."""
-        ...
 
     def window(
         self,
@@ -64,31 +63,24 @@ class Results(Protocol):
         points: int | None,
     ) -> Window:
         """Return channels (names or globs; all if None) from ``start`` to ``stop``, in s."""
-        ...
 
     def sections(self, channels: Sequence[str] | None) -> Window:
         """Return channels at the Poincare sections of a simulation."""
-        ...
 
     def peaks(self) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel of a simulation."""
-        ...
 
     def impacts(self) -> Impacts:
         """Return the contacts of the clearance joints of a simulation."""
-        ...
 
     def statistics(self) -> dict[str, Any]:
         """Return what a simulation cost, and its energy ledger with the residual, in J."""
-        ...
 
     def certificate(self) -> dict[str, Any]:
         """Return how far a simulation can be believed."""
-        ...
 
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys, of an accuracy-study."""
-        ...
 
     def study(
         self,
@@ -97,17 +89,14 @@ class Results(Protocol):
         sections: tuple[int, int] | None,
     ) -> StudySource:
         """Return the points of a study as they are now."""
-        ...
 
     def source(
         self, channels: Sequence[str] | None, start: float | None, stop: float | None
     ) -> Source:
         """Return a window of a simulation as exports take it; it may hold more."""
-        ...
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""
-        ...
 
     def figure(
         self,
@@ -120,4 +109,3 @@ class Results(Protocol):
         stop: float | None,
     ) -> bytes:
         """Return a figure as a file's bytes."""
-        ...

@@ -13,6 +13,7 @@ from jointplay.command_line import connection
 from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.peaks import print_peaks, rows_of
 from jointplay.command_line.study_options import listed
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def compare(
     if as_json:
         print_json({"figure": str(output), "peaks": table})
         return
-    _print_table(table)
+    print_peaks(table, "run")
     typer.echo(output)
 
 
@@ -148,21 +149,9 @@ def _curves(
 
 
 def _table(runs: list[_Run], labels: list[str], names: list[str]) -> list[dict[str, Any]]:
-    from jointplay.command_line.peaks import rows_of
-
-    rows = [{row.channel: row for row in rows_of(run.peaks)} for run in runs]
+    rows = [{row["channel"]: row for row in rows_of(run.peaks)} for run in runs]
     return [
-        {"run": label, **of_run[name]._asdict()}
+        {"run": label, **of_run[name]}
         for name in names
         for of_run, label in zip(rows, labels, strict=True)
     ]
-
-
-def _print_table(table: list[dict[str, Any]]) -> None:
-    wide, width = (max(len(row[key]) for row in table) for key in ("run", "channel"))
-    heading = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
-    typer.echo(f"{'channel':{width}}  {'run':{wide}} {heading}")
-    for row in table:
-        low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
-        high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
-        typer.echo(f"{row['channel']:{width}}  {row['run']:{wide}} {low}  {high}  {row['unit']}")

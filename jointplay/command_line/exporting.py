@@ -107,9 +107,9 @@ def _rows(job: "Job", asked: Asked) -> Text:
     if asked.table == "peaks":
         peaks = job.results.peaks()
         names = _chosen(asked.channels, list(peaks))
-        rows = list(rows_of({name: peaks[name] for name in names}))
+        rows = rows_of({name: peaks[name] for name in names})
         if asked.form == "json":
-            document = {"peaks": [row._asdict() for row in rows]}
+            document = {"peaks": rows}
             return Text(iter([json_text(document) + "\n"]), len(rows))
         return Text(peak_lines(rows), 5 * len(rows))
     impacts = impact_rows(job.results.impacts(), asked.start, asked.stop)

@@ -24,9 +24,8 @@ def impact_rows(
 def impact_lines(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     """Yield rows as lines of CSV, with 17 significant digits."""
     from jointplay.records.impact import IMPACT_UNITS
+    from jointplay.records.text_tables import csv_lines
 
     titles = [f"{name} [{unit}]" for name, unit in IMPACT_UNITS.items()]
-    yield ",".join(["joint", *titles]) + "\n"
-    for row in rows:
-        numbers = [f"{row[name]:.17g}" for name in IMPACT_UNITS]
-        yield ",".join([row["joint"], *numbers]) + "\n"
+    columns = [[row[name] for row in rows] for name in ("joint", *IMPACT_UNITS)]
+    yield from csv_lines(["joint", *titles], [columns])

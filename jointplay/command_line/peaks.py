@@ -1,7 +1,7 @@
 """Peaks of channels as a table."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -10,22 +10,18 @@ if TYPE_CHECKING:
     from jointplay.records.run import Source
 
 
-class Row(NamedTuple):
-    """Extremes of one channel, in its unit, each with its time in s."""
-
-    channel: str
-    unit: str
-    minimum: float
-    minimum_time: float
-    maximum: float
-    maximum_time: float
+Row = dict[str, Any]
+"""Extremes of one channel: its name, its unit and the numbers of a peak."""
 
 
-def rows_of(peaks: Mapping[str, "Peak"]) -> Iterator[Row]:
-    """Yield the peaks of a simulation, in the order of the channels."""
-    for name, peak in peaks.items():
-        low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
-        yield Row(name, peak.unit, *low, *high)
+def rows_of(peaks: Mapping[str, "Peak"]) -> list[Row]:
+    """Return the peaks of a simulation, in the order of the channels."""
+    from jointplay.records.peak import PEAK
+
+    return [
+        {"channel": name, "unit": one.unit, **{part: getattr(one, part) for part in PEAK}}
+        for name, one in peaks.items()
+    ]
 
 
 def headline(source: "Source") -> list[str]:
@@ -36,21 +32,29 @@ def headline(source: "Source") -> list[str]:
     return [name for name in outputs + forces if name in stored] or stored
 
 
-def print_peaks(rows: Iterable[Row]) -> None:
-    """Print one line for each channel."""
-    rows = list(rows)
+def print_peaks(rows: Sequence[Row], *names: str) -> None:
+    """Print one line for each row: its channel and what else names it, then its numbers."""
     if not rows:
         return
-    width = max(len(row.channel) for row in rows)
-    typer.echo(f"{'channel':{width}} {'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit")
+    columns = ("channel", *names)
+    widths = [max(len(row[name]) for row in rows) for name in columns]
+    heading = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
+    typer.echo(f"{_aligned(columns, widths)} {heading}")
     for row in rows:
-        low = f"{row.minimum:14.7g}  {row.minimum_time:<9.6g}"
-        high = f"{row.maximum:14.7g}  {row.maximum_time:<9.6g}"
-        typer.echo(f"{row.channel:{width}} {low}  {high}  {row.unit}")
+        low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
+        high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
+        named = _aligned([row[name] for name in columns], widths)
+        typer.echo(f"{named} {low}  {high}  {row['unit']}")
 
 
-def peak_lines(rows: Iterable[Row]) -> Iterator[str]:
-    """Yield the peaks as lines of CSV, with 17 significant digits."""
-    yield "channel,unit,minimum,minimum_time [s],maximum,maximum_time [s]\n"
-    for channel, unit, *values in rows:
-        yield ",".join([channel, unit, *(f"{value:.17g}" for value in values)]) + "\n"
+def _aligned(cells: Iterable[str], widths: Iterable[int]) -> str:
+    return "  ".join(f"{cell:{width}}" for cell, width in zip(cells, widths, strict=True))
+
+
+def peak_lines(rows: Sequence[Row]) -> Iterator[str]:
+    """Yield the peaks as lines of CSV."""
+    from jointplay.records.text_tables import csv_lines
+
+    names = ("channel", "unit", "minimum", "minimum_time", "maximum", "maximum_time")
+    titles = [f"{name} [s]" if name.endswith("_time") else name for name in names]
+    yield from csv_lines(titles, [[[row[name] for row in rows] for name in names]])

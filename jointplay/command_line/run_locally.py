@@ -131,16 +131,16 @@ def _of_simulation(
     from jointplay.command_line.drawing import draw_all
     from jointplay.command_line.peaks import headline, peak_lines, print_peaks, rows_of
 
-    rows = list(rows_of(job.results.peaks()))
+    rows = rows_of(job.results.peaks())
     table = output / "peaks.csv"
     table.write_text("".join(peak_lines(rows)))
     draw_all(job, output / "figures", second)
     if not as_json:
         first = headline(job.results.source(None, None, None))
-        print_peaks(row for row in rows if row.channel in first)
+        print_peaks([row for row in rows if row["channel"] in first])
         print_headline(job)
         typer.echo(f"all {len(rows)} channels are in {table}")
-    return {"peaks": [row._asdict() for row in rows]}
+    return {"peaks": rows}
 
 
 def _of_study(job: "Job", output: Path, as_json: bool) -> dict[str, Any]:

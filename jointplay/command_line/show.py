@@ -69,7 +69,7 @@ def _results(job: "Job") -> dict[str, Any]:
             found["points"] = job.study(sections=(0, 1))
         elif job.is_finished:
             found["statistics"] = job.statistics
-            found["peaks"] = [row._asdict() for row in rows_of(job.results.peaks())]
+            found["peaks"] = rows_of(job.results.peaks())
     except (ResultsNotReady, NotFound):
         pass
     return found
@@ -88,7 +88,7 @@ def _print_record(job: "Job") -> None:
 
 
 def _print_simulation(found: dict[str, Any]) -> None:
-    from jointplay.command_line.peaks import Row, print_peaks
+    from jointplay.command_line.peaks import print_peaks
 
     statistics = found["statistics"] or {}
     if statistics.get("steps") is not None:
@@ -97,4 +97,4 @@ def _print_simulation(found: dict[str, Any]) -> None:
     if (energy := statistics.get("energy")) is not None:
         work = f"driver work {energy['driver_work']:.4g} J"
         typer.echo(f"energy    {work}, residual {energy['residual']:.2g} J")
-    print_peaks(Row(**row) for row in found["peaks"] or ())
+    print_peaks(found["peaks"] or [])

@@ -3,12 +3,11 @@
 import json
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
+from jointplay.records import text_tables
+from jointplay.records.channel import TIME, Channel, by_name
 from jointplay.records.channel_choice import no_such_channel
 from jointplay.records.run import Floats, Source
-
-_TIME_UNIT = "s"
+from jointplay.records.text_tables import json_numbers
 
 
 def csv_lines(
@@ -44,17 +43,11 @@ def csv_lines(
         On the first piece, before any text.
     """
     names = _names(source, channels)
-    units = {channel.name: channel.unit for channel in source.channels}
-    for comment in comments:
-        for line in comment.splitlines() or [""]:
-            yield f"# {line}".rstrip() + "\n"
-    header = [f"time [{_TIME_UNIT}]", *(f"{name} [{units[name]}]" for name in names)]
-    yield ",".join(header) + "\n"
-    row_format = ",".join(["%.17g"] * len(header)) + "\n"
-    for time, columns in source.blocks(names, *source.between(start, stop)):
-        table = np.column_stack([time, *(columns[name] for name in names)])
-        if len(table):
-            yield "".join([row_format % tuple(row) for row in table.tolist()])
+    described = by_name(source.channels)
+    titles = [one.title for one in (TIME, *(described[name] for name in names))]
+    blocks = source.blocks(names, *source.between(start, stop))
+    rows = ((time, *(columns[name] for name in names)) for time, columns in blocks)
+    yield from text_tables.csv_lines(titles, rows, comments)
 
 
 def json_pieces(
@@ -83,28 +76,26 @@ def json_pieces(
         On the first piece, before any text.
     """
     names = _names(source, channels)
-    described = {channel.name: channel for channel in source.channels}
+    described = by_name(source.channels)
     window = source.between(start, stop)
     yield f'{{"complete": {json.dumps(source.complete)}, "time": '
     times = (time for time, _ in source.blocks([], *window))
-    yield from _series(_TIME_UNIT, "time", times)
+    yield from _series(TIME, times)
     yield ', "channels": {'
     for position, name in enumerate(names):
         yield f"{', ' if position else ''}{json.dumps(name)}: "
         values = (columns[name] for _, columns in source.blocks([name], *window))
-        yield from _series(described[name].unit, described[name].long_name, values)
+        yield from _series(described[name], values)
     yield "}}\n"
 
 
-def _series(unit: str, long_name: str, blocks: Iterator[Floats]) -> Iterator[str]:
-    yield f'{{"unit": {json.dumps(unit)}, "long_name": {json.dumps(long_name)}, "values": ['
+def _series(channel: Channel, blocks: Iterator[Floats]) -> Iterator[str]:
+    unit, long_name = json.dumps(channel.unit), json.dumps(channel.long_name)
+    yield f'{{"unit": {unit}, "long_name": {long_name}, "values": ['
     separator = ""
     for block in blocks:
         if len(block):
-            values = ", ".join(
-                [repr(value) if np.isfinite(value) else "null" for value in block.tolist()]
-            )
-            yield separator + values
+            yield separator + json_numbers(block)
             separator = ", "
     yield "]}"
 

@@ -2,14 +2,16 @@
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.channel import Channel
+from jointplay.records.channel import TIME, by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
+from jointplay.records.text_tables import csv_lines, json_numbers
 
 _BLOCK = 200_000  # values that are held at a time
 
@@ -28,28 +30,27 @@ def section_lines(
         Whole lines: the comments, one header row `point,clearance [m],section,time [s],A.x [m]`,
         then one row a section with 17 significant digits.
     """
-    parameters = [_titled(parameter) for parameter in source.parameters]
-    described = {one.name: one for one in source.observables}
-    titles = [_titled(described[name]) for name in observables]
-    yield from _commented(comments)
-    yield ",".join(["point", *parameters, "section", "time [s]", *titles]) + "\n"
-    width = len(parameters) + len(observables) + 1
-    row_format = "%d," + "%.17g," * len(parameters) + "%d" + ",%.17g" * (len(observables) + 1)
-    counts = source.counts
+    described = by_name(source.observables)
+    titles = ["point", *(one.title for one in source.parameters), "section", TIME.title]
+    titles += [described[name].title for name in observables]
+    yield from csv_lines(titles, _section_blocks(source, observables, points), comments)
+
+
+def _section_blocks(
+    source: StudySource, observables: Sequence[str], points: range
+) -> Iterator[list[NDArray[Any]]]:
+    """Give the columns of `section_lines` for a few points at a time."""
+    width = len(source.parameters) + len(observables) + 1
     for first, last in _blocks(points, width * source.record):
-        times = source.section_times(first, last)
-        columns = [source.sections(name, first, last) for name in observables]
-        lines = []
-        for row, point in enumerate(range(first, last)):
-            values = tuple(source.values[point].tolist())
-            count = int(counts[point])
-            table = np.column_stack([times[row, :count], *(one[row, :count] for one in columns)])
-            lines += [
-                row_format % (point, *values, section, *numbers) + "\n"
-                for section, numbers in enumerate(table.tolist())
-            ]
-        if lines:
-            yield "".join(lines)
+        inside = np.arange(source.record) < source.counts[first:last, None]
+        row, section = np.nonzero(inside)
+        yield [
+            first + row,
+            *source.values[first + row].T,
+            section,
+            source.section_times(first, last)[inside],
+            *(source.sections(name, first, last)[inside] for name in observables),
+        ]
 
 
 def point_lines(
@@ -71,14 +72,15 @@ def point_lines(
     str
         Whole lines; numbers have 17 significant digits, what is not known is `nan`.
     """
-    columns = {**_values_of_points(source), **_columns_of_points(source, channels, units)}
-    words = _words_of_points(source)
-    yield from _commented(comments)
-    yield ",".join(["point", *words, *columns]) + "\n"
-    for point in points:
-        cells = [str(point), *(column[point] for column in words.values())]
-        cells += [f"{column[point]:.17g}" for column in columns.values()]
-        yield ",".join(cells) + "\n"
+    part = slice(points.start, points.stop)
+    values = {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
+    columns: dict[str, Any] = {
+        **_words_of_points(source),
+        **values,
+        **_columns_of_points(source, channels, units),
+    }
+    rows = [points, *(column[part] for column in columns.values())]
+    yield from csv_lines(["point", *columns], [rows], comments)
 
 
 def section_json(source: StudySource, observables: Sequence[str], points: range) -> Iterator[str]:
@@ -118,7 +120,7 @@ def point_json(
     yield ', "columns": {'
     columns = _columns_of_points(source, channels, units)
     for position, (title, column) in enumerate(columns.items()):
-        yield f"{', ' if position else ''}{json.dumps(title)}: {_list(column[part])}"
+        yield f"{', ' if position else ''}{json.dumps(title)}: [{json_numbers(column[part])}]"
     yield "}}\n"
 
 
@@ -142,16 +144,9 @@ def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
     for first, last in _blocks(points, source.record):
         table = source.sections(name, first, last) if name else source.section_times(first, last)
         for point, row in enumerate(table, first):
-            yield separator + _list(row[: int(counts[point])])
+            yield f"{separator}[{json_numbers(row[: int(counts[point])])}]"
             separator = ", "
     yield "]"
-
-
-def _values_of_points(source: StudySource) -> dict[str, Floats]:
-    return {
-        _titled(parameter): source.values[:, column]
-        for column, parameter in enumerate(source.parameters)
-    }
 
 
 def _columns_of_points(
@@ -190,18 +185,3 @@ def _blocks(points: range, width: int) -> Iterator[tuple[int, int]]:
     rows = max(_BLOCK // max(width, 1), 1)
     for first in range(points.start, points.stop, rows):
         yield first, min(first + rows, points.stop)
-
-
-def _list(values: Floats) -> str:
-    numbers = [repr(value) if np.isfinite(value) else "null" for value in values.tolist()]
-    return f"[{', '.join(numbers)}]"
-
-
-def _titled(channel: Channel) -> str:
-    return f"{channel.name} [{channel.unit}]"
-
-
-def _commented(comments: Sequence[str]) -> Iterator[str]:
-    for comment in comments:
-        for line in comment.splitlines() or [""]:
-            yield f"# {line}".rstrip() + "\n"

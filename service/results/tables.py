@@ -9,6 +9,7 @@ import numpy as np
 from fastapi import Response
 from numpy.typing import NDArray
 
+from jointplay.records.text_tables import csv_lines
 from jointplay.service.results.negotiation import ARROW, CSV, FORMS, MATLAB, NPZ
 
 _SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat", ARROW: "arrows"}
@@ -62,11 +63,8 @@ def as_file(form: str, name: str, columns: list[Column], *, complete: bool) -> R
 
 def _csv(columns: list[Column], complete: bool) -> bytes:
     del complete  # has no place in a table
-    lines = [",".join(f"{column.label} [{column.unit}]" for column in columns)]
-    row = ",".join(["%.17g"] * len(columns))
-    table = np.column_stack([column.values for column in columns])
-    lines += [row % tuple(values) for values in table.tolist()]
-    return "\n".join([*lines, ""]).encode()
+    titles = [f"{column.label} [{column.unit}]" for column in columns]
+    return "".join(csv_lines(titles, [[column.values for column in columns]])).encode()
 
 
 def _npz(columns: list[Column], complete: bool) -> bytes:

@@ -1,0 +1,48 @@
+"""Tables and numbers as text: comma-separated values, and lists of JSON."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_FORMATS: Final = {"f": "%.17g", "i": "%d", "u": "%d", "U": "%s"}
+"""By kind of dtype; 17 significant digits give back every bit of a double, NaN is ``nan``."""
+
+
+def csv_lines(
+    titles: Sequence[str],
+    blocks: Iterable[Sequence[NDArray[Any] | Sequence[Any]]],
+    comments: Iterable[str] = (),
+) -> Iterator[str]:
+    """Write a table as comma-separated values, block by block.
+
+    Parameters
+    ----------
+    titles
+        Of the columns.
+    blocks
+        Consecutive rows: of each block the columns, all of one length.
+    comments
+        Text for lines that begin with `#`, before the titles.
+
+    Yields
+    ------
+    str
+        Whole lines.
+    """
+    for comment in comments:
+        for line in comment.splitlines() or [""]:
+            yield f"# {line}".rstrip() + "\n"
+    yield ",".join(titles) + "\n"
+    for block in blocks:
+        columns = [np.asarray(column) for column in block]
+        row = ",".join([_FORMATS[column.dtype.kind] for column in columns]) + "\n"
+        values = zip(*(column.tolist() for column in columns), strict=True)
+        if text := "".join([row % one for one in values]):
+            yield text
+
+
+def json_numbers(values: NDArray[np.float64]) -> str:
+    """Write numbers between commas, every bit of them; null for NaN, which JSON has not."""
+    return ", ".join([repr(one) if np.isfinite(one) else "null" for one in values.tolist()])
