@@ -21,12 +21,13 @@ from types import ModuleType
 
 import numba
 
+from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.version import source_digest
 
 
 @cache
 def cache_folder() -> Path:
-    """Return the folder of code compiled by these sources, made on first use.
+    """Return the folder of code compiled by these sources for so many lanes, made on first use.
 
     ``JOINTPLAY_CACHE`` chooses its parent; the default is the user's cache folder, or a private
     temporary one where that cannot be written.
@@ -37,7 +38,7 @@ def cache_folder() -> Path:
     )
     digest = source_digest(Path(__file__).parent)
     for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
-        folder = parent / f"kernels-{digest}"
+        folder = parent / f"kernels-{digest}-{LANES}"
         try:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
             with tempfile.TemporaryFile(dir=folder):

@@ -41,16 +41,19 @@ def slopes_over_steps(
         ]
     )
     module = load(source)
-    work = np.zeros((layout.size, LANES))
-    work[layout["along"]] = work[layout["normal_force"]] = 1.0
-    for end in range(2):
-        work[layout["slip"], : len(steps)] = [step[end] for step in steps]
-        start, memory = layout["kink_start0"], layout["kink_end0"]
-        module.kinks(work)
-        if end == 0:
-            work[start : start + kinks.MEMORY] = work[memory : memory + kinks.MEMORY]
-    module.follow(work)
-    return [float(x) for x in work[layout["slope"], : len(steps)]]
+    found: list[float] = []
+    for first in range(0, len(steps), LANES):
+        some = steps[first : first + LANES]
+        work = np.zeros((layout.size, LANES))
+        work[layout["along"]] = work[layout["normal_force"]] = 1.0
+        for end in range(2):
+            work[layout["slip"], : len(some)] = [step[end] for step in some]
+            module.kinks(work)
+            if end == 0:
+                work[layout.block("kink_start")] = work[layout.block("kink_end")]
+        module.follow(work)
+        found += work[layout["slope"], : len(some)].tolist()
+    return found
 
 
 def test_a_step_that_passes_no_kink_has_the_slope_where_it_is() -> None:

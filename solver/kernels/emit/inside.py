@@ -10,11 +10,10 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.stepping import before
-from jointplay.solver.kernels.lanes import LANES
-from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.layout import INSTANTS, Layout
 from jointplay.solver.kernels.record.equations import Equations
 
-QUARTERS = [lane / (LANES // 2) for lane in range(LANES // 2)]
+QUARTERS = [i / (INSTANTS // 2) for i in range(INSTANTS // 2)]
 
 
 def source(
@@ -69,11 +68,11 @@ def _within(layout: Layout) -> Callable[[str], str]:
 
 
 def _around(layout: Layout) -> Callable[[str], str]:
-    """Read quarters of the step before in the lower four lanes, of this one in the upper four."""
+    """Read quarters of the step before at the first four instants, of this one at the others."""
 
     def fetch(name: str) -> str:
         if name == "theta":
-            return " ".join(["lanes", *map(repr, QUARTERS * 2)])
+            return " ".join(["instants", *map(repr, QUARTERS * 2)])
         if before(name) in layout:
             return f"spread {layout[before(name)]} {layout[name]}"
         return f"spread {layout[name]}"

@@ -1,6 +1,6 @@
-"""The arithmetic of tapes on vectors of eight lanes, in the compiler's own intermediate language.
+"""The arithmetic of tapes on vectors of lanes, in the compiler's own intermediate language.
 
-What may be reassociated is nothing; products and sums may become one operation (contract), the
+Nothing is reassociated; products and sums may become one operation (contract), the
 sign of zero does not matter (nsz), a division may become a product (arcp).
 """
 
@@ -16,7 +16,7 @@ from jointplay.solver.kernels.lanes import LANES
 
 DOUBLE, WORD = ir.DoubleType(), ir.IntType(64)
 NUMBERS, WORDS = ir.VectorType(DOUBLE, LANES), ir.VectorType(WORD, LANES)
-MARKS, PLACE = ir.IntType(LANES), ir.IntType(32)
+MARKS, PLACE = ir.IntType(8), ir.IntType(32)
 FLAGS = ("contract", "nsz", "arcp")
 MANTISSA_BITS, BIAS = 52, 1023
 MANTISSA_MASK = (1 << MANTISSA_BITS) - 1
@@ -70,7 +70,7 @@ def _mantissa_of(builder, x):
 
 
 def _power_of_two(builder, x):
-    """Return 2^x for a whole x, limited to -1022..1023; not a number gives the lower limit."""
+    """Return 2^x for a whole x, limited to -1022..1023; NaN gives the lower limit."""
     low, high = same(-1022.0), same(1023.0)
     x = builder.select(_greater(builder, x, low), x, low)
     x = builder.select(_greater(builder, high, x), x, high)
@@ -110,7 +110,8 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
 
 def positive(builder, x):
     """Return bit k for each lane k whose number is positive."""
-    return builder.bitcast(_greater(builder, x, same(0.0)), MARKS)
+    bits = builder.bitcast(_greater(builder, x, same(0.0)), ir.IntType(LANES))
+    return bits if bits.type == MARKS else builder.zext(bits, MARKS)
 
 
 def everywhere(builder, number):

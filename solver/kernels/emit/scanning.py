@@ -8,15 +8,15 @@ Before the second step there is no change before: it is not a number, and no can
 from __future__ import annotations
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.lanes import WIDTHS
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.quantities.scalars import minimum, select_positive
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 
-BYTES = 8 * LANES
-"""Of a slot: one for each row, whose bits are the lanes."""
+BYTES = 8 * min(WIDTHS.values())
+"""Marks in a slot, one byte for each row, whose bits are the lanes: so many at any width."""
 
 LOPSIDED, SPARE = 0.3, 0.02
 """How far an extreme may lie beyond the step end between the changes r (before) and c (after).

@@ -1,15 +1,18 @@
-"""Compiles a tape: straight-line arithmetic over eight lanes of work arrays.
+"""Compiles a tape: straight-line arithmetic over all lanes of work arrays.
 
 A tape has one statement a line::
 
     v0 = load 12            slot 12 of W, all its lanes
-    v0 = spread 12          slot 12 of W in one lane, the same in all eight
-    v0 = spread 12 45       the same; slot 45 in the upper four
+    v0 = spread 12          slot 12 of W in one lane, the same at all instants
+    v0 = spread 12 45       the same; slot 45 at the last four instants
     v0 = given 12           slot 12 of S
-    v0 = lanes 0.0 0.25 …   eight numbers
+    v0 = instants 0.0 0.25 … eight numbers
     v3 = mul v1 0.5         arithmetic: see `solver.kernels.emit.lane_arithmetic`
     store 14 v3             into slot 14 of S, or of W where there is no S
     return v3               the largest of its lanes
+
+Where S is written, its columns are eight instants of one lane's step, however many lanes there are:
+the tape is run for as many instants at a time as there are lanes.
 
 A tape for one of many rows has slots that move with the row, and one for all of them tells where
 something is positive::
@@ -45,7 +48,10 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
     same,
 )
 from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
 
+PARTS = INSTANTS // LANES
+"""Of the instants: at most two, the second of the late half; see `_Tape.spread_`."""
 ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
@@ -73,7 +79,11 @@ def over_one_lane(tape: str) -> Any:
             work, spare = (
                 _first_number(context, builder, signature, arguments, i) for i in range(2)
             )
-            _run(tape, _Tape(builder, work, spare, lane=arguments[2]))
+            if PARTS == 1:
+                _run(tape, _Tape(builder, work, spare, lane=arguments[2]))
+            else:
+                with cgutils.for_range(builder, WORD(PARTS)) as loop:
+                    _run(tape, _Tape(builder, work, spare, lane=arguments[2], part=loop.index))
             return context.get_dummy_value()
 
         return types.void(W, S, lane), generate
@@ -135,9 +145,11 @@ def _run(tape: str, statements: _Tape) -> Any:
 class _Tape:
     """The values that a tape has made so far; its statements have their names with a ``_``."""
 
-    def __init__(self, builder, source, target, *, lane=None, row=None, marks=None) -> None:
+    def __init__(
+        self, builder, source, target, *, lane=None, row=None, marks=None, part=None
+    ) -> None:
         self.builder, self.source, self.target = builder, source, target
-        self.lane, self.row, self.marks = lane, row, marks
+        self.lane, self.row, self.marks, self.part = lane, row, marks, part
         self.values: dict[str, Any] = {}
         self.result: Any = None
 
@@ -154,14 +166,27 @@ class _Tape:
     def given_(self, slot: str) -> Any:
         return self.builder.load(self._place(self.target, slot), align=ALIGNED)
 
-    def spread_(self, slot: str, upper_slot: str = "") -> Any:
-        lower = self._spread(slot)
-        return (
-            lower_and_upper(self.builder, lower, self._spread(upper_slot)) if upper_slot else lower
-        )
+    def spread_(self, slot: str, later_slot: str = "") -> Any:
+        builder, early = self.builder, self._spread(slot)
+        if not later_slot:
+            return early
+        late = self._spread(later_slot)
+        if self.part is None:
+            return lower_and_upper(builder, early, late)
+        return builder.select(self._is_part(0), early, late)
 
-    def lanes_(self, *numbers: str) -> Any:
-        return ir.Constant(NUMBERS, [float(number) for number in numbers])
+    def instants_(self, *numbers: str) -> Any:
+        vectors = [
+            ir.Constant(NUMBERS, [float(number) for number in numbers[first : first + LANES]])
+            for first in range(0, INSTANTS, LANES)
+        ]
+        found = vectors[-1]
+        for part, vector in enumerate(vectors[:-1]):
+            found = self.builder.select(self._is_part(part), vector, found)
+        return found
+
+    def _is_part(self, part: int) -> Any:
+        return self.builder.icmp_unsigned("==", self.part, WORD(part))
 
     def store_(self, slot: str, value: str) -> None:
         self.builder.store(self._value(value), self._place(self.target, slot), align=ALIGNED)
@@ -182,6 +207,8 @@ class _Tape:
         place = WORD(int(slot.removesuffix("+")))
         if slot.endswith("+"):
             place = self.builder.add(place, self.row)
+        if self.part is not None:  # only S is loaded from or stored to
+            place = self.builder.add(self.builder.mul(place, WORD(PARTS)), self.part)
         return self.builder.gep(self.builder.bitcast(array, NUMBERS.as_pointer()), [place])
 
     def _spread(self, slot: str) -> Any:
