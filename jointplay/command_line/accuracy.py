@@ -7,6 +7,7 @@ import typer
 
 from jointplay.command_line import job_document
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
@@ -15,10 +16,10 @@ if TYPE_CHECKING:
 _OF_A_RUN = ("scene", "duration", "formulation", "label")
 
 
+@with_job_options("duration")
 def accuracy(
     source: job_document.JOB,
     settings: job_document.SET = None,
-    duration: job_document.DURATION = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -29,6 +30,7 @@ def accuracy(
         ),
     ] = None,
     as_json: AS_JSON = False,
+    **options: Any,
 ) -> None:
     """Measure what every method and tolerance costs and buys on a scene, and recommend one.
 
@@ -42,7 +44,7 @@ def accuracy(
 
     if output is not None and output.suffix not in (".png", ".svg", ".json"):
         raise Stopped(Exit.BAD_INPUT, f"{output}: the name ends in .png, .svg or .json.")
-    job = job_document.job_document(source, settings=settings or [], options={"duration": duration})
+    job = job_document.job_document(source, settings=settings, options=options)
     if job.get("kind") == "simulate":
         chosen = {name: job[name] for name in _OF_A_RUN if name in job}
         job = {"kind": "accuracy-study", **chosen}

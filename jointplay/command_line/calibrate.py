@@ -41,7 +41,9 @@ def calibrate(
     duration: Annotated[
         float | None, typer.Option(metavar="SECONDS", help="End of windows that are left open.")
     ] = None,
-    tolerance: job_document.TOLERANCE = None,
+    tolerance: Annotated[
+        float | None, typer.Option(help="Error that one step may make, relative to the scene.")
+    ] = None,
     population: Annotated[int | None, typer.Option(help="Candidates a parameter.")] = None,
     generations: Annotated[int | None, typer.Option(help="Most generations of the search.")] = None,
     seed: Annotated[int | None, typer.Option(help="The same seed finds the same.")] = None,

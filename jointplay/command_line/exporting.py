@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.study_options import listed
+from jointplay.command_line.job_options import listed
 
 if TYPE_CHECKING:
     from jointplay.client import Job

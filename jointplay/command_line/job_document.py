@@ -1,13 +1,13 @@
 """A job's document from what was typed: a preset or a file, and the options that change it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.study_options import listed, study_fields
+from jointplay.command_line.job_options import fields_of
 
 JOB = Annotated[
     str,
@@ -22,38 +22,10 @@ SET = Annotated[
         "--set", metavar="NAME=VALUE", help="Set a parameter of the scene, in SI units; repeatable."
     ),
 ]
-DURATION = Annotated[float | None, typer.Option(metavar="SECONDS", help="How long to simulate.")]
-TOLERANCE = Annotated[
-    float | None, typer.Option(help="Error that one step may make, relative to the scene.")
-]
-ACCURACY = Annotated[
-    str | None,
-    typer.Option(help="Instead: draft, standard (default), fine or reference."),
-]
-METHOD = Annotated[
-    str | None,
-    typer.Option(
-        help="auto (default), bogacki-shampine, tsitouras, dormand-prince-853, rodas, or rk4 with"
-        " --step."
-    ),
-]
-STEP = Annotated[float | None, typer.Option(metavar="SECONDS", help="Fixed step of rk4.")]
-OUTPUT_STEP = Annotated[
-    float | None,
-    typer.Option(metavar="SECONDS", help="Spacing of the stored samples; default duration/2000."),
-]
-CHANNELS = Annotated[
-    str | None,
-    typer.Option(metavar="A,B", help="Channels to store, names or globs such as 'slider7.*'."),
-]
-FORMULATION = Annotated[
-    str | None, typer.Option(help="reduced (default), or lagrange, for cross-checks.")
-]
-LABEL = Annotated[str | None, typer.Option(help="A name of your own for the job.")]
 
 
 def job_document(
-    source: str, *, settings: Sequence[str], options: dict[str, Any]
+    source: str, *, settings: Sequence[str] | None, options: Mapping[str, Any]
 ) -> dict[str, Any]:
     """Return the job that ``source`` and the options describe; nothing is checked yet.
 
@@ -64,12 +36,12 @@ def job_document(
     settings
         ``name=value`` for parameters of the scene.
     options
-        Fields of the job; those that are None are left as they are.
+        As `with_job_options` gives them; fields of the job that are None are left as they are.
     """
     from jointplay.scene_choice import NotAScene, with_parameters
 
     job, is_whole = _job_of(source)
-    changed = {name: value for name, value in options.items() if value is not None}
+    changed = fields_of(options)
     if is_whole and "kind" in changed:
         line = f"{source} is a job already; --{changed['kind']} makes one of a scene or a preset."
         raise Stopped(Exit.BAD_INPUT, line)
@@ -86,11 +58,6 @@ def job_document(
         except NotAScene as error:
             raise Stopped(Exit.BAD_INPUT, f"--set {error}") from None
     return job
-
-
-def options(*, channels: str | None, **fields: Any) -> dict[str, Any]:
-    """Return the options as fields of a job; those that were not given are None."""
-    return study_fields(**fields) | {"channels": listed(channels)}
 
 
 def read_document(path: Path) -> dict[str, Any]:

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import job_document, study_options
+from jointplay.command_line import job_document
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.json_output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
@@ -14,39 +15,18 @@ if TYPE_CHECKING:
     from jointplay.local.drawing_process import DrawingProcess
 
 
+@with_job_options()
 def run(
     source: job_document.JOB,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="OUT", help="Folder to make; must not exist.")
     ],
     settings: job_document.SET = None,
-    duration: job_document.DURATION = None,
-    tolerance: job_document.TOLERANCE = None,
-    accuracy: job_document.ACCURACY = None,
-    method: job_document.METHOD = None,
-    step: job_document.STEP = None,
-    output_step: job_document.OUTPUT_STEP = None,
-    channels: job_document.CHANNELS = None,
-    formulation: job_document.FORMULATION = None,
-    label: job_document.LABEL = None,
-    bifurcation: study_options.BIFURCATION = None,
-    sweep: study_options.SWEEP = None,
-    poincare: study_options.POINCARE = False,
-    ensemble: study_options.ENSEMBLE = None,
-    accuracy_study: study_options.ACCURACY_STUDY = False,
-    periods: study_options.PERIODS = None,
-    statistics: study_options.STATISTICS = None,
-    settle: study_options.SETTLE = None,
-    record: study_options.RECORD = None,
-    section: study_options.SECTION = None,
-    observables: study_options.OBSERVABLES = None,
-    indicators: study_options.INDICATORS = None,
-    continuation: study_options.CONTINUATION = None,
-    chains: study_options.CHAINS = None,
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
     as_json: AS_JSON = False,
+    **options: Any,
 ) -> None:
     """Simulate here and now, without any service; a study on all cores.
 
@@ -63,35 +43,7 @@ def run(
     from jointplay.solver.kinds import Study, admit
     from jointplay.worker.local.computing import compute
 
-    document = job_document.job_document(
-        source,
-        settings=settings or (),
-        options=job_document.options(
-            duration=duration,
-            tolerance=tolerance,
-            accuracy=accuracy,
-            method=method,
-            step=step,
-            output_step=output_step,
-            channels=channels,
-            formulation=formulation,
-            label=label,
-            bifurcation=bifurcation,
-            sweep=sweep,
-            poincare=poincare,
-            ensemble=ensemble,
-            accuracy_study=accuracy_study,
-            periods=periods,
-            statistics=statistics,
-            settle=settle,
-            record=record,
-            section=section,
-            observables=observables,
-            indicators=indicators,
-            continuation=continuation,
-            chains=chains,
-        ),
-    )
+    document = job_document.job_document(source, settings=settings, options=options)
     admission = admit(document)
     if processes is not None and not isinstance(admission, Study):
         raise Stopped(Exit.BAD_INPUT, "--processes is of studies; this is one simulation.")

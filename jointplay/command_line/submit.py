@@ -1,40 +1,19 @@
 """``jointplay submit``: give a job to a service."""
 
 from dataclasses import asdict
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection, job_document, study_options
+from jointplay.command_line import connection, job_document
+from jointplay.command_line.job_options import with_job_options
 from jointplay.command_line.json_output import AS_JSON, print_json
 
 
+@with_job_options()
 def submit(
     source: job_document.JOB,
     settings: job_document.SET = None,
-    duration: job_document.DURATION = None,
-    tolerance: job_document.TOLERANCE = None,
-    accuracy: job_document.ACCURACY = None,
-    method: job_document.METHOD = None,
-    step: job_document.STEP = None,
-    output_step: job_document.OUTPUT_STEP = None,
-    channels: job_document.CHANNELS = None,
-    formulation: job_document.FORMULATION = None,
-    label: job_document.LABEL = None,
-    bifurcation: study_options.BIFURCATION = None,
-    sweep: study_options.SWEEP = None,
-    poincare: study_options.POINCARE = False,
-    ensemble: study_options.ENSEMBLE = None,
-    accuracy_study: study_options.ACCURACY_STUDY = False,
-    periods: study_options.PERIODS = None,
-    statistics: study_options.STATISTICS = None,
-    settle: study_options.SETTLE = None,
-    record: study_options.RECORD = None,
-    section: study_options.SECTION = None,
-    observables: study_options.OBSERVABLES = None,
-    indicators: study_options.INDICATORS = None,
-    continuation: study_options.CONTINUATION = None,
-    chains: study_options.CHAINS = None,
     anew: Annotated[
         bool, typer.Option("--anew", help="Compute it even if an identical job is there.")
     ] = False,
@@ -44,6 +23,7 @@ def submit(
     wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
     as_json: AS_JSON = False,
     url: connection.URL = connection.DEFAULT_URL,
+    **options: Any,
 ) -> None:
     """Queue a job at a service and print its id; an identical one is not computed again.
 
@@ -55,35 +35,7 @@ def submit(
     from jointplay.command_line.estimate import print_estimate
     from jointplay.command_line.waiting import wait_for
 
-    job = job_document.job_document(
-        source,
-        settings=settings or (),
-        options=job_document.options(
-            duration=duration,
-            tolerance=tolerance,
-            accuracy=accuracy,
-            method=method,
-            step=step,
-            output_step=output_step,
-            channels=channels,
-            formulation=formulation,
-            label=label,
-            bifurcation=bifurcation,
-            sweep=sweep,
-            poincare=poincare,
-            ensemble=ensemble,
-            accuracy_study=accuracy_study,
-            periods=periods,
-            statistics=statistics,
-            settle=settle,
-            record=record,
-            section=section,
-            observables=observables,
-            indicators=indicators,
-            continuation=continuation,
-            chains=chains,
-        ),
-    )
+    job = job_document.job_document(source, settings=settings, options=options)
     if anew:
         job["cache"] = False
     with connection.connect(url) as client:

@@ -46,7 +46,7 @@ class AccuracyStudyJob(MechanismJob):
         Field(
             min_length=1,
             max_length=16,
-            description="also where jobs may not ask for them",
+            description="methods to measure, also where jobs may not ask for them",
             default_factory=lambda: list(METHODS),
             json_schema_extra=lambda schema: schema.update(default=list(METHODS)),
         ),
@@ -56,7 +56,7 @@ class AccuracyStudyJob(MechanismJob):
         Field(
             min_length=1,
             max_length=64,
-            description="of the methods with error control; others go over fixed steps instead",
+            description="tolerances of the methods with error control; others go over fixed steps",
         ),
     ] = list(TOLERANCES)
 

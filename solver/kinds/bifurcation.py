@@ -18,7 +18,9 @@ class BifurcationJob(SectionStudyJob):
 
     kind: Literal["bifurcation"]
     parameter: Annotated[Name, Field(description="a declared parameter of the scene")]
-    values: Values
+    values: Annotated[
+        Values, Field(description="its values: a list, or {'from', 'to', 'count', 'spacing'}")
+    ]
     continuation: Annotated[
         Literal["none", "forward", "backward", "both"],
         Field(

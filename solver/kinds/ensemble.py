@@ -37,7 +37,7 @@ class EnsembleJob(SectionStudyJob):
         Field(
             ge=0,
             le=2**53 - 1,
-            description="of the perturbations; the same gives the same",
+            description="seed of the perturbations; the same gives the same",
             json_schema_extra={"unit": "1"},
         ),
     ] = 0

@@ -64,7 +64,7 @@ class MechanismJob(Strict):
             )
         ),
     ] = "reduced"
-    label: Annotated[str, Field(max_length=200)] = ""
+    label: Annotated[str, Field(max_length=200, description="a name of your own for the job")] = ""
 
 
 class Job(MechanismJob):
@@ -81,7 +81,7 @@ class Job(MechanismJob):
     ] = None
     accuracy: Annotated[
         Accuracy | None,
-        Field(description="or a named method and tolerance; the default is standard, 1e-6"),
+        Field(description="or a named method and tolerance; default: standard, 1e-6"),
     ] = None
     method: Annotated[
         Method,

@@ -52,8 +52,12 @@ class SimulateJob(Job):
             json_schema_extra={"unit": "s"},
         ),
     ] = None
-    channels: ChannelChoice = ["*"]
-    section: CrankSection = CrankSection()
+    channels: Annotated[
+        ChannelChoice, Field(description="channels to store, names or globs such as 'slider7.*'")
+    ] = ["*"]
+    section: Annotated[
+        CrankSection, Field(description="crank angle at which Poincare sections are taken")
+    ] = CrankSection()
     certificate: Annotated[
         bool,
         Field(description="say how far the result can be believed; does not change its bits"),

@@ -90,7 +90,7 @@ class SweepJob(Job):
         Field(
             max_length=16,
             description=(
-                "kept beside the peaks, over the time after settling: impacts (beginnings of"
+                "kept beside the peaks, over the time after settling; impacts (beginnings of"
                 " contact), largest_impact_force (N) and contact_share (0 to 1) are of each joint"
                 " with clearance, the others of each channel, in its unit"
             ),
@@ -103,8 +103,9 @@ class SweepJob(Job):
             ge=16,
             le=4096,
             description=(
-                "equally spaced samples of the dense output that statistics of channels are made"
-                " of, in a period, or in the scene's own time scale if the drivers have none"
+                "samples in a period that statistics of channels are made of; they are equally"
+                " spaced, of the dense output, in the scene's own time scale if the drivers have"
+                " no period"
             ),
             json_schema_extra={"unit": "1"},
         ),

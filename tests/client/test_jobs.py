@@ -6,10 +6,11 @@ import json
 import numpy as np
 import pytest
 
-from jointplay import jobs
+from jointplay import job_fields, jobs
 from jointplay.client import Client
 from jointplay.scene_choice import NotAScene
 from jointplay.solver.kinds import KINDS, admit
+from jointplay.solver.kinds.description import description
 from jointplay.solver.scene import presets
 
 MADE = {
@@ -39,10 +40,22 @@ def named(owner, kind):
 def test_every_field_of_every_kind_can_be_given_and_is_no_parameter(kind):
     given = set(inspect.signature(named(jobs, kind)).parameters) - {"scene", "given"}
     fields = set(KINDS[kind].document.model_fields) - {"kind", "scene"}
-    assert given <= fields
-    assert fields | {"cache", "expires"} <= given | jobs.COMMON
+    assert given == fields | {"cache", "expires"}
     for name in presets.names():
-        assert not (given | jobs.COMMON) & set(presets.document(name).get("parameters", {}))
+        assert not given & set(presets.document(name).get("parameters", {}))
+
+
+def test_the_fields_are_those_that_the_solver_describes():
+    """Else run `python -m jointplay.solver.kinds.description > jointplay/job_fields.json`."""
+    assert description() == job_fields.KINDS
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_help_names_every_field_with_a_sentence(kind):
+    documentation = named(jobs, kind).__doc__
+    for field in job_fields.KINDS[kind]["fields"]:
+        _, _, text = documentation.partition(f"\n{field}\n    ")
+        assert len(text.split("\n")[0]) > 10
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -124,7 +124,7 @@ BY_COMMAND = {
 def test_everything_that_the_client_can_do_is_a_command(kind):
     """What only describes or prints an object is no deed."""
     described = {"to_document", "close", "renew", "advance", "states", "done_so_far"}
-    described |= {"is_finished", "scene_name", "seconds"}
+    described |= {"is_finished", "is_study", "scene_name", "seconds"}
     deeds = {
         name
         for name, member in inspect.getmembers(kind)

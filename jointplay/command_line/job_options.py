@@ -1,0 +1,180 @@
+"""Options that are fields of a job: most as the kinds describe them, and short forms of ranges."""
+
+from collections.abc import Callable, Mapping
+from inspect import Parameter, signature
+from typing import Annotated, Any, Final, TypeVar
+
+import typer
+
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.job_fields import KINDS, help_of
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_SHORT: Final[dict[str, Any]] = {
+    "bifurcation": Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME=FROM:TO:COUNT",
+            help="A bifurcation diagram over a parameter; append `:log` for equal ratios.",
+        ),
+    ],
+    "sweep": Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=FROM:TO:COUNT",
+            help="Extremes over a parameter, or NAME=A,B,C; repeat it for every combination.",
+        ),
+    ],
+    "poincare": Annotated[
+        bool | None, typer.Option("--poincare", help="Poincaré sections over many periods.")
+    ],
+    "ensemble": Annotated[
+        int | None, typer.Option(metavar="MEMBERS", help="Sections of many perturbed starts.")
+    ],
+    "accuracy-study": Annotated[
+        bool | None,
+        typer.Option("--accuracy-study", help="What every method and tolerance costs and buys."),
+    ],
+}
+"""By kind: the option that asks for it, with what its documents must have."""
+_IN_SHORT: Final = ("parameter", "values", "grid", "points", "members")
+"""Fields that those options stand for, or that only a document can give, as it can flags."""
+_HELP: Final = {
+    "section": "Where: crank_angle=RAD, onset=JOINT, or of a study CHANNEL=VALUE:up (or down).",
+}
+_METAVARS: Final = {"names": "A,B", "numbers": "X,Y"}
+_UNITS: Final = {"s": "SECONDS", "periods": "PERIODS"}
+_TYPES: Final = {"number": float, "integer": int}
+
+
+def _fields() -> dict[str, dict[str, Any]]:
+    """Return the fields of all kinds; of one that several have, the form that takes any of them."""
+    found: dict[str, dict[str, Any]] = {}
+    for name, kind in KINDS.items():
+        for field, one in kind["fields"].items():
+            if field in _IN_SHORT or one["form"] == "flag":
+                continue
+            seen = found.setdefault(field, one | {"kinds": []})
+            seen["kinds"].append(name)
+            seen["words"] = list(dict.fromkeys([*seen.get("words", ()), *one.get("words", ())]))
+    return found
+
+
+FIELDS: Final = _fields()
+
+
+def _option(name: str) -> Any:
+    """Return the type of a field's option, as typer reads it."""
+    field = FIELDS[name]
+    metavar = _METAVARS.get(field["form"]) or _UNITS.get(field.get("unit", ""))
+    text = _HELP.get(name) or help_of(field | ({"unit": ""} if metavar else {}), short=True)
+    if "simulate" not in field["kinds"]:
+        owner = "study" if len(field["kinds"]) > 1 else field["kinds"][0]
+        text = f"Of {'an' if owner[0] in 'ae' else 'a'} {owner}: {text[:1].lower()}{text[1:]}"
+    kind = str if field["words"] else _TYPES.get(field["form"], str)
+    return Annotated[kind | None, typer.Option(metavar=metavar, help=text)]
+
+
+def with_job_options(*only: str) -> Callable[[Command], Command]:
+    """Give a command the options of a job, or only these, in place of its ``**options``.
+
+    They come as keywords; `fields_of` makes fields of a job of them.
+    """
+    kinds = {} if only else {kind.replace("-", "_"): option for kind, option in _SHORT.items()}
+    chosen = kinds | {name: _option(name) for name in (only or FIELDS)}
+
+    def extend(command: Command) -> Command:
+        own = [p for p in signature(command).parameters.values() if p.kind != p.VAR_KEYWORD]
+        keyword = Parameter.KEYWORD_ONLY
+        options = [Parameter(n, keyword, default=None, annotation=a) for n, a in chosen.items()]
+        first = [p.replace(kind=keyword) for p in own if p.name in ("source", "output", "settings")]
+        last = [p.replace(kind=keyword) for p in own if p.name not in {one.name for one in first}]
+        shown: Any = command
+        shown.__signature__ = signature(command).replace(parameters=[*first, *options, *last])
+        shown.__annotations__ = {p.name: p.annotation for p in (*first, *options, *last)}
+        return command
+
+    return extend
+
+
+def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return options as fields of a job, without those that were not given."""
+    given = {name: value for name, value in options.items() if value not in (None, [], False)}
+    kinds = [kind for kind in _SHORT if kind.replace("-", "_") in given]
+    if len(kinds) > 1:
+        line = f"--{kinds[0]} and --{kinds[1]} are two jobs; give one."
+        raise Stopped(Exit.BAD_INPUT, line)
+    found: dict[str, Any] = {"kind": kinds[0]} if kinds else {}
+    if "bifurcation" in given:
+        found["parameter"], found["values"] = _values("--bifurcation", given["bifurcation"])
+    if "sweep" in given:
+        found["grid"] = dict(_values("--sweep", text) for text in given["sweep"])
+    if "ensemble" in given:
+        found["members"] = given["ensemble"]
+    named = {name: value for name, value in options.items() if name in FIELDS and value is not None}
+    return found | {name: _value(name, value) for name, value in named.items()}
+
+
+def _value(name: str, given: Any) -> Any:
+    """Return what was typed as the field has it."""
+    option, form, words = f"--{name}", FIELDS[name]["form"], FIELDS[name]["words"]
+    if not isinstance(given, str) or given in words:
+        return given
+    if name == "section":
+        return _section(given)
+    if form in ("number", "integer"):
+        return _number(option, given)
+    parts = listed(given) or []
+    if form == "numbers":
+        return [_number(option, part) for part in parts]
+    return parts if form == "names" else given
+
+
+def listed(text: str | None) -> list[str] | None:
+    """Return the parts of a comma-separated list."""
+    return None if text is None else [part.strip() for part in text.split(",")]
+
+
+def _values(option: str, text: str) -> tuple[str, object]:
+    """Return name and values of ``name=from:to:count``, ``…:log`` or ``name=a,b,c``."""
+    name, equals, values = text.partition("=")
+    if not (name and equals and values):
+        raise _wrong(option, text)
+    if ":" not in values:
+        return name, [_number(option, part) for part in values.split(",")]
+    parts = values.split(":")
+    if len(parts) not in (3, 4) or parts[3:] not in ([], ["log"], ["linear"]):
+        raise _wrong(option, text)
+    start, stop, count = (_number(option, part) for part in parts[:3])
+    spacing = {"spacing": parts[3]} if parts[3:] else {}
+    return name, {"from": start, "to": stop, "count": count, **spacing}
+
+
+def _section(text: str) -> dict[str, object]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        line = f"--section {text}: write crank_angle=0.5, onset=A or A.eccentricity_x=0:up."
+        raise Stopped(Exit.BAD_INPUT, line)
+    if name == "onset":
+        return {"onset": value}
+    if name == "crank_angle":
+        return {"crank_angle": _number("--section", value)}
+    level, colon, direction = value.partition(":")
+    crossing = {"channel": name, "value": _number("--section", level)}
+    return crossing | ({"direction": direction} if colon else {})
+
+
+def _number(option: str, text: str) -> object:
+    """Return a number as JSON reads it, so that it means the same in a document."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    raise Stopped(Exit.BAD_INPUT, f"{option}: {text!r} is not a number.")
+
+
+def _wrong(option: str, text: str) -> Stopped:
+    line = f"{option} {text}: write NAME=FROM:TO:COUNT, such as clearance=1e-4:1e-3:200."
+    return Stopped(Exit.BAD_INPUT, line)
