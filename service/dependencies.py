@@ -7,7 +7,7 @@ from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
 from jointplay.records.job_id import is_job_id
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.problems.document import clipped
 from jointplay.storage.catalogue import Catalogue, Job, JobNotFound
 from jointplay.storage.settings import Settings
@@ -52,8 +52,7 @@ def found(catalogue: Catalogue, job_id: str) -> Job:
                 raise RequestRefused(kinds.EXPIRED_JOB, _gone(job))
             return job
     sentence = f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs."
-    errors = [ErrorDetail(parameter="job_id", detail=sentence)]
-    raise RequestRefused(kinds.UNKNOWN_JOB, sentence, errors)
+    raise RequestRefused.of_parameter("job_id", sentence, kinds.UNKNOWN_JOB)
 
 
 def _gone(job: Job) -> str:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from fastapi import Depends, Header, Request
 
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue import SubmissionKey
 
 _HEADER = "Idempotency-Key"
@@ -56,11 +56,8 @@ class InFlight:
             self._keys.add(key)
         if taken:
             sentence = "A request with this key is being answered; send it again in a moment."
-            raise RequestRefused(
-                kinds.KEY_IN_FLIGHT,
-                sentence,
-                [ErrorDetail(parameter=_HEADER, detail=sentence)],
-                headers={"Retry-After": "1"},
+            raise RequestRefused.of_parameter(
+                _HEADER, sentence, kinds.KEY_IN_FLIGHT, headers={"Retry-After": "1"}
             )
         try:
             yield

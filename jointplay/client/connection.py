@@ -7,6 +7,7 @@ from typing import Any
 from urllib.parse import quote
 
 import httpx
+from httpx_sse import ServerSentEvent, connect_sse
 
 from jointplay.client import retrying
 from jointplay.client.errors import ClientError, Unreachable
@@ -66,16 +67,15 @@ class Connection:
         """DELETE ``path``."""
         self._exchange("DELETE", path)
 
-    def lines(self, path: str, silence: float) -> Iterator[str]:
-        """Yield the lines of a stream; `Unreachable` after so many seconds without one."""
+    def events(self, path: str, silence: float) -> Iterator[ServerSentEvent]:
+        """Yield the events of a stream; `Unreachable` after `silence` seconds without a byte."""
         timeout = httpx.Timeout(self._http.timeout.connect, read=silence)
-        headers = {"Accept": "text/event-stream"}
         try:
-            with self._http.stream("GET", path, headers=headers, timeout=timeout) as response:
-                if not response.is_success:
-                    response.read()
-                    raise error_from(response)
-                yield from response.iter_lines()
+            with connect_sse(self._http, "GET", path, timeout=timeout) as source:
+                if not source.response.is_success:
+                    source.response.read()
+                    raise error_from(source.response)
+                yield from source.iter_sse()
         except httpx.TransportError as error:
             raise Unreachable(_unreachable(self.url, error)) from error
 

@@ -1,6 +1,5 @@
 """The event stream of a job: how far it is, as soon as that changes, until it is finished."""
 
-import json
 import random
 import time
 from collections.abc import Iterator, Mapping
@@ -57,20 +56,16 @@ def follow(connection: Connection, job: JobRecord, deadline: float | None) -> It
 def _snapshots(
     connection: Connection, job_id: str, deadline: float | None
 ) -> Iterator[Mapping[str, Any]]:
-    """Yield the data of the progress events of one connection."""
+    """Yield the progress events of one connection."""
     silence = _SILENCE
     if deadline is not None:
         silence = min(silence, max(deadline - time.monotonic(), 0.01))
-    kind = ""
     try:
-        for line in connection.lines(f"/v1/jobs/{segment(job_id)}/events", silence):
+        for event in connection.events(f"/v1/jobs/{segment(job_id)}/events", silence):
             if deadline is not None and time.monotonic() > deadline:
                 return
-            name, _, value = line.partition(": ")
-            if name == "event":
-                kind = value
-            elif name == "data" and kind == "progress":
-                yield json.loads(value)
+            if event.event == "progress":
+                yield event.json()
     except Unreachable:
         if deadline is None or time.monotonic() < deadline:
             raise

@@ -1,7 +1,9 @@
 """What a calibration found, as tables and sentences."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
+
+from jointplay.command_line.output import aligned
 
 if TYPE_CHECKING:
     from jointplay.solver.calibration.outcome import Outcome
@@ -19,14 +21,6 @@ def lines(outcome: "Outcome") -> Iterator[str]:
     yield from aligned([_PARAMETER_HEAD, *map(_parameter_row, parameters)])
     yield ""
     yield from _notes(document)
-
-
-def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the rows with their cells below one another."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    for row in rows:
-        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
 
 
 _TARGET_HEAD = (

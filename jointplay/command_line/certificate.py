@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from jointplay.command_line import connection
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job

@@ -13,7 +13,7 @@ from jointplay.command_line import connection
 from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.job_options import listed
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 from jointplay.command_line.peaks import print_peaks, rows_of
 
 if TYPE_CHECKING:

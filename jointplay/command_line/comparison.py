@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from jointplay.command_line.output import aligned
+
 if TYPE_CHECKING:
     from jointplay.client import Peak
 
@@ -99,9 +101,4 @@ def table(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[
                 f"({notes.index(note) + 1})" if note else "",
             )
         )
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    lines = [
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
-    return lines + [f"({number}) {note}" for number, note in enumerate(notes, 1)]
+    return [*aligned(rows)] + [f"({number}) {note}" for number, note in enumerate(notes, 1)]

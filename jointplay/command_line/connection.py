@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from jointplay.command_line.exits import Exit, Stopped
+
 if TYPE_CHECKING:
     from jointplay.client import Client, Job
 
@@ -44,3 +46,12 @@ def job_of(results: str, url: str) -> Iterator["Job"]:
         return
     with connect(url) as client:
         yield client.job(results)
+
+
+def wait_for(job: "Job") -> None:
+    """Wait until a job is finished; Ctrl-C stops the waiting, not the job."""
+    try:
+        job.wait(progress=True, check=False)
+    except KeyboardInterrupt:
+        line = f"stopped waiting; the job goes on: jointplay show --wait {job.id}"
+        raise Stopped(Exit.INTERRUPTED, line) from None

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line import connection
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 
 def delete(

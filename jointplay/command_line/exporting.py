@@ -101,7 +101,7 @@ def _channels(source: "Source", asked: Asked) -> Text:
 def _rows(job: "Job", asked: Asked) -> Text:
     """Return peaks or impacts: tables that are small."""
     from jointplay.command_line.impacts import impact_lines, impact_rows
-    from jointplay.command_line.json_output import json_text
+    from jointplay.command_line.output import json_text
     from jointplay.command_line.peaks import peak_lines, rows_of
 
     if asked.table == "peaks":

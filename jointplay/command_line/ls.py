@@ -8,7 +8,7 @@ import typer
 
 from jointplay.command_line import connection
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 
 def ls(

@@ -1,9 +1,11 @@
 """Peaks of channels as a table."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import typer
+
+from jointplay.command_line.output import aligned
 
 if TYPE_CHECKING:
     from jointplay.client import Peak
@@ -37,18 +39,14 @@ def print_peaks(rows: Sequence[Row], *names: str) -> None:
     if not rows:
         return
     columns = ("channel", *names)
-    widths = [max(len(row[name]) for row in rows) for name in columns]
-    heading = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
-    typer.echo(f"{_aligned(columns, widths)} {heading}")
+    numbers = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
+    table = [[*columns, numbers]]
     for row in rows:
         low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
         high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
-        named = _aligned([row[name] for name in columns], widths)
-        typer.echo(f"{named} {low}  {high}  {row['unit']}")
-
-
-def _aligned(cells: Iterable[str], widths: Iterable[int]) -> str:
-    return "  ".join(f"{cell:{width}}" for cell, width in zip(cells, widths, strict=True))
+        table.append([*(row[name] for name in columns), f"{low}  {high}  {row['unit']}"])
+    for line in aligned(table):
+        typer.echo(line)
 
 
 def peak_lines(rows: Sequence[Row]) -> Iterator[str]:

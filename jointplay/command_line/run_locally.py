@@ -8,7 +8,7 @@ import typer
 from jointplay.command_line import job_document
 from jointplay.command_line.exits import Exit, Stopped
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.json_output import AS_JSON, json_text, print_json
+from jointplay.command_line.output import AS_JSON, json_text, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job

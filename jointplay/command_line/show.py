@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jointplay.command_line import connection
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -26,8 +26,8 @@ def show(
     """
     from jointplay.command_line.accuracy import print_accuracy
     from jointplay.command_line.certificate import print_headline
+    from jointplay.command_line.connection import wait_for
     from jointplay.command_line.study_summary import print_points, summary_of
-    from jointplay.command_line.waiting import wait_for
 
     with connection.job_of(results, url) as job:
         if wait:

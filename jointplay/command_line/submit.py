@@ -7,7 +7,7 @@ import typer
 
 from jointplay.command_line import connection, job_document
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 
 @with_job_options()
@@ -32,8 +32,8 @@ def submit(
     Examples: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`,
     `jointplay submit seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --wait`
     """
+    from jointplay.command_line.connection import wait_for
     from jointplay.command_line.estimate import print_estimate
-    from jointplay.command_line.waiting import wait_for
 
     job = job_document.job_document(source, settings=settings, options=options)
     if anew:

@@ -12,7 +12,7 @@ from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, S
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.paging import PageQuery
 from jointplay.service.jobs.schemas import JobPage, JobResource
-from jointplay.service.problems import ErrorDetail, RequestRefused, header, kinds, problems
+from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.problems.document import clipped
 from jointplay.storage.catalogue import Batch, BatchNotFound
 from jointplay.worker.wake_up import wake_relay
@@ -37,8 +37,7 @@ def _batch_of_the_path(catalogue: CatalogueDependency, batch_id: BatchId) -> Bat
         except BatchNotFound:
             pass
     sentence = f"There is no batch {clipped(batch_id)!r}."
-    errors = [ErrorDetail(parameter="batch_id", detail=sentence)]
-    raise RequestRefused(kinds.UNKNOWN_BATCH, sentence, errors)
+    raise RequestRefused.of_parameter("batch_id", sentence, kinds.UNKNOWN_BATCH)
 
 
 BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Response
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import StreamingResponse
+from fastapi.sse import EventSourceResponse, format_sse_event
 
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.events.schemas import JobEvent, JobProgress
@@ -14,7 +14,6 @@ from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.problems import kinds, problems
 from jointplay.storage.catalogue import Catalogue, Event, Job
 
-MEDIA_TYPE = "text/event-stream"
 _PAGE = 1000
 _QUIET = 15.0
 """Seconds after which a comment is sent: proxies cut connections that say nothing."""
@@ -35,7 +34,7 @@ router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 STREAM: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "Events until the job is finished.",
-        "content": {MEDIA_TYPE: {"schema": _FIELDS}},
+        "content": {EventSourceResponse.media_type: {"schema": _FIELDS}},
     },
     204: {"description": "The job is finished, and the client has all its events."},
 }
@@ -70,33 +69,33 @@ async def show_events(
         left = await run_in_threadpool(catalogue.events, job.id, after=last_event_id, limit=1)
         if last_event_id and not left:
             return Response(status_code=204)  # which tells a browser not to come back
-    return StreamingResponse(
+    return EventSourceResponse(
         _stream(job, catalogue, watcher, last_event_id),
-        media_type=MEDIA_TYPE,
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
     )
 
 
 async def _stream(
     job: Job, catalogue: Catalogue, watcher: Watcher, last: int
-) -> AsyncIterator[str]:
-    yield f"retry: {_COME_BACK}\n\n"
+) -> AsyncIterator[bytes]:
+    yield format_sse_event(retry=_COME_BACK)
     with watcher.watching(job.id) as watch:
         async for glance in watch.changes(_QUIET):
             if glance is None:
-                yield ": the job goes on\n\n"
+                yield format_sse_event(comment="the job goes on")
                 continue
             while last < glance.last_event:
                 page = await run_in_threadpool(catalogue.events, job.id, after=last, limit=_PAGE)
                 if not page:
                     break
                 last = page[-1].seq
-                yield "".join(map(_of_history, page))
-            yield f"event: progress\ndata: {JobProgress.of(glance).model_dump_json()}\n\n"
+                yield b"".join(map(_of_history, page))
+            progress = JobProgress.of(glance).model_dump_json()
+            yield format_sse_event(event="progress", data_str=progress)
             if glance.state.terminal:
                 return
 
 
-def _of_history(event: Event) -> str:
-    text = JobEvent.of(event).model_dump_json()
-    return f"id: {event.seq}\nevent: {event.type}\ndata: {text}\n\n"
+def _of_history(event: Event) -> bytes:
+    data = JobEvent.of(event).model_dump_json()
+    return format_sse_event(id=str(event.seq), event=event.type, data_str=data)

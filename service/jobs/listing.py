@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import AwareDatetime, BeforeValidator, Field
 
 from jointplay.service.jobs.paging import PageQuery
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.problems import RequestRefused
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import JobState
 
@@ -47,9 +47,11 @@ class JobQuery(PageQuery):
     def wanted(self) -> dict[str, Any]:
         """Return the filters as the catalogue takes them, or refuse what matches nothing."""
         if self.kind is not None and self.kind not in KINDS:
-            _refuse("kind", f"There is no kind {self.kind!r}; there are {', '.join(KINDS)}.")
+            sentence = f"There is no kind {self.kind!r}; there are {', '.join(KINDS)}."
+            raise RequestRefused.of_parameter("kind", sentence)
         if self.since is not None and self.before is not None and self.since > self.before:
-            _refuse("before", "'before' is earlier than 'since'; swap them.")
+            sentence = "'before' is earlier than 'since'; swap them."
+            raise RequestRefused.of_parameter("before", sentence)
         return {
             "state": self.state,
             "kind": self.kind,
@@ -58,11 +60,6 @@ class JobQuery(PageQuery):
             "since": _epoch(self.since),
             "before": _epoch(self.before),
         }
-
-
-def _refuse(parameter: str, sentence: str) -> None:
-    errors = [ErrorDetail(parameter=parameter, detail=sentence)]
-    raise RequestRefused(kinds.INVALID_REQUEST, sentence, errors)
 
 
 def _epoch(moment: datetime | None) -> float | None:

@@ -3,7 +3,7 @@
 from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.job_id import is_job_id
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
+from jointplay.service.problems import RequestRefused
 
 
 class PageQuery(BaseModel):
@@ -17,10 +17,9 @@ class PageQuery(BaseModel):
     def checked_token(self) -> str | None:
         """Return the token, or refuse one that this service never gave."""
         if self.page_token is not None and not is_job_id(self.page_token):
-            sentence = "Give the next_page_token of a page, or leave it out."
-            raise RequestRefused(
-                kinds.INVALID_REQUEST,
+            raise RequestRefused.of_parameter(
+                "page_token",
                 "The page_token is not one that this service gave.",
-                [ErrorDetail(parameter="page_token", detail=sentence)],
+                remedy="Give the next_page_token of a page, or leave it out.",
             )
         return self.page_token

@@ -1,11 +1,11 @@
 """The shape of a problem document, and the exception that carries one."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from jointplay.service.problems.kinds import Kind
+from jointplay.service.problems.kinds import INVALID_REQUEST, Kind
 
 MEDIA_TYPE = "application/problem+json"
 _LONGEST_SENTENCE = 1000  # a client's own text may be quoted in it
@@ -55,6 +55,20 @@ class RequestRefused(Exception):
         self.detail = detail
         self.errors = tuple(errors)
         self.headers = dict(headers or {})
+
+    @classmethod
+    def of_parameter(
+        cls,
+        parameter: str,
+        sentence: str,
+        kind: Kind = INVALID_REQUEST,
+        *,
+        remedy: str = "",
+        headers: Mapping[str, str] | None = None,
+    ) -> Self:
+        """Refuse one parameter; its remedy is the sentence itself if none is given."""
+        errors = [ErrorDetail(parameter=parameter, detail=clipped(remedy or sentence))]
+        return cls(kind, sentence, errors, headers)
 
 
 def clipped(text: str) -> str:

@@ -177,34 +177,15 @@ INTERNAL = Kind(
     "This is a fault of the service: its log says more. Please report it with what you sent.",
 )
 
-ALL = {
-    kind.name: kind
-    for kind in (
-        MALFORMED_JSON,
-        INVALID_JOB,
-        LIMIT_EXCEEDED,
-        INVALID_REQUEST,
-        UNKNOWN_CHANNEL,
-        RESPONSE_TOO_LARGE,
-        UNKNOWN_JOB,
-        EXPIRED_JOB,
-        NOT_FINISHED,
-        KEY_REUSED,
-        KEY_IN_FLIGHT,
-        UNKNOWN_BATCH,
-        WRONG_KIND,
-        UNKNOWN_SCENE,
-        UNKNOWN_FIGURE,
-        NOT_DRAWABLE,
-        NO_RESULTS,
-        RESULTS_NOT_READY,
-        BODY_TOO_LARGE,
-        NOT_JSON,
-        NOT_FOUND,
-        RANGE_NOT_SATISFIABLE,
-        NOT_ACCEPTABLE,
-        METHOD_NOT_ALLOWED,
-        UNAVAILABLE,
-        INTERNAL,
-    )
-}
+ALL = {kind.name: kind for kind in [*globals().values()] if isinstance(kind, Kind)}
+OF_RESULTS = (
+    UNKNOWN_JOB,
+    EXPIRED_JOB,
+    WRONG_KIND,
+    NO_RESULTS,
+    RESULTS_NOT_READY,
+    INVALID_REQUEST,
+    UNKNOWN_CHANNEL,
+    RESPONSE_TOO_LARGE,
+)
+"""Problems of every address where a job's results are read."""

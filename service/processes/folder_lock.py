@@ -1,15 +1,16 @@
-"""One service a data folder: a lock that ends with the process, and says who holds it."""
+"""One service a data folder: a lock that ends with the process, and names its holder."""
 
-import fcntl
 import os
 from pathlib import Path
 from typing import Self
+
+from filelock import FileLock, Timeout
 
 from jointplay.service.processes.child import WrongSetting
 
 
 class FolderLock:
-    """Holds a data folder while it is entered; WrongSetting if somebody else does.
+    """Holds a data folder while it is entered; WrongSetting if another service does.
 
     A folder that was made for it goes again if nothing was put into it.
     """
@@ -17,18 +18,16 @@ class FolderLock:
     def __init__(self, data: Path) -> None:
         self._data = data
         self._path = data / "serve.lock"
-        self._file = -1
+        self._lock = FileLock(self._path)
         self._is_new = False
 
     def __enter__(self) -> Self:
         self._is_new = not self._data.exists()
         self._data.mkdir(parents=True, exist_ok=True)
-        self._file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600)
         try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            holder = os.read(self._file, 200).decode(errors="replace").strip()
-            os.close(self._file)
+            self._lock.acquire(blocking=False)
+        except Timeout as error:
+            holder = self._path.read_text(errors="replace").strip()
             raise WrongSetting(
                 f"{self._data} is in use by another jointplay serve ({holder});"
                 " stop it, or give another folder with --data"
@@ -36,13 +35,12 @@ class FolderLock:
         self.say(f"process {os.getpid()}")
         return self
 
-    def say(self, who: str) -> None:
-        """Write who holds the folder, for whoever finds it locked."""
-        os.ftruncate(self._file, 0)
-        os.pwrite(self._file, who.encode(), 0)
+    def say(self, holder: str) -> None:
+        """Write who holds the folder, for the message to the next one."""
+        self._path.write_text(holder)
 
     def __exit__(self, *_: object) -> None:
-        if self._is_new and list(self._data.iterdir()) == [self._path]:
-            self._path.unlink()
+        self._lock.release()
+        if self._is_new and {*self._data.iterdir()} <= {self._path}:
+            self._path.unlink(missing_ok=True)
             self._data.rmdir()
-        os.close(self._file)

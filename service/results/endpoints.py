@@ -31,16 +31,7 @@ from jointplay.service.results.tables import AS_FILES, as_file
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",
     tags=["results"],
-    responses=problems(
-        kinds.UNKNOWN_JOB,
-        kinds.EXPIRED_JOB,
-        kinds.WRONG_KIND,
-        kinds.NO_RESULTS,
-        kinds.RESULTS_NOT_READY,
-        kinds.INVALID_REQUEST,
-        kinds.UNKNOWN_CHANNEL,
-        kinds.RESPONSE_TOO_LARGE,
-    ),
+    responses=problems(*kinds.OF_RESULTS),
 )
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from jointplay.service.dependencies import (
 )
 from jointplay.service.jobs.results_of_kinds import insist, is_study
 from jointplay.service.jobs.schemas import address
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
+from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.problems.document import clipped
 from jointplay.service.results.queries import Selection, unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
@@ -105,7 +105,7 @@ def draw_figure(
     """Draw a figure of the job's results, also as it runs."""
     if form not in _MEDIA_TYPES:
         sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
-        raise _refused(kinds.UNKNOWN_FIGURE, "form", sentence)
+        raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     store = _results(job, settings, catalogue)
     if isinstance(store, ResultReader):
         selection.checked()
@@ -116,9 +116,9 @@ def draw_figure(
         chosen = figures.select(store, channels, joints, selection.start, selection.stop)
         picture = figures.render(store, name, cast("figures.Form", form), chosen)
     except figures.UnknownFigure as error:
-        raise _refused(kinds.UNKNOWN_FIGURE, "name", str(error)) from None
+        raise RequestRefused.of_parameter("name", str(error), kinds.UNKNOWN_FIGURE) from None
     except figures.NotDrawable as error:
-        raise _refused(kinds.NOT_DRAWABLE, error.cause, str(error)) from None
+        raise RequestRefused.of_parameter(error.cause, str(error), kinds.NOT_DRAWABLE) from None
     except NoSuchChannel as error:
         raise unknown_channels(error) from None
     return Response(picture, media_type=_MEDIA_TYPES[form])
@@ -127,8 +127,3 @@ def draw_figure(
 def _results(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader | StudyReader:
     insist(job, "figures")
     return open_study(job, settings) if is_study(job) else open_store(job, settings, catalogue)
-
-
-def _refused(kind: kinds.Kind, parameter: str, sentence: str) -> RequestRefused:
-    sentence = clipped(sentence)
-    return RequestRefused(kind, sentence, [ErrorDetail(parameter=parameter, detail=sentence)])

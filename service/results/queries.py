@@ -25,9 +25,7 @@ class Window(BaseModel):
         """Return start and stop, or refuse a window that ends before it begins."""
         if self.start is not None and self.stop is not None and self.start > self.stop:
             sentence = f"stop ({self.stop:g} s) is before start ({self.start:g} s); swap them."
-            raise RequestRefused(
-                kinds.INVALID_REQUEST, sentence, [ErrorDetail(parameter="stop", detail=sentence)]
-            )
+            raise RequestRefused.of_parameter("stop", sentence)
         return self.start, self.stop
 
 
@@ -95,10 +93,8 @@ def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
         f"windows of {rows_allowed} {what} (about {seconds * rows_allowed / rows:.3g} s) with "
         "`start` and `stop`."
     )
-    raise RequestRefused(
-        kinds.RESPONSE_TOO_LARGE,
-        sentence,
-        [ErrorDetail(parameter="stop", detail="Choose a shorter window.")],
+    raise RequestRefused.of_parameter(
+        "stop", sentence, kinds.RESPONSE_TOO_LARGE, remedy="Choose a shorter window."
     )
 
 
@@ -111,5 +107,6 @@ def check_points(points: int, channels: int) -> None:
         f"{points} pairs of {channels} channels are more than the {MOST_VALUES} values that one "
         f"answer carries; of so many channels it carries {most} points."
     )
-    errors = [ErrorDetail(parameter="points", detail=f"Ask for at most {most} points.")]
-    raise RequestRefused(kinds.RESPONSE_TOO_LARGE, sentence, errors)
+    raise RequestRefused.of_parameter(
+        "points", sentence, kinds.RESPONSE_TOO_LARGE, remedy=f"Ask for at most {most} points."
+    )

@@ -13,11 +13,29 @@ from jointplay.records.impact import MEASURED
 Values = list[float | None]
 
 
-class Series(BaseModel):
-    """Values of one quantity, one for each row."""
+def in_unit(unit: str, description: str, **more: Any) -> Any:  # what pydantic's Field returns
+    """Declare a field with its unit."""
+    return Field(description=description, json_schema_extra={"unit": unit}, **more)
+
+
+class Partial(BaseModel):
+    """Results that can be read before they are complete."""
+
+    complete: bool = Field(
+        description="False: the job runs, or failed or was cancelled on the way."
+    )
+
+
+class Described(BaseModel):
+    """A quantity that was stored."""
 
     unit: str
     long_name: str = Field(description="What the quantity is, in words.")
+
+
+class Series(Described):
+    """Values of one quantity, one for each row."""
+
     values: Values
 
     @classmethod
@@ -28,12 +46,9 @@ class Series(BaseModel):
         )
 
 
-class History(BaseModel):
+class History(Partial):
     """Channels on the output grid."""
 
-    complete: bool = Field(
-        description="False: the job runs, or failed or was cancelled on the way."
-    )
     time: Series
     channels: dict[str, Series]
 
@@ -46,21 +61,16 @@ class Bins(BaseModel):
     last: Values = Field(description="Time of the last sample of each group.")
 
 
-class Extremes(BaseModel):
+class Extremes(Described):
     """Smallest and largest value of one quantity in each group of samples."""
 
-    unit: str
-    long_name: str = Field(description="What the quantity is, in words.")
     minimum: Values
     maximum: Values
 
 
-class Overview(BaseModel):
+class Overview(Partial):
     """Channels at the resolution of a screen: no peak is lost."""
 
-    complete: bool = Field(
-        description="False: the job runs, or failed or was cancelled on the way."
-    )
     samples: int = Field(description="Samples in the window.")
     bins: Bins
     extremes: dict[str, Extremes]
@@ -82,65 +92,52 @@ class Peak(BaseModel):
     maximum_time: float | None = Field(json_schema_extra={"unit": "s"})
 
 
-class Peaks(BaseModel):
+class Peaks(Partial):
     """Extremes by channel."""
 
-    complete: bool = Field(
-        description="False: the job runs, or failed or was cancelled on the way."
-    )
     peaks: dict[str, Peak]
-
-
-def _in(unit: str, description: str) -> Any:  # what pydantic's Field returns
-    return Field(description=description, json_schema_extra={"unit": unit})
 
 
 class Impact(BaseModel):
     """One contact in a clearance joint, from onset to release."""
 
     joint: str
-    onset: float | None = _in(*MEASURED["onset"])
-    release: float | None = _in("s", "time of release; null: still in contact at the end")
-    approach_rate: float | None = _in(*MEASURED["approach_rate"])
-    peak_force: float | None = _in(*MEASURED["peak_force"])
-    impulse: float | None = _in(*MEASURED["impulse"])
+    onset: float | None = in_unit(*MEASURED["onset"])
+    release: float | None = in_unit("s", "time of release; null: still in contact at the end")
+    approach_rate: float | None = in_unit(*MEASURED["approach_rate"])
+    peak_force: float | None = in_unit(*MEASURED["peak_force"])
+    impulse: float | None = in_unit(*MEASURED["impulse"])
 
 
-class Impacts(BaseModel):
+class Impacts(Partial):
     """Contacts in order of release."""
 
-    complete: bool = Field(
-        description="False: the job runs, or failed or was cancelled on the way."
-    )
     impacts: list[Impact]
 
 
 class EnergyLedger(BaseModel):
     """Where the mechanism's energy came from and went, integrated along with the motion."""
 
-    driver_work: float = _in("J", "Work of the drivers.")
-    gravity_work: float = _in("J", "Work of gravity.")
-    contact_loss: float = _in("J", "Lost to the damping of contacts.")
-    friction_loss: float = _in("J", "Lost to friction.")
+    driver_work: float = in_unit("J", "Work of the drivers.")
+    gravity_work: float = in_unit("J", "Work of gravity.")
+    contact_loss: float = in_unit("J", "Lost to the damping of contacts.")
+    friction_loss: float = in_unit("J", "Lost to friction.")
     element_loss: float | None = Field(
         default=None,
         description="Lost in force elements; null: there are none.",
         json_schema_extra={"unit": "J"},
     )
-    kinetic_change: float = _in("J", "Kinetic energy at the end less that at the start.")
-    stored_change: float = _in("J", "Elastic energy of contacts at the end less at the start.")
-    gross_work: float = _in(
+    kinetic_change: float = in_unit("J", "Kinetic energy at the end less that at the start.")
+    stored_change: float = in_unit("J", "Elastic energy of contacts at the end less at the start.")
+    gross_work: float = in_unit(
         "J", "Works of drivers, gravity, contacts and friction, summed without their signs."
     )
-    residual: float = _in("J", "What remains of the balance: the ledger's error.")
+    residual: float = in_unit("J", "What remains of the balance: the ledger's error.")
 
 
-class Statistics(BaseModel):
+class Statistics(Partial):
     """What a run cost, and its energy ledger; null where there is none."""
 
-    complete: bool = Field(
-        description="False: the job runs, or failed or was cancelled on the way."
-    )
     method: str | None = Field(default=None, description="The integration method that ran.")
     method_reason: str | None = Field(
         default=None, description="Why: asked for, not stiff, stiff, or as the tolerance wants it."

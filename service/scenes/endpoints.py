@@ -6,7 +6,7 @@ from fastapi import APIRouter, Path
 from pydantic import BaseModel, Field
 
 from jointplay.records.failure import InvalidInput
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds, problems
+from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.problems.document import clipped
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
@@ -47,8 +47,7 @@ def _document(name: str) -> dict[str, Any]:
         return presets.document(name)
     except InvalidInput as error:
         sentence = clipped(error.problems[0].detail)
-        errors = [ErrorDetail(parameter="name", detail=sentence)]
-        raise RequestRefused(kinds.UNKNOWN_SCENE, sentence, errors) from None
+        raise RequestRefused.of_parameter("name", sentence, kinds.UNKNOWN_SCENE) from None
 
 
 def _summary(name: str) -> SceneSummary:

@@ -24,16 +24,7 @@ from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",
     tags=["studies"],
-    responses=problems(
-        kinds.UNKNOWN_JOB,
-        kinds.EXPIRED_JOB,
-        kinds.WRONG_KIND,
-        kinds.NO_RESULTS,
-        kinds.RESULTS_NOT_READY,
-        kinds.INVALID_REQUEST,
-        kinds.UNKNOWN_CHANNEL,
-        kinds.RESPONSE_TOO_LARGE,
-    ),
+    responses=problems(*kinds.OF_RESULTS),
 )
 
 

@@ -74,7 +74,9 @@ class PoincareQuery(Selection):
         """Return the question to a simulation, or refuse what only studies have."""
         for name in ("section_start", "section_stop"):
             if getattr(self, name) is not None:
-                raise _refused(name, f"A simulation has no {name}; choose by time, in s.")
+                raise RequestRefused.of_parameter(
+                    name, f"A simulation has no {name}; choose by time, in s."
+                )
         return Selection(channels=self.channels, start=self.start, stop=self.stop)
 
     def range_of_points(self) -> SectionRange:
@@ -92,7 +94,9 @@ def whole_point(name: str, value: float | None) -> int | None:
     if value is None:
         return None
     if value < 0.0 or not value.is_integer():
-        raise _refused(name, f"{name} is {value:g}; points of a study are counted from 0.")
+        raise RequestRefused.of_parameter(
+            name, f"{name} is {value:g}; points of a study are counted from 0."
+        )
     return int(value)
 
 
@@ -128,8 +132,12 @@ def page(points: range, width: int) -> tuple[range, int | None]:
             f"One point takes {width} values; an answer carries at most {MOST_VALUES}. Ask for a "
             "range of its sections with `section_start` and `section_stop`, or for fewer channels."
         )
-        errors = [ErrorDetail(parameter="section_stop", detail="Choose fewer sections.")]
-        raise RequestRefused(kinds.RESPONSE_TOO_LARGE, sentence, errors)
+        raise RequestRefused.of_parameter(
+            "section_stop",
+            sentence,
+            kinds.RESPONSE_TOO_LARGE,
+            remedy="Choose fewer sections.",
+        )
     if len(points) <= most:
         return points, None
     return points[:most], points[most]
@@ -170,9 +178,4 @@ def _within(
         f"The study has {what}s 0 to {total - 1}; {names[0]} is the first and {names[1]} the one "
         f"before which to end, so that {names[0]} < {names[1]} <= {total}."
     )
-    raise _refused(wrong, sentence)
-
-
-def _refused(parameter: str, sentence: str) -> RequestRefused:
-    errors = [ErrorDetail(parameter=parameter, detail=sentence)]
-    return RequestRefused(kinds.INVALID_REQUEST, sentence, errors)
+    raise RequestRefused.of_parameter(wrong, sentence)

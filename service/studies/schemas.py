@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
-from jointplay.service.results.schemas import Series, Values
+from jointplay.service.results.schemas import Described, Partial, Series, Values
 
 Status = Literal["waiting", "running", "done", "failed"]
 SECONDS: dict[str, Any] = {"unit": "s"}
@@ -20,12 +20,9 @@ class PointFailure(BaseModel):
     time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
 
 
-class StudyPoints(BaseModel):
+class StudyPoints(Partial):
     """A range of a study's points, the first being `start`; every list has one entry a point."""
 
-    complete: bool = Field(
-        description="False: the study runs, or failed or was cancelled on the way."
-    )
     points: int = Field(description="Points of the whole study.")
     start: int = Field(description="Index of the first point in this answer.")
     next_start: int | None = Field(
@@ -54,11 +51,9 @@ class JudgedPoints(StudyPoints):
     )
 
 
-class Rows(BaseModel):
+class Rows(Described):
     """A quantity at the sections of every point: as many values as it recorded."""
 
-    unit: str
-    long_name: str = Field(description="What the quantity is, in words.")
     values: list[Values]
 
 
@@ -80,11 +75,9 @@ class Sections(JudgedPoints):
     channels: dict[str, Rows]
 
 
-class PeakColumns(BaseModel):
+class PeakColumns(Described):
     """Signed extremes of one channel, found between the samples too."""
 
-    unit: str
-    long_name: str = Field(description="What the channel is, in words.")
     minimum: Values
     minimum_time: Values = Field(json_schema_extra=SECONDS)
     maximum: Values
@@ -128,12 +121,9 @@ class AccuracyPoint(BaseModel):
     failure: str | None = Field(description="Why the run did not come to its end.")
 
 
-class Accuracy(BaseModel):
+class Accuracy(Partial):
     """What every method and tolerance costs and buys, against a reference run."""
 
-    complete: bool = Field(
-        description="False: the study runs, or failed or was cancelled on the way."
-    )
     duration: float = Field(description="Simulated time of every run.", json_schema_extra=SECONDS)
     window: float | None = Field(
         description="Time from the start in which the reference is known; null: not yet.",

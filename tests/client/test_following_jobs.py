@@ -63,18 +63,18 @@ def test_a_service_that_comes_back_is_followed_on(tmp_path, monkeypatch):
         job_id = client.submit(PENDULUM).id
     catalogue = Catalogue(settings.catalogue_url)
     with serving(create_app(settings)) as url, Client(url) as client:
-        lines = client._connection.lines
+        events_of = client._connection.events
         broken = []
 
         def breaking(path, silence):
-            """A connection that breaks after the first word, twice."""
-            for line in lines(path, silence):
-                yield line
-                if len(broken) < 2 and line.startswith("data"):
-                    broken.append(line)
+            """A connection that breaks after the first event, twice."""
+            for event in events_of(path, silence):
+                yield event
+                if len(broken) < 2:
+                    broken.append(event)
                     raise Unreachable("broken")
 
-        monkeypatch.setattr(client._connection, "lines", breaking)
+        monkeypatch.setattr(client._connection, "events", breaking)
         timer = threading.Timer(0.5, catalogue.request_cancel, [job_id])
         timer.start()
         assert client.job(job_id).wait(timeout=30, check=False).state == "cancelled"

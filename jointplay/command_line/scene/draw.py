@@ -8,7 +8,7 @@ import typer
 from jointplay.command_line import job_document
 from jointplay.command_line.drawing import Form
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 from jointplay.command_line.scene.assembled import SCENE, assemble_scene
 
 

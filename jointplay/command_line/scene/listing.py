@@ -4,7 +4,7 @@ import textwrap
 
 import typer
 
-from jointplay.command_line.json_output import AS_JSON, print_json
+from jointplay.command_line.output import AS_JSON, print_json
 
 
 def list_scenes(as_json: AS_JSON = False) -> None:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line.json_output import print_json
+from jointplay.command_line.output import print_json
 
 
 def show(

@@ -1,7 +1,8 @@
-"""What commands print for programs: one JSON document, on stdout."""
+"""Output of commands: one JSON document for programs, aligned tables for people."""
 
 import json
 import math
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any
 
 import typer
@@ -25,3 +26,11 @@ def _finite(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _finite(one) for name, one in value.items()}
     return [_finite(one) for one in value] if isinstance(value, list | tuple) else value
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the rows with their cells below one another."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
