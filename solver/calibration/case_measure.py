@@ -164,7 +164,7 @@ class CaseMeasure:
             return self._starts[form]
         assembly = assemble(scene)
         state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
-        start = LaneStart(np.concatenate(state))
+        start = LaneStart(state)
         if self.same_start:
             self._starts[form] = start
         return start

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.elimination import solve_symmetric
-from jointplay.solver.mechanics.motion import BodyMotion, Forces, Motion, forces_between
+from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
 from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
@@ -41,10 +41,18 @@ class LagrangeMechanism:
         self.q, self.v = q, v
         self.driven = driven
 
-    def motion(self, modes: Mapping[str, Scalar], impact_rates: Mapping[str, Scalar]) -> Motion:
-        """Return accelerations and all forces; modes and impact rates (m/s) by joint with play."""
+    def motion(
+        self,
+        modes: Mapping[str, Scalar],
+        impact_rates: Mapping[str, Scalar],
+        inner: Mapping[str, Sequence[Scalar]] = NOTHING,
+    ) -> Motion:
+        """Return accelerations and all forces; modes and impact rates (m/s) by joint with play.
+
+        `inner` states of friction laws by joint, where there are any.
+        """
         play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
-        forces = forces_between(self.numbers, self._ends, play, modes, impact_rates)
+        forces = forces_between(self.numbers, self._ends, play, modes, impact_rates, inner)
         applied = self._applied(forces)
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
 
 from jointplay.solver.laws.force import Effect, Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Revolute, Scene
+
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -76,8 +80,9 @@ def forces_between(
     numbers: Scene,
     ends: Callable[[str, str], Ends],
     play: Iterable[str] = (),
-    modes: Mapping[str, Scalar] | None = None,
-    impact_rates: Mapping[str, Scalar] | None = None,
+    modes: Mapping[str, Scalar] = NOTHING,
+    impact_rates: Mapping[str, Scalar] = NOTHING,
+    inner: Mapping[str, Sequence[Scalar]] = NOTHING,
 ) -> Forces:
     """Evaluate joints with play and force elements.
 
@@ -87,15 +92,17 @@ def forces_between(
         Returns how the second of two named points lies and moves against the first.
     play
         Joints with play whose contact counts, with a mode and an impact rate (m/s) each.
+    inner
+        Inner states of friction laws that have any, by joint.
     """
     forces = Forces()
     for name in play:
         joint = numbers.joints[name]
         assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
-        assert modes is not None  # noqa: S101
-        assert impact_rates is not None  # noqa: S101
         between = ends(joint.bearing, joint.journal)
-        forces.contacts[name] = contact(joint, between, modes[name], impact_rates[name])
+        forces.contacts[name] = contact(
+            joint, between, modes[name], impact_rates[name], inner.get(name, ())
+        )
     for name, element in numbers.forces.items():
         between = ends(element.first, element.second)
         effect = element.effect(between)

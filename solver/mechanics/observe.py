@@ -28,6 +28,7 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
         values[f"{name}.normal_force"] = found.normal_force
         values[f"{name}.friction_force"] = found.friction_force
         values[f"{name}.slip_velocity"] = found.slip_velocity
+        values |= {f"{name}.{state}": value for state, value in found.inner.items()}
     for name, effort in motion.driver_effort.items():
         values[f"{name}.torque"] = effort
         values[f"{name}.power"] = effort * motion.driver_speed[name]

@@ -9,6 +9,7 @@ forces is exactly that of the slip and of the penetration, and the energy ledger
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from jointplay.solver.laws.force import Ends
@@ -53,6 +54,9 @@ class Contact:
     """Of the material of the journal against the bearing's, m/s."""
     interaction: Interaction
     """At the centres of bearing (first) and journal (second)."""
+    inner: Mapping[str, Scalar]
+    """Inner states of the friction law, by name."""
+    inner_rates: Sequence[Scalar]
 
     @property
     def contact_power(self) -> Scalar:
@@ -65,7 +69,9 @@ class Contact:
         return -(self.friction_force * self.slip_velocity)
 
 
-def contact(joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar) -> Contact:
+def contact(
+    joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar, inner: Sequence[Scalar] = ()
+) -> Contact:
     """Evaluate a joint with play.
 
     Parameters
@@ -78,6 +84,8 @@ def contact(joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar) -
         1 in contact, 0 apart; apart there is no force whatever the penetration.
     impact_rate
         Penetration rate latched at the onset of this contact, m/s.
+    inner
+        Inner states of the friction law.
     """
     clearance = joint.clearance
     assert clearance is not None  # noqa: S101  (narrows the type)
@@ -99,13 +107,18 @@ def contact(joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar) -
     normal_force = law.normal_force(clearance, depth, penetration_rate, impact_rate)
     stored = law.elastic_energy(clearance, depth)
     friction: Scalar = 0.0
+    named: dict[str, Scalar] = {}
+    rates: Sequence[Scalar] = ()
     if clearance.friction is not None and not clearance.friction.is_off:
         seen = slip
         if not clearance.friction.slips_with_material:
             # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
             # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
             seen = orbiting - clearance.radial_clearance * orbiting * inverse
-        friction = clearance.friction.friction_force(normal_force, seen, ())
+        friction = clearance.friction.friction_force(normal_force, seen, inner)
+        rates = clearance.friction.inner_rates(normal_force, seen, inner)
+        states = clearance.friction.inner_states
+        named = {state.name: value for state, value in zip(states, inner, strict=True)}
     # eqs (13)-(17), on the journal: -(F_n n) + F_t t
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
@@ -126,4 +139,6 @@ def contact(joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar) -
             moment_on_second=journal_radius * friction,
             moment_on_first=-(bearing_radius * friction),
         ),
+        named,
+        rates,
     )

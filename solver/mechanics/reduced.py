@@ -7,13 +7,13 @@ joint removes coordinates, a joint with play is a force. With partial velocities
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.motion import BodyMotion, Forces, Motion, forces_between
+from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
@@ -38,13 +38,17 @@ class ReducedMechanism:
         self,
         modes: Mapping[str, Scalar],
         impact_rates: Mapping[str, Scalar],
+        inner: Mapping[str, Sequence[Scalar]] = NOTHING,
         known: list[Scalar] | None = None,
     ) -> Motion:
         """Return accelerations and all forces; modes and impact rates (m/s) by joint with play.
 
-        `known` accelerations of the coordinates, where they were computed before.
+        `inner` states of friction laws by joint, where there are any; `known` accelerations of the
+        coordinates, where they were computed before.
         """
-        forces = forces_between(self.numbers, self._ends, self.tree.play, modes, impact_rates)
+        forces = forces_between(
+            self.numbers, self._ends, self.tree.play, modes, impact_rates, inner
+        )
         loads = _Loads(self.kinematics, forces)
         accelerations = self._accelerations(loads) if known is None else known
         bodies = self._bodies(accelerations)

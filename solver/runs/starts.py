@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import clearances
+from jointplay.solver.scene.references import clearances, inner_states
 
 Floats = NDArray[np.float64]
 
@@ -25,12 +25,8 @@ class Perturbation(NamedTuple):
 
 
 def perturbed_start(
-    position: Floats,
-    speed: Floats,
-    scales: tuple[Floats, Floats],
-    perturbation: Perturbation,
-    member: int,
-) -> tuple[Floats, Floats]:
+    state: Floats, scales: Floats, perturbation: Perturbation, member: int
+) -> Floats:
     """Return the start of a member: independent normal deviates about the scene's own start.
 
     Member 0 is unperturbed. A member depends on the seed and its own number alone, through the
@@ -38,10 +34,10 @@ def perturbed_start(
 
     Parameters
     ----------
-    position, speed : (coordinates,) float
-        The scene's start: m or rad, m/s or rad/s.
-    scales : pair of (coordinates,) float
-        What a deviate of one stands for in each position and speed; see `start_scales`.
+    state : (states,) float
+        The scene's start: m or rad, m/s or rad/s, then inner states.
+    scales : (states,) float
+        What a deviate of one stands for in each state; see `start_scales`.
     perturbation : Perturbation
         Its seed, below 2^64, is one half of the generator's key.
     member : int
@@ -49,27 +45,27 @@ def perturbed_start(
 
     Returns
     -------
-    (coordinates,) float, (coordinates,) float
-        Positions and speeds.
+    (states,) float
     """
     if member == 0:
-        return position.copy(), speed.copy()
+        return state.copy()
     generator = np.random.Generator(
         np.random.Philox(key=np.array([perturbation.seed, member], np.uint64))
     )
-    deviates = perturbation.spread * generator.standard_normal((2, len(position)))
-    return position + deviates[0] * scales[0], speed + deviates[1] * scales[1]
+    return state + perturbation.spread * generator.standard_normal(len(state)) * scales
 
 
-def start_scales(scene: Scene, coordinates: Sequence[str], period: float) -> tuple[Floats, Floats]:
-    """Return what perturbations of a start are measured in: (coordinates,) positions and speeds.
+def start_scales(scene: Scene, coordinates: Sequence[str], period: float) -> Floats:
+    """Return what perturbations of a start are measured in, (states,).
 
     Positions in the finest clearance, m; angles in the turn, rad, that moves the end of the longest
-    body that far; speeds in the same per period/2 pi (s). Without clearance: the shortest link.
+    body that far; speeds in the same per period/2 pi (s); inner states in scales of their own.
+    Without clearance: the shortest link.
     """
     length = shortest_link(scene)
     play = [clearance.radial_clearance for clearance in clearances(scene).values()]
     finest = min(play, default=length)
     turn = finest / mechanism_size(scene, length)
     position = np.array([turn if name.endswith(".theta") else finest for name in coordinates])
-    return position, position * (2.0 * math.pi / period)
+    inner = [state.scale for states in inner_states(scene).values() for state in states]
+    return np.concatenate([position, position * (2.0 * math.pi / period), inner])

@@ -8,7 +8,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Revolute, Scene
-from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.references import has_play, inner_states
 from jointplay.solver.scene.structure import per_structure
 
 BODY = (
@@ -54,12 +54,14 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
         for quantity, unit, text in table:
             rows.append(Channel(f"{owner}.{quantity}", unit, f"{text} ({kind} {owner})"))
 
+    inner = inner_states(scene)
     for body in scene.bodies:
         add(body, "body", BODY)
     for name, joint in scene.joints.items():
         add(name, "joint", JOINT)
         if has_play(joint):
             add(name, "joint", PLAY)
+            add(name, "joint", tuple((s.name, s.unit, s.long_name) for s in inner.get(name, ())))
     for name, driver in scene.drivers.items():
         turning = isinstance(scene.joints[driver.joint], Revolute)
         kind, unit = ("torque", "N m") if turning else ("force", "N")

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator
 from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
+from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.scene.document import Clearance, Fixed, Joint, Prismatic, Revolute, Scene
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
@@ -35,6 +36,16 @@ def clearances(scene: Scene) -> dict[str, Clearance]:
         name: joint.clearance
         for name, joint in scene.joints.items()
         if has_play(joint) and isinstance(joint, Revolute) and joint.clearance is not None
+    }
+
+
+def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
+    """Return the states that friction laws have of their own, by joint, where there are any."""
+    laws = {name: clearance.friction for name, clearance in clearances(scene).items()}
+    return {
+        name: law.inner_states
+        for name, law in laws.items()
+        if law is not None and not law.is_off and law.inner_states
     }
 
 

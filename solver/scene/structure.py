@@ -7,7 +7,7 @@ from functools import wraps
 from typing import TypeVar
 
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.references import ends, has_play, inner_states
 
 MOST_KEPT = 256
 """Structures of which something is kept."""
@@ -39,6 +39,9 @@ def _structure(scene: Scene) -> Hashable:
     return (
         tuple(scene.bodies),
         tuple((name, j.type, ends(j), has_play(j)) for name, j in scene.joints.items()),
+        tuple(
+            (name, tuple(s.name for s in states)) for name, states in inner_states(scene).items()
+        ),
         tuple((name, driver.joint) for name, driver in scene.drivers.items()),
         tuple((name, e.type, e.first, e.second) for name, e in scene.forces.items()),
         tuple((o.name, o.channel, o.factor, o.offset, o.help) for o in scene.outputs),

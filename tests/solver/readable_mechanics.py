@@ -74,7 +74,8 @@ class Instant:
 def at_start(scene: Scene) -> Instant:
     """Return the assembled start of a scene, journals concentric."""
     tree, assembly = spanning_tree(scene), assemble(scene)
-    position, speed = start_state(scene, tree.coordinates, assembly.pose, assembly.velocity)
+    state = start_state(scene, tree.coordinates, assembly.pose, assembly.velocity)
+    position, speed = state.reshape(2, -1).tolist()
     return Instant(
         scene,
         dict(zip(tree.coordinates, position, strict=True)),

@@ -66,10 +66,7 @@ class RosenbrockRecorder(StepRecorder):
         outputs = [
             (f"product{i}", recorder.variable(f"direction{count + i}")) for i in range(count)
         ]
-        outputs += [
-            (f"product{count + i}", derivative(acceleration))
-            for i, acceleration in enumerate(self.equations.accelerations)
-        ]
+        outputs += [(f"product{i}", derivative(rate)) for i, rate in self.equations.slopes]
         return lane_function("product", outputs, self.layout, self.fixed)
 
     def _linear(self) -> str:

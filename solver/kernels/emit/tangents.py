@@ -123,15 +123,13 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
     That point has slots of its own: the base's stage holds the state to come.
     """
     recorder = equations.recorder
-    count = len(equations.coordinates)
     along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(equations.states)}
     for j in range(len(equations.play)):
         along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
     kinks.bend(derivative, bends)
     outputs = [  # the slopes of coordinates are the carried speeds
-        (f"carried_slope{count + i}", derivative(acceleration))
-        for i, acceleration in enumerate(equations.accelerations)
+        (f"carried_slope{i}", derivative(rate)) for i, rate in equations.slopes
     ]
     names = {f"stage{i}": f"passing{i}" for i in range(equations.states)} | {
         "stage_time": "passing_time"

@@ -16,7 +16,7 @@ from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.periods import characteristic_time, common_period
-from jointplay.solver.scene.references import clearances
+from jointplay.solver.scene.references import clearances, inner_states
 
 STEPS_IN_A_PERIOD = 100
 """Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
@@ -52,8 +52,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     _scale(lane, problem, length, unit)
     if problem.start is None:
         assembly = assemble(scene)
-        start = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
-        state = np.concatenate(start)
+        state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
     else:
         state = problem.start.state
     lane["y"] = state
@@ -90,6 +89,9 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         slow = scale * min(1.0 / radian, crossing)
         slow = min(slow, steepest / problem.tolerance / (reach if angle else 1.0))
         lane["weight"][count + i] = 1.0 / (problem.tolerance * slow)
+    inner = (state for states in inner_states(scene).values() for state in states)
+    for i, state in enumerate(inner, start=2 * count):
+        lane["weight"][i] = 1.0 / (problem.tolerance * state.scale)
     for j, fit in enumerate(fits):
         lane["impact_floor"][j] = fit.contact.least_impact_rate
         restart = RESTART * fit.radial_clearance if problem.step is None else math.inf

@@ -1,4 +1,4 @@
-"""The start of a run: generalised coordinates and speeds of the assembled mechanism."""
+"""The start of a run: the states of the assembled mechanism."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Prismatic, Scene
+from jointplay.solver.scene.references import inner_states
 
 Floats = NDArray[np.float64]
 
 
-def start_state(
-    scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats
-) -> tuple[list[float], list[float]]:
-    """Return coordinates and speeds of the start from absolute poses (3 bodies,)."""
+def start_state(scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats) -> Floats:
+    """Return the states of the start, (states,), from absolute poses (3 bodies,) and their rates.
+
+    Coordinates, then their speeds, then inner states of friction laws in the order of joints.
+    """
     bodies = list(scene.bodies)
     position, speed = [], []
     for name in coordinates:
@@ -32,7 +34,8 @@ def start_state(
             at, rate = (float(a[i + ("x", "y", "theta").index(kind)]) for a in (pose, velocity))
         position.append(at)
         speed.append(rate)
-    return position, speed
+    inner = [state.start for states in inner_states(scene).values() for state in states]
+    return np.array([*position, *speed, *inner])
 
 
 def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[float, float]:

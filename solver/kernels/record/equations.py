@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 
 from jointplay.solver.kernels.emit.emit import reachable
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
@@ -12,16 +13,18 @@ from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import inner_states
 
 
 @dataclass(frozen=True)
 class Equations:
     """What kernels evaluate, as expressions of the variables.
 
-    The variables are ``stage0…`` (coordinates, then their speeds), ``stage_time`` (s within the
-    period), ``phase<k>`` (driver k's position at local time zero), ``wound<k>``
-    (its whole turns before that, rad, for angles that are shown; trigonometry needs no turns),
-    ``mode<j>`` and ``impact_rate<j>`` of joint j with play, in document order.
+    The variables are ``stage0…`` (coordinates, their speeds, inner states of friction laws in the
+    order of joints), ``stage_time`` (s within the period), ``phase<k>`` (driver k's position at
+    local time zero), ``wound<k>`` (its whole turns before that, rad, for angles that are shown;
+    trigonometry needs no turns), ``mode<j>`` and ``impact_rate<j>`` of joint j with play, in
+    document order.
     """
 
     recorder: Recorder
@@ -29,6 +32,7 @@ class Equations:
     drivers: tuple[str, ...]
     play: tuple[str, ...]
     accelerations: tuple[Expression, ...]
+    inner_rates: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
     """Rates: work into contacts, friction loss, each driver's work, each joint's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
@@ -38,8 +42,14 @@ class Equations:
 
     @property
     def states(self) -> int:
-        """Number of states: the coordinates, then their speeds."""
-        return 2 * len(self.coordinates)
+        """Number of states: the coordinates, their speeds, inner states."""
+        return 2 * len(self.coordinates) + len(self.inner_rates)
+
+    @property
+    def slopes(self) -> tuple[tuple[int, Expression], ...]:
+        """Rates of all states but the coordinates, whose rates are speeds, by index of state."""
+        rates = self.accelerations + self.inner_rates
+        return tuple(enumerate(rates, start=len(self.coordinates)))
 
 
 def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
@@ -59,7 +69,12 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         else tree.coordinates
     )
     count = len(coordinates)
-    stage = [recorder.variable(f"stage{i}") for i in range(2 * count)]
+    speeds = slice(count, 2 * count)
+    laws = inner_states(scene)
+    states = 2 * count + sum(len(states) for states in laws.values())
+    stage = [recorder.variable(f"stage{i}") for i in range(states)]
+    own = iter(stage[2 * count :])
+    inner = {name: list(islice(own, len(states))) for name, states in laws.items()}
     time = recorder.variable("stage_time")
     driven = {
         name: recorder.variable(f"phase{k}") + numbers.drivers[name].speed * time
@@ -73,15 +88,15 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
 
     mechanism: LagrangeMechanism | ReducedMechanism
     if lagrange:
-        mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[count:], driven)
-        motion = observed = mechanism.motion(modes, rates)
+        mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[speeds], driven)
+        motion = observed = mechanism.motion(modes, rates, inner)
     else:
         position = dict(zip(coordinates, stage[:count], strict=True))
-        speed = dict(zip(coordinates, stage[count:], strict=True))
+        speed = dict(zip(coordinates, stage[speeds], strict=True))
         mechanism = ReducedMechanism(tree, numbers, position, speed, driven)
-        motion = mechanism.motion(modes, rates)
+        motion = mechanism.motion(modes, rates, inner)
         known = [recorder.variable(f"slope{count + i}") for i in range(count)]
-        observed = mechanism.motion(modes, rates, known)
+        observed = mechanism.motion(modes, rates, inner, known)
     lift = recorder.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
     windings = {} if lagrange else _windings(scene, tree, recorder)
@@ -94,6 +109,7 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
         tuple(scene.drivers),
         tree.play,
         tuple(lift(a) for a in motion.accelerations),
+        tuple(lift(rate) for found in motion.contacts.values() for rate in found.inner_rates),
         tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
         tuple(
             (lift(found.penetration), lift(found.penetration_rate))
@@ -125,8 +141,7 @@ def slopes(equations: Equations) -> list[tuple[str, Expression]]:
 
     The slopes of the coordinates are the stage's speeds and need not be written.
     """
-    count = len(equations.coordinates)
-    outputs = [(f"slope{count + i}", a) for i, a in enumerate(equations.accelerations)]
+    outputs = [(f"slope{i}", rate) for i, rate in equations.slopes]
     outputs += [(f"ledger{i}", rate) for i, rate in enumerate(equations.ledger)]
     return outputs
 

@@ -26,8 +26,8 @@ ROUNDING = 1e-9
 
 
 def kinks_of(equations: Equations) -> Kinks:
-    """Return the piecewise linear functions that accelerations depend on."""
-    needed = {node.index for node in reachable(equations.accelerations)}
+    """Return the piecewise linear functions that slopes depend on."""
+    needed = {node.index for node in reachable(rate for _, rate in equations.slopes)}
     kinks = equations.recorder.kinks
     return tuple((value, kinks[value]) for value in kinks if value.index in needed)
 

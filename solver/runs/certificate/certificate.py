@@ -172,7 +172,7 @@ def _scales(values: Floats, names: Sequence[str], units: Sequence[str], scene: S
     of_unit = np.array(units)
     largest = np.array([ranges[of_unit == unit].max() for unit in units])
     scales: Floats = np.maximum(ranges, HARDLY * largest)
-    finest = start_scales(scene, names, 1.0)[0]  # of positions and angles, where there is play
+    finest = start_scales(scene, names, 1.0)  # of positions and angles, where there is play
     play = clearances(scene)
     for column, name in enumerate(names):
         owner, _, quantity = name.partition(".")

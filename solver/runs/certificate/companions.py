@@ -77,14 +77,11 @@ class Companions:
             step = problem.step and problem.step * factor ** (1.0 / order)
             rung = replace(coarse, tolerance=problem.tolerance * factor, step=step)
             bundle.load(lane, rung, like=RUN)
-        half = len(start.state) // 2
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         perturbation = Perturbation(problem.tolerance, SEED)
         for member, lane in enumerate(PERTURBED, start=1):
-            beside = perturbed_start(
-                start.state[:half], start.state[half:], scales, perturbation, member
-            )
-            bundle.load(lane, replace(coarse, start=LaneStart(np.concatenate(beside))), like=RUN)
+            beside = LaneStart(perturbed_start(start.state, scales, perturbation, member))
+            bundle.load(lane, replace(coarse, start=beside), like=RUN)
         loud = LOUD if problem.duration >= SHORT * period else LOUD_IN_SHORT
         for lane in range(1, BUNDLE):
             if lane not in loud:  # no value is a record

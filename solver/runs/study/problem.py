@@ -82,11 +82,10 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
 
 def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, NDArray[np.bool_]]:
     """Return what counts as one in each state, and which states are angles, (states,) each."""
-    position, speed = start_scales(
-        study.point_scene(point), kernel.coordinates, float(study.period[point])
-    )
-    angles = np.array([name.endswith(".theta") for name in kernel.coordinates], dtype=bool)
-    return np.concatenate([position, speed]), np.concatenate([angles, np.zeros_like(angles)])
+    scales = start_scales(study.point_scene(point), kernel.coordinates, float(study.period[point]))
+    angles = np.zeros(len(scales), dtype=bool)
+    angles[: len(kernel.coordinates)] = [name.endswith(".theta") for name in kernel.coordinates]
+    return scales, angles
 
 
 def most_settling(study: Study, point: int) -> int:
@@ -116,12 +115,6 @@ def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbat
     """Return the start of a member of an ensemble."""
     scene = study.point_scene(point)
     assembly = assemble(scene)
-    position, speed = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
-    state = perturbed_start(
-        np.array(position),
-        np.array(speed),
-        start_scales(scene, kernel.coordinates, float(study.period[point])),
-        perturbation,
-        point,
-    )
-    return LaneStart(np.concatenate(state))
+    state = start_state(scene, kernel.coordinates, assembly.pose, assembly.velocity)
+    scales = start_scales(scene, kernel.coordinates, float(study.period[point]))
+    return LaneStart(perturbed_start(state, scales, perturbation, point))

@@ -16,7 +16,8 @@ SCALES = np.array([1e-3, 2e-3]), np.array([3e-3, 4e-3])
 
 
 def start(spread: float, seed: int, member: int) -> np.ndarray:
-    return np.stack(perturbed_start(POSITION, SPEED, SCALES, Perturbation(spread, seed), member))
+    state, scales = np.concatenate([POSITION, SPEED]), np.concatenate(SCALES)
+    return perturbed_start(state, scales, Perturbation(spread, seed), member).reshape(2, 2)
 
 
 def test_the_first_member_starts_as_the_scene_does() -> None:
@@ -57,7 +58,7 @@ def test_scales_are_the_finest_clearance_and_what_it_is_per_time_unit() -> None:
     document = presets.document("seven-bar-press")
     document["joints"]["B"]["clearance"]["radial_clearance"] = 2e-4
     scene = Scene.model_validate(document)
-    position, speed = start_scales(scene, ["link2.theta", "slider7.s"], period=2.0)
+    position, speed = np.split(start_scales(scene, ["link2.theta", "slider7.s"], period=2.0), 2)
     longest = 2 * 0.5572845  # link 6
     assert position == pytest.approx([2e-4 / longest, 2e-4], rel=1e-12)  # rounding
     assert speed == pytest.approx(position * math.pi, rel=1e-12)
