@@ -38,7 +38,7 @@ class Repeatable:
         body = json.dumps([self._path, document], sort_keys=True, separators=(",", ":"))
         fingerprint = hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
         with self._in_flight.holding(self._key):
-            yield SubmissionKey("", self._key, fingerprint)
+            yield SubmissionKey(self._key, fingerprint)
 
 
 class InFlight:

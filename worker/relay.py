@@ -1,6 +1,6 @@
 """Relay and reaper, `jointplay.worker.relay`: tells workers of queued blocks and ends leases.
 
-Several may run; a duty in the catalogue lets one at a time do the work. If two ever overlap
+Several may run; the catalogue lets one of them at a time lead and do the work. If two ever overlap
 nothing breaks: a wake-up too many finds nothing to claim.
 """
 
@@ -21,8 +21,8 @@ from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.removal import remove_expired
 from jointplay.worker.wake_up import Doorman
 
-_DUTY = "relay"
-_DUTY_SECONDS = 5.0
+_TASK = "relay"
+_LEAD_SECONDS = 5.0
 _REMOVAL_PATIENCE = 2.0  # s; whoever relays next goes on with it
 _log = logging.getLogger(__name__)
 
@@ -37,15 +37,15 @@ class Relay:
         self._name = f"{socket.gethostname()}:{os.getpid()}"
         self._reaped = 0.0
         self._removing: threading.Thread | None = None
-        self._duty_until = 0.0
+        self._lead_until = 0.0
 
     def turn(self) -> None:
-        """Do what is due now, if it is this process's duty."""
+        """Do what is due now, if this process leads."""
         now = time.monotonic()
-        if now > self._duty_until - _DUTY_SECONDS / 2:
-            if not self._catalogue.hold_duty(_DUTY, self._name, _DUTY_SECONDS):
+        if now > self._lead_until - _LEAD_SECONDS / 2:
+            if not self._catalogue.take_lead(_TASK, self._name, _LEAD_SECONDS):
                 return
-            self._duty_until = now + _DUTY_SECONDS
+            self._lead_until = now + _LEAD_SECONDS
         if now - self._reaped >= self._settings.reaper_period:
             self._reaped = now
             reaped = self._catalogue.reap(self._settings.max_attempts)
@@ -80,12 +80,12 @@ class Relay:
         if sent:
             self._catalogue.mark_published(tuple(sent), self._settings.republish_after)
 
-    def lay_down(self) -> None:
+    def release_lead(self) -> None:
         """Let another relay take over at once."""
         if self._removing is not None:
             self._removing.join(_REMOVAL_PATIENCE)
         self._app.close()
-        self._catalogue.lay_down_duty(_DUTY, self._name)
+        self._catalogue.release_lead(_TASK, self._name)
 
 
 def main() -> None:
@@ -107,7 +107,7 @@ def main() -> None:
             except SQLAlchemyError as error:
                 _log.warning("the catalogue does not answer, trying again: %s", error)
             doorman.wait(settings.relay_period)
-    relay.lay_down()
+    relay.release_lead()
     catalogue.close()
 
 

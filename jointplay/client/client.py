@@ -57,7 +57,8 @@ class Client:
     url
         Address of the service; default the variable JOINTPLAY_URL, else this machine.
     key
-        API key, sent with each request; default the variable JOINTPLAY_KEY.
+        Sent with each request as a bearer token, for a proxy before the service, which does not
+        read it; default the variable JOINTPLAY_KEY.
     timeout
         Longest wait for one answer, s.
     transport

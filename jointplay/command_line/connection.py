@@ -17,8 +17,8 @@ URL = Annotated[
     typer.Option(
         "--url",
         envvar="JOINTPLAY_URL",
-        help="Address of the service; the variable JOINTPLAY_KEY has the API key, if it asks for"
-        " one.",
+        help="Address of the service; JOINTPLAY_KEY is sent to it as a bearer token, for a proxy"
+        " that asks for one.",
     ),
 ]
 DEFAULT_URL = "http://127.0.0.1:8000"  # jointplay.client's, without loading it

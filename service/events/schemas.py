@@ -5,7 +5,7 @@ from typing import Any, Self
 from pydantic import BaseModel, Field
 
 from jointplay.service.jobs.schemas import Progress, moment
-from jointplay.storage.catalogue import Event, Glance, JobState
+from jointplay.storage.catalogue import Event, JobState, JobStatus
 
 
 class JobEvent(BaseModel):
@@ -32,11 +32,11 @@ class JobProgress(BaseModel):
     progress: Progress
 
     @classmethod
-    def of(cls, glance: Glance) -> Self:
-        """Show what the catalogue's glance saw."""
+    def of(cls, status: JobStatus) -> Self:
+        """Show what the catalogue's status saw."""
         return cls(
-            state=glance.state,
-            activity=glance.activity,
-            attempt=glance.attempt,
-            progress=Progress(time=glance.time, fraction=glance.fraction, steps=glance.steps),
+            state=status.state,
+            activity=status.activity,
+            attempt=status.attempt,
+            progress=Progress(time=status.time, fraction=status.fraction, steps=status.steps),
         )

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from fastapi.concurrency import run_in_threadpool
 from sqlalchemy.exc import SQLAlchemyError
 
-from jointplay.storage.catalogue import Catalogue, Glance
+from jointplay.storage.catalogue import Catalogue, JobStatus
 
 _PERIOD = 0.01
 """Seconds between two looks when somebody begins to wait; growing to ..."""
@@ -24,15 +24,15 @@ class Watch:
     """What one client sees of one job; made by `Watcher.watching`."""
 
     def __init__(self) -> None:
-        self.latest: Glance | None = None
+        self.latest: JobStatus | None = None
         self._changed = asyncio.Event()
 
-    def show(self, glance: Glance) -> None:
+    def show(self, status: JobStatus) -> None:
         """Note what the job looks like now."""
-        self.latest = glance
+        self.latest = status
         self._changed.set()
 
-    async def changes(self, quiet: float) -> AsyncIterator[Glance | None]:
+    async def changes(self, quiet: float) -> AsyncIterator[JobStatus | None]:
         """Yield the job whenever it has changed, at first as it is, and none after `quiet` s."""
         while True:
             try:
@@ -73,8 +73,8 @@ class Watcher:
         try:
             async with asyncio.timeout(seconds):
                 with self.watching(job_id) as watch:
-                    async for glance in watch.changes(seconds):
-                        if glance is not None and glance.state.terminal:
+                    async for status in watch.changes(seconds):
+                        if status is not None and status.state.terminal:
                             return True
         except TimeoutError:
             pass
@@ -86,7 +86,7 @@ class Watcher:
         while self._watches:
             self._woken.clear()
             try:
-                self._show(await self._glances(list(self._watches)))
+                self._show(await self._statuses(list(self._watches)))
             except SQLAlchemyError as error:
                 _log.warning("the catalogue does not answer, looking again: %s", error)
             pause = min(_GROWTH * pause, _LONGEST_PERIOD)
@@ -96,17 +96,17 @@ class Watcher:
             except TimeoutError:
                 pass
 
-    async def _glances(self, jobs: list[str]) -> list[Glance]:
-        found: list[Glance] = []
+    async def _statuses(self, jobs: list[str]) -> list[JobStatus]:
+        found: list[JobStatus] = []
         for some in _batched(jobs):
-            found += await run_in_threadpool(self._catalogue.glances, some)
+            found += await run_in_threadpool(self._catalogue.statuses, some)
         return found
 
-    def _show(self, glances: list[Glance]) -> None:
-        for glance in glances:
-            for watch in self._watches.get(glance.job, ()):
-                if watch.latest != glance:
-                    watch.show(glance)
+    def _show(self, statuses: list[JobStatus]) -> None:
+        for status in statuses:
+            for watch in self._watches.get(status.job, ()):
+                if watch.latest != status:
+                    watch.show(status)
 
 
 def _batched(jobs: list[str]) -> Iterator[list[str]]:

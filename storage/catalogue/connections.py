@@ -9,12 +9,34 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from sqlalchemy import Connection, Engine, create_engine, event, make_url, text
+from sqlalchemy import (
+    Connection,
+    Engine,
+    create_engine,
+    event,
+    make_url,
+    text,
+)
 
 _BUSY_TIMEOUT_MS = 30_000
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One unit of reading or writing: all of it at one moment, committed together."""
+
+    connection: Connection
+    now: float
+    """Epoch seconds."""
+
+    @property
+    def execute(self) -> Any:
+        """Execute a statement, or an insertion with many rows; see `Connection.execute`."""
+        return self.connection.execute
 
 
 class Connections:

@@ -12,7 +12,7 @@ _MOST = 256
 """Requests that are answered together."""
 
 
-class Together(Generic[Asked, Answer]):
+class GroupCommit(Generic[Asked, Answer]):
     """Answers what has gathered while the requests before were being answered.
 
     No thread of its own: one of those that wait does the work of all.

@@ -6,10 +6,11 @@ thought dead and comes back finds its attempt fenced: nothing it does counts any
 
 from typing import Any
 
-from sqlalchemy import Connection, delete, func, insert, select, update
+from sqlalchemy import delete, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Verdict
 from jointplay.storage.catalogue.rows import block_record, lock_job, record_event, step_job
@@ -19,25 +20,21 @@ RECOVERED_QUEUE = "recovered"
 _block = tables.block
 
 
-def claim(
-    connection: Connection, block_id: str, worker: str, lease: float, now: float
-) -> Claim | None:
-    """Take a queued block; none if somebody else has it or nobody needs it any more."""
-    job_id = connection.execute(
-        select(_block.c.job).where(_block.c.id == block_id)
-    ).scalar_one_or_none()
+def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
+    """Take a queued block for `lease` seconds; none if there is nothing (left) to do."""
+    job_id = unit.execute(select(_block.c.job).where(_block.c.id == block_id)).scalar_one_or_none()
     if job_id is None:
         return None
-    job = lock_job(connection, job_id)
+    job = lock_job(unit, job_id)
     if job.state.terminal:
         return None
-    row = connection.execute(
+    row = unit.execute(
         update(_block)
         .where(_block.c.id == block_id, _block.c.state == BlockState.queued.value)
         .values(
             state=BlockState.running.value,
             attempt=_block.c.attempt + 1,
-            lease_until=now + lease,
+            lease_until=unit.now + lease,
             worker=worker,
         )
         .returning(*_block.c)
@@ -45,34 +42,33 @@ def claim(
     if row is None:
         return None
     held = block_record(row)
-    connection.execute(delete(tables.outbox).where(tables.outbox.c.block == block_id))
-    connection.execute(
+    unit.execute(delete(tables.outbox).where(tables.outbox.c.block == block_id))
+    unit.execute(
         insert(tables.attempt).values(
-            block=block_id, number=held.attempt, worker=worker, started=now
+            block=block_id, number=held.attempt, worker=worker, started=unit.now
         )
     )
-    connection.execute(
+    unit.execute(
         update(tables.job)
         .where(tables.job.c.id == job_id)
         .values(
             attempt=max(job.attempt, held.attempt),
-            started=func.coalesce(tables.job.c.started, now),
+            started=func.coalesce(tables.job.c.started, unit.now),
         )
     )
-    step_job(connection, job_id, JobState.running, now)
+    step_job(unit, job_id, JobState.running)
     record_event(
-        connection,
+        unit,
         job_id,
-        now,
         "claimed",
         {"block": held.id, "attempt": held.attempt, "worker": worker},
     )
-    return Claim(held, lock_job(connection, job_id))
+    return Claim(held, lock_job(unit, job_id))
 
 
-def _change_held(connection: Connection, block_id: str, attempt: int, **values: Any) -> str:
+def _change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
     """Change a block this attempt holds and return its job; Fenced if it does not hold it."""
-    job_id = connection.execute(
+    job_id = unit.execute(
         update(_block)
         .where(
             _block.c.id == block_id,
@@ -87,9 +83,9 @@ def _change_held(connection: Connection, block_id: str, attempt: int, **values: 
     return str(job_id)
 
 
-def verdict(connection: Connection, block_id: str, attempt: int) -> Verdict:
+def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     """Return whether this attempt should go on, reading only; Fenced if it lost the block."""
-    state = connection.execute(
+    state = unit.execute(
         select(tables.job.c.state)
         .join(_block, _block.c.job == tables.job.c.id)
         .where(
@@ -103,68 +99,64 @@ def verdict(connection: Connection, block_id: str, attempt: int) -> Verdict:
     return Verdict.go_on if state == JobState.running.value else Verdict.cancel
 
 
-def heartbeat(
-    connection: Connection, block_id: str, attempt: int, lease: float, now: float
-) -> Verdict:
-    """Extend the lease."""
-    _change_held(connection, block_id, attempt, lease_until=now + lease)
-    return verdict(connection, block_id, attempt)
+def heartbeat(unit: Unit, block_id: str, attempt: int, lease: float) -> Verdict:
+    """Hold a block `lease` seconds longer; Fenced if it is held no more."""
+    _change_held(unit, block_id, attempt, lease_until=unit.now + lease)
+    return verdict(unit, block_id, attempt)
 
 
 def record_progress(
-    connection: Connection,
+    unit: Unit,
     block_id: str,
     attempt: int,
     lease: float,
-    now: float,
     *,
     time: float,
     fraction: float,
-    steps: int | None,
+    steps: int | None = None,
 ) -> Verdict:
-    """Extend the lease and store how far the block, and with it the job, has come."""
+    """Heartbeat that also stores simulated time [s], fraction (0..1) and steps; or Fenced."""
     job_id = _change_held(
-        connection,
+        unit,
         block_id,
         attempt,
-        lease_until=now + lease,
+        lease_until=unit.now + lease,
         progress_time=time,
         progress_fraction=fraction,
         **({} if steps is None else {"progress_steps": steps}),
     )
-    _sum_progress(connection, job_id)
-    return verdict(connection, block_id, attempt)
+    _sum_progress(unit, job_id)
+    return verdict(unit, block_id, attempt)
 
 
 def record_checkpoint(
-    connection: Connection, block_id: str, attempt: int, *, watermark: int, checkpoint: str
+    unit: Unit, block_id: str, attempt: int, *, watermark: int, checkpoint: str
 ) -> None:
-    """Store where the block can be resumed; both must be durable on disk already."""
-    _change_held(connection, block_id, attempt, watermark=watermark, checkpoint=checkpoint)
+    """Store a checkpoint that is durable on disk already; Fenced if the block is held no more."""
+    _change_held(unit, block_id, attempt, watermark=watermark, checkpoint=checkpoint)
 
 
-def note_activity(
-    connection: Connection, block_id: str, attempt: int, activity: str, now: float
-) -> None:
-    """Show what the job is busy with until it advances, and record it as an event."""
-    verdict(connection, block_id, attempt)
+def note_activity(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
+    """Show a word for what the job is busy with until it advances; or Fenced.
+
+    It is recorded as an event, too. For what takes long and has no progress: compiling.
+    """
+    verdict(unit, block_id, attempt)
     held = select(_block.c.job).where(_block.c.id == block_id)
-    job = lock_job(connection, connection.execute(held).scalar_one())
-    connection.execute(
-        update(tables.job).where(tables.job.c.id == job.id).values(activity=activity)
-    )
-    record_event(connection, job.id, now, activity, {"block": block_id, "attempt": attempt})
+    job = lock_job(unit, unit.execute(held).scalar_one())
+    unit.execute(update(tables.job).where(tables.job.c.id == job.id).values(activity=activity))
+    record_event(unit, job.id, activity, {"block": block_id, "attempt": attempt})
 
 
-def _sum_progress(connection: Connection, job_id: str) -> None:
+def _sum_progress(unit: Unit, job_id: str) -> None:
     weighted = func.sum(_block.c.count * _block.c.progress_fraction) / func.sum(_block.c.count)
     steps_of_all = func.sum(_block.c.progress_steps)
-    fraction, time, steps = connection.execute(
+    fraction, time, steps = unit.execute(
         select(weighted, func.max(_block.c.progress_time), steps_of_all).where(
             _block.c.job == job_id
         )
     ).one()
-    connection.execute(
+    unit.execute(
         update(tables.job)
         .where(tables.job.c.id == job_id)
         .values(progress_fraction=fraction, progress_time=time, steps=steps, activity=None)
@@ -172,12 +164,11 @@ def _sum_progress(connection: Connection, job_id: str) -> None:
 
 
 def finish(
-    connection: Connection,
+    unit: Unit,
     block_id: str,
     attempt: int,
     outcome: BlockState,
     error: JobError | None,
-    now: float,
     *,
     time: float | None,
     fraction: float | None,
@@ -185,12 +176,18 @@ def finish(
 ) -> JobState:
     """End a held block (done, failed or cancelled) and, with its last block, the job.
 
-    `time`, `fraction` and `steps` say how far it came; a block that is done came all the way.
+    `time` [s], `fraction` (0..1) and `steps` say how far it came, if that is known; a block that
+    is done came all the way.
 
     Returns
     -------
     JobState
         The job's state after it.
+
+    Raises
+    ------
+    Fenced
+        The block is held no more; nothing was changed.
     """
     changes: dict[str, Any] = {"state": outcome.value, "lease_until": None}
     if time is not None:
@@ -201,70 +198,71 @@ def finish(
         fraction = 1.0
     if fraction is not None:
         changes["progress_fraction"] = fraction
-    job_id = _change_held(connection, block_id, attempt, **changes)
-    job = lock_job(connection, job_id)
+    job_id = _change_held(unit, block_id, attempt, **changes)
+    job = lock_job(unit, job_id)
     if (outcome is BlockState.failed) != (error is not None):
         raise ValueError("a failed block, and no other, has an error")
     if outcome is BlockState.cancelled and job.state is JobState.running:
         raise ValueError(f"nobody asked to cancel job {job_id}")
-    _end_attempt(connection, block_id, attempt, outcome.value, now)
-    _sum_progress(connection, job_id)
-    return _settle(connection, job_id, error, now)
+    _end_attempt(unit, block_id, attempt, outcome.value)
+    _sum_progress(unit, job_id)
+    return _settle(unit, job_id, error)
 
 
-def _settle(connection: Connection, job_id: str, error: JobError | None, now: float) -> JobState:
+def _settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
     """End the job if nothing of it is left to do, or at once if a block failed.
 
     When only the block that seals is left, it is queued, ahead of blocks that never started.
     """
     if error is not None:
-        drop_queued_blocks(connection, job_id, untouched=False)
-        step_job(connection, job_id, JobState.failed, now, error=error)
-        return lock_job(connection, job_id).state
+        drop_queued_blocks(unit, job_id, untouched=False)
+        step_job(unit, job_id, JobState.failed, error=error)
+        return lock_job(unit, job_id).state
     of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
-    states = set(connection.execute(of_job).scalars())
+    states = set(unit.execute(of_job).scalars())
     if states == {BlockState.done.value, BlockState.waiting.value}:
-        _queue_waiting(connection, job_id, now)
+        _queue_waiting(unit, job_id)
     elif not states & {BlockState.queued.value, BlockState.running.value}:
         all_done = states == {BlockState.done.value}
-        step_job(connection, job_id, JobState.succeeded if all_done else JobState.cancelled, now)
-    return lock_job(connection, job_id).state
+        step_job(unit, job_id, JobState.succeeded if all_done else JobState.cancelled)
+    return lock_job(unit, job_id).state
 
 
-def _queue_waiting(connection: Connection, job_id: str, now: float) -> None:
-    queued = connection.execute(
+def _queue_waiting(unit: Unit, job_id: str) -> None:
+    queued = unit.execute(
         update(_block)
         .where(_block.c.job == job_id, _block.c.state == BlockState.waiting.value)
         .values(state=BlockState.queued.value)
         .returning(_block.c.id)
     )
     for block_id in queued.scalars().all():
-        queue_again(connection, block_id, now)
+        queue_again(unit, block_id)
 
 
-def release(connection: Connection, block_id: str, attempt: int, now: float) -> None:
-    """Give a held block back unfinished, to be resumed by whoever is free; not a loss."""
+def release(unit: Unit, block_id: str, attempt: int) -> None:
+    """Give a held block back unfinished, to be resumed by whoever is free; or Fenced.
+
+    It is not a loss.
+    """
     job_id = _change_held(
-        connection,
+        unit,
         block_id,
         attempt,
         state=BlockState.queued.value,
         lease_until=None,
         worker=None,
     )
-    job = lock_job(connection, job_id)
-    _end_attempt(connection, block_id, attempt, "released", now)
-    _sum_progress(connection, job_id)
-    record_event(connection, job_id, now, "released", {"block": block_id, "attempt": attempt})
+    job = lock_job(unit, job_id)
+    _end_attempt(unit, block_id, attempt, "released")
+    _sum_progress(unit, job_id)
+    record_event(unit, job_id, "released", {"block": block_id, "attempt": attempt})
     if job.state.terminal:
-        drop_queued_blocks(connection, job_id, untouched=False)
+        drop_queued_blocks(unit, job_id, untouched=False)
     else:
-        queue_again(connection, block_id, now)
+        queue_again(unit, block_id)
 
 
-def lose(
-    connection: Connection, block_id: str, attempt: int, max_attempts: int, now: float
-) -> BlockState:
+def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
     """Take a block from a worker whose lease ran out; queue it again or give it up.
 
     Returns
@@ -273,7 +271,7 @@ def lose(
         What became of the block: queued, failed, or cancelled if the job was being cancelled.
     """
     job_id = _change_held(
-        connection,
+        unit,
         block_id,
         attempt,
         state=BlockState.queued.value,
@@ -281,41 +279,39 @@ def lose(
         worker=None,
         losses=_block.c.losses + 1,
     )
-    job = lock_job(connection, job_id)
-    _end_attempt(connection, block_id, attempt, "lost", now)
-    _sum_progress(connection, job_id)
-    record_event(connection, job_id, now, "lost", {"block": block_id, "attempt": attempt})
-    losses = connection.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
+    job = lock_job(unit, job_id)
+    _end_attempt(unit, block_id, attempt, "lost")
+    _sum_progress(unit, job_id)
+    record_event(unit, job_id, "lost", {"block": block_id, "attempt": attempt})
+    losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
     if losses < max_attempts and not job.state.terminal:
-        queue_again(connection, block_id, now)
+        queue_again(unit, block_id)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
-    connection.execute(update(_block).where(_block.c.id == block_id).values(state=given_up.value))
+    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up.value))
     error = JobError(
         "platform",
         "worker-lost",
         f"{losses} workers in a row disappeared while computing this; the worker's log says why"
         " (out of memory is the usual reason). Submit it again once that is solved.",
     )
-    _settle(connection, job_id, error if given_up is BlockState.failed else None, now)
+    _settle(unit, job_id, error if given_up is BlockState.failed else None)
     return given_up
 
 
-def queue_again(connection: Connection, block_id: str, now: float) -> None:
+def queue_again(unit: Unit, block_id: str) -> None:
     """Have a worker told of a block, ahead of jobs that never started."""
-    connection.execute(
+    unit.execute(
         insert(tables.outbox).values(
-            block=block_id, queue=RECOVERED_QUEUE, created=now, due=now, tries=0
+            block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=unit.now, tries=0
         )
     )
 
 
-def _end_attempt(
-    connection: Connection, block_id: str, attempt: int, outcome: str, now: float
-) -> None:
+def _end_attempt(unit: Unit, block_id: str, attempt: int, outcome: str) -> None:
     table = tables.attempt
-    connection.execute(
+    unit.execute(
         update(table)
         .where(table.c.block == block_id, table.c.number == attempt)
-        .values(ended=now, outcome=outcome)
+        .values(ended=unit.now, outcome=outcome)
     )

@@ -1,19 +1,21 @@
 """Reading jobs: pages by key, histories, and what changes while they are computed."""
 
 from collections.abc import Sequence
+from typing import Any
 
-from sqlalchemy import Connection, and_, func, not_, select
+from sqlalchemy import and_, func, not_, select
 
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.identifiers import earliest
 from jointplay.storage.catalogue.records import (
     Attempt,
     Block,
     Event,
-    Glance,
     JobFilter,
     JobPage,
     JobState,
+    JobStatus,
 )
 from jointplay.storage.catalogue.rows import attempt_record, block_record, event_record, job_record
 
@@ -22,15 +24,26 @@ _TERMINAL = [state.value for state in JobState if state.terminal]
 
 
 def page_of_jobs(
-    connection: Connection,
-    wanted: JobFilter,
-    now: float,
+    unit: Unit,
+    /,
     *,
-    limit: int,
-    after: str | None,
-    oldest_first: bool,
+    limit: int = 50,
+    after: str | None = None,
+    oldest_first: bool = False,
+    **filtered: Any,
 ) -> JobPage:
-    """Return jobs beyond `after`, newest or oldest first; pages do not shift when jobs arrive."""
+    """Return one page of jobs, newest first; `after` is the `next` of the page before.
+
+    `oldest_first` turns it round: the jobs of a batch then come as they were submitted. The other
+    arguments are fields of `JobFilter`. Expired jobs are left out; pages do not shift when jobs
+    arrive.
+
+    Raises
+    ------
+    ValueError
+        The limit is not between 1 and 1000.
+    """
+    wanted = JobFilter(**filtered)
     if not 1 <= limit <= LARGEST_PAGE:
         raise ValueError(f"a page has 1 to {LARGEST_PAGE} jobs, not {limit}")
     columns = tables.job.c
@@ -38,7 +51,7 @@ def page_of_jobs(
     statement = select(tables.job).order_by(order).limit(limit + 1)
     if after is not None:
         statement = statement.where(columns.id > after if oldest_first else columns.id < after)
-    for name in ("state", "kind", "label", "scene", "owner", "batch"):
+    for name in ("state", "kind", "label", "scene", "batch"):
         value = getattr(wanted, name)
         if value is not None:
             statement = statement.where(columns[name] == str(value))
@@ -47,25 +60,25 @@ def page_of_jobs(
         statement = statement.where(columns.id >= earliest(wanted.since))
     if wanted.before is not None:
         statement = statement.where(columns.id < earliest(wanted.before))
-    expired = and_(columns.expires <= now, columns.state.in_(_TERMINAL))
+    expired = and_(columns.expires <= unit.now, columns.state.in_(_TERMINAL))
     statement = statement.where(columns.expires.is_(None) | not_(expired))
-    found = [job_record(row._mapping) for row in connection.execute(statement)]
+    found = [job_record(row._mapping) for row in unit.execute(statement)]
     more = len(found) > limit
     jobs = tuple(found[:limit])
     return JobPage(jobs, jobs[-1].id if more else None)
 
 
-def blocks_of(connection: Connection, job_id: str) -> tuple[Block, ...]:
+def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:
     """Return a job's blocks by index."""
     table = tables.block
-    rows = connection.execute(select(table).where(table.c.job == job_id).order_by(table.c.index))
+    rows = unit.execute(select(table).where(table.c.job == job_id).order_by(table.c.index))
     return tuple(block_record(row) for row in rows)
 
 
-def attempts_of(connection: Connection, job_id: str) -> tuple[Attempt, ...]:
+def attempts_of(unit: Unit, job_id: str) -> tuple[Attempt, ...]:
     """Return every attempt at a job's blocks, by block index and number."""
     table, block = tables.attempt, tables.block
-    rows = connection.execute(
+    rows = unit.execute(
         select(table)
         .join(block, block.c.id == table.c.block)
         .where(block.c.job == job_id)
@@ -74,10 +87,10 @@ def attempts_of(connection: Connection, job_id: str) -> tuple[Attempt, ...]:
     return tuple(attempt_record(row) for row in rows)
 
 
-def events_of(connection: Connection, job_id: str, *, after: int, limit: int) -> tuple[Event, ...]:
+def events_of(unit: Unit, job_id: str, *, after: int = 0, limit: int = 1000) -> tuple[Event, ...]:
     """Return what happened to a job after event number `after`, in order."""
     table = tables.event
-    rows = connection.execute(
+    rows = unit.execute(
         select(table)
         .where(table.c.job == job_id, table.c.seq > after)
         .order_by(table.c.seq)
@@ -86,11 +99,11 @@ def events_of(connection: Connection, job_id: str, *, after: int, limit: int) ->
     return tuple(event_record(row) for row in rows)
 
 
-def glances_of(connection: Connection, jobs: Sequence[str]) -> tuple[Glance, ...]:
+def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
     """Return what changes while jobs are computed, of those among them that there are."""
     columns, event = tables.job.c, tables.event
     newest = select(func.max(event.c.seq)).where(event.c.job == columns.id).scalar_subquery()
-    rows = connection.execute(
+    rows = unit.execute(
         select(
             columns.id,
             columns.state,
@@ -102,4 +115,4 @@ def glances_of(connection: Connection, jobs: Sequence[str]) -> tuple[Glance, ...
             newest,
         ).where(columns.id.in_(jobs))
     )
-    return tuple(Glance(row[0], JobState(row[1]), *row[2:]) for row in rows)
+    return tuple(JobStatus(row[0], JobState(row[1]), *row[2:]) for row in rows)

@@ -69,7 +69,6 @@ class NewJob:
     digest: str
     solver_version: str
     result_schema: int = 1
-    owner: str = ""
     label: str | None = None
     batch: str | None = None
     scene: str | None = None  # its name, by which jobs are found
@@ -82,7 +81,6 @@ class NewJob:
 class SubmissionKey:
     """An idempotency key: the same key and fingerprint return the job of the first request."""
 
-    owner: str
     key: str
     fingerprint: str
     seconds: float = 86_400.0  # how long the key is remembered
@@ -94,7 +92,6 @@ class Job:
 
     id: str
     kind: str
-    owner: str
     label: str | None
     batch: str | None
     spec: dict[str, Any]
@@ -146,7 +143,6 @@ class Batch:
     """Jobs that were submitted together, and how far the whole of them is."""
 
     id: str
-    owner: str
     label: str | None
     created: float
     count: int  # jobs
@@ -221,7 +217,7 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Glance:
+class JobStatus:
     """What changes while a job is computed; `last_event` is the number of its newest event."""
 
     job: str
@@ -242,7 +238,6 @@ class JobFilter:
     kind: str | None = None
     label: str | None = None
     scene: str | None = None
-    owner: str | None = None
     batch: str | None = None
     since: float | None = None  # from this time on
     before: float | None = None

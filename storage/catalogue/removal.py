@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
-from sqlalchemy import Connection, select, update
+from sqlalchemy import select, update
 
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.catalogue.rows import find_job, lock_job
@@ -13,33 +14,34 @@ _job = tables.job
 _TERMINAL = [state.value for state in JobState if state.terminal]
 
 
-def expire(connection: Connection, job_id: str, now: float) -> Job:
-    """Let a finished job expire now, unless it did before.
+def expire(unit: Unit, job_id: str) -> Job:
+    """Let a finished job expire now, unless it did before; its results are removed soon.
 
     Raises
     ------
+    JobNotFound
     JobNotFinished
-        It is queued, running or cancelling.
+        It is queued, running or cancelling: it has to be cancelled first.
     """
-    job = lock_job(connection, job_id)
+    job = lock_job(unit, job_id)
     if not job.state.terminal:
         raise JobNotFinished(job_id, job.state.value)
-    if not job.expired(now):
-        connection.execute(update(_job).where(_job.c.id == job_id).values(expires=now))
-    return find_job(connection, job_id)
+    if not job.expired(unit.now):
+        unit.execute(update(_job).where(_job.c.id == job_id).values(expires=unit.now))
+    return find_job(unit, job_id)
 
 
-def removable(connection: Connection, limit: int, now: float) -> tuple[str, ...]:
+def removable(unit: Unit, limit: int) -> tuple[str, ...]:
     """Return expired jobs whose results are still there, those first that expired first."""
-    found = connection.execute(
+    found = unit.execute(
         select(_job.c.id)
-        .where(_job.c.removed.is_(None), _job.c.expires <= now, _job.c.state.in_(_TERMINAL))
+        .where(_job.c.removed.is_(None), _job.c.expires <= unit.now, _job.c.state.in_(_TERMINAL))
         .order_by(_job.c.expires)
         .limit(limit)
     )
     return tuple(found.scalars())
 
 
-def mark_removed(connection: Connection, jobs: Sequence[str], now: float) -> None:
+def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
     """Remember that the results of jobs are gone."""
-    connection.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=now))
+    unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now))

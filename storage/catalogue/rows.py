@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from sqlalchemy import Connection, Row, func, insert, select, update
+from sqlalchemy import Row, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import (
     LEGAL_STEPS,
@@ -46,28 +47,27 @@ def event_record(row: Row[Any]) -> Event:
     return Event(**row._mapping)
 
 
-def find_job(connection: Connection, job: str) -> Job:
+def find_job(unit: Unit, job: str) -> Job:
     """Return a job; JobNotFound if there is none."""
-    row = connection.execute(select(job_table).where(job_table.c.id == job)).one_or_none()
+    row = unit.execute(select(job_table).where(job_table.c.id == job)).one_or_none()
     if row is None:
         raise JobNotFound(job)
     return job_record(row._mapping)
 
 
-def lock_job(connection: Connection, job: str) -> Job:
+def lock_job(unit: Unit, job: str) -> Job:
     """Return a job and keep others from changing it until the unit ends (SQLite: they wait)."""
     statement = select(job_table).where(job_table.c.id == job).with_for_update()
-    row = connection.execute(statement).one_or_none()
+    row = unit.execute(statement).one_or_none()
     if row is None:
         raise JobNotFound(job)
     return job_record(row._mapping)
 
 
 def step_job(
-    connection: Connection,
+    unit: Unit,
     job: str,
     to: JobState,
-    now: float,
     *,
     error: JobError | None = None,
     **changes: Any,
@@ -84,23 +84,21 @@ def step_job(
     if error is not None:
         values["error"] = asdict(error)
     if to.terminal:
-        values["finished"] = now
-    moved = connection.execute(
+        values["finished"] = unit.now
+    moved = unit.execute(
         update(job_table)
         .where(job_table.c.id == job, job_table.c.state.in_(allowed))
         .values(values)
     )
     if moved.rowcount == 0:
         return False
-    record_event(connection, job, now, to.value, {"error": asdict(error)} if error else {})
+    record_event(unit, job, to.value, {"error": asdict(error)} if error else {})
     return True
 
 
-def record_event(
-    connection: Connection, job: str, now: float, kind: str, data: Mapping[str, Any]
-) -> None:
+def record_event(unit: Unit, job: str, kind: str, data: Mapping[str, Any]) -> None:
     """Append an event; the job must be locked or just changed in this unit."""
     table = tables.event
     last = select(func.coalesce(func.max(table.c.seq), 0)).where(table.c.job == job)
-    seq = connection.execute(last).scalar_one() + 1
-    connection.execute(insert(table).values(job=job, seq=seq, time=now, type=kind, data=dict(data)))
+    seq = unit.execute(last).scalar_one() + 1
+    unit.execute(insert(table).values(job=job, seq=seq, time=unit.now, type=kind, data=dict(data)))

@@ -2,7 +2,9 @@
 
 from sqlalchemy import Connection, inspect, text
 
-REVISION = "0003"  # the newest migration; a test compares it with the folder storage/migrations
+from jointplay.storage.catalogue import tables
+
+REVISION = "0001"  # the newest migration; a test compares it with the folder storage/migrations
 
 
 def present_revision(connection: Connection) -> str | None:
@@ -14,11 +16,21 @@ def present_revision(connection: Connection) -> str | None:
 
 
 def upgrade(connection: Connection) -> None:
-    """Run the missing migrations inside the caller's unit of writing."""
+    """Make all tables, or run the missing migrations, inside the caller's unit of writing.
+
+    Raises
+    ------
+    alembic.util.CommandError
+        The database is of a revision that this program does not know.
+    """
     from alembic import command
     from alembic.config import Config
 
     configuration = Config()
     configuration.set_main_option("script_location", "jointplay.storage:migrations")
     configuration.attributes["connection"] = connection
-    command.upgrade(configuration, "head")
+    if present_revision(connection) is None:
+        tables.metadata.create_all(connection)
+        command.stamp(configuration, "head")
+    else:
+        command.upgrade(configuration, "head")

@@ -6,7 +6,6 @@ from typing import Any
 
 from sqlalchemy import (
     ColumnElement,
-    Connection,
     Row,
     and_,
     bindparam,
@@ -19,6 +18,7 @@ from sqlalchemy import (
 )
 
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import KeyReused
 from jointplay.storage.catalogue.records import (
     BlockState,
@@ -52,7 +52,7 @@ class Request:
 
 
 def submit(
-    connection: Connection, requests: Sequence[Request], next_id: Callable[[], str], now: float
+    unit: Unit, requests: Sequence[Request], next_id: Callable[[], str]
 ) -> list[Submitted | KeyReused]:
     """Store jobs, their blocks and their wake-ups, or find the jobs that earlier requests made.
 
@@ -64,10 +64,10 @@ def submit(
     for request in requests:
         names = request.names()
         if names & pending:
-            _store(connection, fresh, now)
+            _store(unit, fresh)
             fresh, pending = [], set()
         try:
-            answer = _earlier(connection, request, now)
+            answer = _earlier(unit, request)
         except KeyReused as error:
             answers.append(error)
             continue
@@ -75,42 +75,42 @@ def submit(
             job_id = next_id()
             fresh.append((job_id, request))
             pending |= names
-            row = _job_row(job_id, request.new, now)
+            row = _job_row(job_id, request.new, unit.now)
             answer = Submitted(job_record({**_UNSET, **row}), created=True)
         answers.append(answer)
-    _store(connection, fresh, now)
+    _store(unit, fresh)
     return answers
 
 
-def _earlier(connection: Connection, request: Request, now: float) -> Submitted | None:
+def _earlier(unit: Unit, request: Request) -> Submitted | None:
     """Find the job of an earlier request with the same key, or one that computes the same."""
     key, new = request.key, request.new
     if key is not None:
-        earlier = earlier_answer(connection, key, now)
+        earlier = earlier_answer(unit, key)
         if earlier is not None and earlier.job is not None:
-            job = find_job(connection, earlier.job)
+            job = find_job(unit, earlier.job)
             # a key is stored with the job that it made, and later than one that it found
             return Submitted(job, created=False, cached=earlier.created > job.created)
-    same = same_job(connection, new, now) if request.reuse else None
+    same = same_job(unit, new) if request.reuse else None
     if same is None:
         return None
     if key is not None:
-        remember_key(connection, key, now, job=same)
-    job = find_job(connection, same)
+        remember_key(unit, key, job=same)
+    job = find_job(unit, same)
     if job.expires is not None and (new.expires is None or new.expires > job.expires):
         keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
-        connection.execute(keep)
+        unit.execute(keep)
         job = replace(job, expires=new.expires)
     return Submitted(job, created=False, cached=True)
 
 
-def _store(connection: Connection, fresh: Sequence[tuple[str, Request]], now: float) -> None:
+def _store(unit: Unit, fresh: Sequence[tuple[str, Request]]) -> None:
     if not fresh:
         return
-    insert_jobs(connection, [(job_id, request.new) for job_id, request in fresh], now)
+    insert_jobs(unit, [(job_id, request.new) for job_id, request in fresh])
     for job_id, request in fresh:
         if request.key is not None:
-            remember_key(connection, request.key, now, job=job_id)
+            remember_key(unit, request.key, job=job_id)
 
 
 _SAME_JOB = (
@@ -119,7 +119,6 @@ _SAME_JOB = (
         tables.job.c.digest == bindparam("digest"),
         tables.job.c.solver_version == bindparam("solver_version"),
         tables.job.c.kind == bindparam("kind"),
-        tables.job.c.owner == bindparam("owner"),
         tables.job.c.state.in_(_REUSED),
         tables.job.c.expires.is_(None) | (tables.job.c.expires > bindparam("now")),
     )
@@ -128,8 +127,10 @@ _SAME_JOB = (
 )
 
 
-def same_job(connection: Connection, new: NewJob, now: float) -> str | None:
-    """Return the newest job that asks this solver for the same, unless it ended badly or expired.
+def same_job(unit: Unit, new: NewJob) -> str | None:
+    """Return the id of the job that `submit` would find: the newest that asks for the same.
+
+    None if it ended badly or expired.
 
     The digest covers the filled-in job without its label, the version the solver's sources.
     """
@@ -137,18 +138,19 @@ def same_job(connection: Connection, new: NewJob, now: float) -> str | None:
         "digest": new.digest,
         "solver_version": new.solver_version,
         "kind": new.kind,
-        "owner": new.owner,
-        "now": now,
+        "now": unit.now,
     }
-    return connection.execute(_SAME_JOB, asked).scalar_one_or_none()
+    found: str | None = unit.execute(_SAME_JOB, asked).scalar_one_or_none()
+    return found
 
 
-def insert_jobs(connection: Connection, jobs: Sequence[tuple[str, NewJob]], now: float) -> None:
+def insert_jobs(unit: Unit, jobs: Sequence[tuple[str, NewJob]]) -> None:
     """Store new jobs with their ids, all their blocks, wake-ups and first events."""
-    connection.execute(insert(tables.job), [_job_row(job_id, new, now) for job_id, new in jobs])
+    now = unit.now
+    unit.execute(insert(tables.job), [_job_row(job_id, new, now) for job_id, new in jobs])
     blocks = [row for job_id, new in jobs for row in _block_rows(job_id, new)]
-    connection.execute(insert(tables.block), blocks)
-    connection.execute(
+    unit.execute(insert(tables.block), blocks)
+    unit.execute(
         insert(tables.outbox),
         [
             {"block": block["id"], "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
@@ -156,7 +158,7 @@ def insert_jobs(connection: Connection, jobs: Sequence[tuple[str, NewJob]], now:
             if block["state"] == BlockState.queued.value
         ],
     )
-    connection.execute(
+    unit.execute(
         insert(tables.event),
         [
             {"job": job_id, "seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
@@ -169,7 +171,6 @@ def _job_row(job_id: str, new: NewJob, now: float) -> dict[str, Any]:
     return {
         "id": job_id,
         "kind": new.kind,
-        "owner": new.owner,
         "label": new.label,
         "batch": new.batch,
         "scene": None if new.scene is None else new.scene[:_LONGEST_NAME],
@@ -207,7 +208,7 @@ def _block_rows(job_id: str, new: NewJob) -> Iterator[dict[str, Any]]:
         }
 
 
-def earlier_answer(connection: Connection, key: SubmissionKey, now: float) -> Row[Any] | None:
+def earlier_answer(unit: Unit, key: SubmissionKey) -> Row[Any] | None:
     """Find what a key was answered with (its job or batch), if it is still remembered.
 
     Raises
@@ -216,12 +217,12 @@ def earlier_answer(connection: Connection, key: SubmissionKey, now: float) -> Ro
         It was used for another request.
     """
     table = tables.idempotency
-    same_key = and_(table.c.owner == key.owner, table.c.key == key.key)
-    row = connection.execute(select(table).where(same_key)).one_or_none()
+    same_key = table.c.key == key.key
+    row: Row[Any] | None = unit.execute(select(table).where(same_key)).one_or_none()
     if row is None:
         return None
-    if row.expires <= now or (row.job is None and row.batch is None):
-        connection.execute(delete(table).where(same_key))
+    if row.expires <= unit.now or (row.job is None and row.batch is None):
+        unit.execute(delete(table).where(same_key))
         return None
     if row.fingerprint != key.fingerprint:
         raise KeyReused(key.key)
@@ -229,60 +230,56 @@ def earlier_answer(connection: Connection, key: SubmissionKey, now: float) -> Ro
 
 
 def remember_key(
-    connection: Connection,
+    unit: Unit,
     key: SubmissionKey,
-    now: float,
     *,
     job: str | None = None,
     batch: str | None = None,
 ) -> None:
     """Have a key find this job or batch while it is remembered."""
-    connection.execute(
+    unit.execute(
         insert(tables.idempotency).values(
-            owner=key.owner,
             key=key.key,
             fingerprint=key.fingerprint,
             job=job,
             batch=batch,
-            created=now,
-            expires=now + key.seconds,
+            created=unit.now,
+            expires=unit.now + key.seconds,
         )
     )
 
 
-def request_cancel(connection: Connection, job_id: str, now: float) -> Job:
-    """Cancel what has not started at once, and ask workers to stop what they hold.
+def request_cancel(unit: Unit, job_id: str) -> Job:
+    """Cancel a queued job at once, ask a running one to stop, leave a finished one alone.
 
     A block that a lost worker left behind has results; it stays queued, so that a worker closes
-    its store properly.
+    its store properly. JobNotFound if there is no such job.
     """
-    job = lock_job(connection, job_id)
+    job = lock_job(unit, job_id)
     if job.state.terminal or job.state is JobState.cancelling:
         return job
     block = tables.block
-    drop_queued_blocks(connection, job_id, untouched=True)
-    live = connection.execute(
+    drop_queued_blocks(unit, job_id, untouched=True)
+    live = unit.execute(
         select(func.count()).where(block.c.job == job_id, block.c.state.in_(_LIVE))
     ).scalar_one()
     if job.state is JobState.running:
-        step_job(connection, job_id, JobState.cancelling, now)
+        step_job(unit, job_id, JobState.cancelling)
     if not live:
-        step_job(connection, job_id, JobState.cancelled, now)
-    return find_job(connection, job_id)
+        step_job(unit, job_id, JobState.cancelled)
+    return find_job(unit, job_id)
 
 
-def drop_queued_blocks(connection: Connection, job_id: str, *, untouched: bool) -> None:
+def drop_queued_blocks(unit: Unit, job_id: str, *, untouched: bool) -> None:
     """Cancel a job's blocks that nobody holds, or that nobody ever held; forget their wake-ups."""
-    drop_blocks(connection, tables.block.c.job == job_id, untouched=untouched)
+    drop_blocks(unit, tables.block.c.job == job_id, untouched=untouched)
 
 
-def drop_blocks(connection: Connection, of: ColumnElement[bool], *, untouched: bool) -> None:
+def drop_blocks(unit: Unit, of: ColumnElement[bool], *, untouched: bool) -> None:
     """Cancel those blocks among some that nobody holds, or that nobody ever held."""
     block, outbox = tables.block, tables.outbox
     dropped = and_(of, block.c.state.in_((BlockState.queued.value, BlockState.waiting.value)))
     if untouched:
         dropped = and_(dropped, block.c.attempt == 0)
-    connection.execute(
-        delete(outbox).where(exists().where(and_(block.c.id == outbox.c.block, dropped)))
-    )
-    connection.execute(update(block).where(dropped).values(state=BlockState.cancelled.value))
+    unit.execute(delete(outbox).where(exists().where(and_(block.c.id == outbox.c.block, dropped))))
+    unit.execute(update(block).where(dropped).values(state=BlockState.cancelled.value))

@@ -1,4 +1,4 @@
-"""The catalogue's tables. The migrations build them; a test keeps the two identical."""
+"""The catalogue's tables, from which a new database is made."""
 
 from sqlalchemy import (
     JSON,
@@ -30,7 +30,6 @@ job = Table(
     metadata,
     Column("id", String(26), primary_key=True),
     Column("kind", String(32), nullable=False),
-    Column("owner", String(64), nullable=False),
     Column("label", Text),
     Column("batch", String(26)),
     Column("spec", JSON, nullable=False),
@@ -52,7 +51,6 @@ job = Table(
     Column("removed", Float(53)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
-    Index("ix_job_owner_id", "owner", "id"),
     Index("ix_job_batch_id", "batch", "id"),
     # progress of a whole batch without a look at its jobs' documents
     Index("ix_job_batch_state", "batch", "state", "progress_fraction"),
@@ -68,7 +66,6 @@ batch = Table(
     "batch",
     metadata,
     Column("id", String(26), primary_key=True),
-    Column("owner", String(64), nullable=False),
     Column("label", Text),
     Column("created", Float(53), nullable=False),
     Column("count", Integer, nullable=False),
@@ -136,20 +133,18 @@ outbox = Table(
 idempotency = Table(
     "idempotency",
     metadata,
-    Column("owner", String(64), nullable=False),
-    Column("key", String(255), nullable=False),
+    Column("key", String(255), primary_key=True),
     Column("fingerprint", String(64), nullable=False),
     Column("job", ForeignKey("job.id", ondelete="CASCADE")),
     Column("batch", String(26)),
     Column("created", Float(53), nullable=False),
     Column("expires", Float(53), nullable=False),
-    PrimaryKeyConstraint("owner", "key"),
     Index("ix_idempotency_expires", "expires"),
 )
 
-# Who does a duty that only one process should do at a time; the migration inserts the duties.
-duty = Table(
-    "duty",
+# Which process does what only one should do at a time, and until when.
+leader = Table(
+    "leader",
     metadata,
     Column("name", String(32), primary_key=True),
     Column("holder", String(200), nullable=False),

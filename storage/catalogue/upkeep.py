@@ -1,8 +1,9 @@
-"""What relay and reaper need: blocks nobody was told of, leases that ran out, duties."""
+"""What relay and reaper need: blocks nobody was told of, leases that ran out, who leads."""
 
-from sqlalchemy import Connection, case, delete, func, select, update
+from sqlalchemy import case, delete, func, insert, select, update
 
 from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import RECOVERED_QUEUE, lose
 from jointplay.storage.catalogue.records import BlockState, Reaped, WakeUp
 from jointplay.storage.catalogue.submission import FRESH_QUEUE
@@ -11,21 +12,21 @@ _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most so many times `republish_after`
 
 
-def due_wake_ups(connection: Connection, outstanding: int, now: float) -> tuple[WakeUp, ...]:
+def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
     """Return what to publish now: due wake-ups, those of recovered blocks first.
 
     Only so many may be on their way at one time: what Redis holds stays small however many
     blocks wait, and losing it costs little.
     """
     outbox = tables.outbox
-    on_the_way = connection.execute(
-        select(func.count()).select_from(outbox).where(outbox.c.due > now)
+    on_the_way = unit.execute(
+        select(func.count()).select_from(outbox).where(outbox.c.due > unit.now)
     ).scalar_one()
     due: list[WakeUp] = []
     for queue in (RECOVERED_QUEUE, FRESH_QUEUE):  # by index: the cost is that of the answer
-        rows = connection.execute(
+        rows = unit.execute(
             select(outbox.c.block)
-            .where(outbox.c.queue == queue, outbox.c.due <= now)
+            .where(outbox.c.queue == queue, outbox.c.due <= unit.now)
             .order_by(outbox.c.due, outbox.c.block)
             .limit(max(outstanding - on_the_way - len(due), 0))
         )
@@ -33,54 +34,54 @@ def due_wake_ups(connection: Connection, outstanding: int, now: float) -> tuple[
     return tuple(due)
 
 
-def mark_published(
-    connection: Connection, blocks: tuple[str, ...], republish_after: float, now: float
-) -> None:
+def mark_published(unit: Unit, blocks: tuple[str, ...], republish_after: float) -> None:
     """Remember that workers were told; a block still unclaimed later is due again."""
     outbox = tables.outbox
     patience = case((outbox.c.tries < _RAREST_REPEAT, outbox.c.tries + 1), else_=_RAREST_REPEAT)
-    connection.execute(
+    unit.execute(
         update(outbox)
         .where(outbox.c.block.in_(blocks))
-        .values(tries=outbox.c.tries + 1, due=now + republish_after * patience)
+        .values(tries=outbox.c.tries + 1, due=unit.now + republish_after * patience)
     )
 
 
-def reap(connection: Connection, max_attempts: int, now: float) -> Reaped:
+def reap(unit: Unit, max_attempts: int) -> Reaped:
     """Take back the blocks whose lease ran out, and forget idempotency keys past their time."""
     block = tables.block
-    expired = connection.execute(
+    expired = unit.execute(
         select(block.c.id, block.c.attempt, block.c.job)
-        .where(block.c.state == BlockState.running.value, block.c.lease_until < now)
+        .where(block.c.state == BlockState.running.value, block.c.lease_until < unit.now)
         .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
         .with_for_update(skip_locked=True)
     ).all()
     requeued, ended = [], []
     for row in expired:
-        outcome = lose(connection, row.id, row.attempt, max_attempts, now)
+        outcome = lose(unit, row.id, row.attempt, max_attempts)
         if outcome is BlockState.queued:
             requeued.append(row.id)
         else:
             ended.append(row.job)
-    connection.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= now))
+    unit.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= unit.now))
     return Reaped(tuple(requeued), tuple(ended))
 
 
-def hold_duty(connection: Connection, name: str, holder: str, seconds: float, now: float) -> bool:
-    """Take or keep a duty; false while somebody else has it."""
-    duty = tables.duty
-    taken = connection.execute(
-        update(duty)
-        .where(duty.c.name == name, (duty.c.holder == holder) | (duty.c.until <= now))
-        .values(holder=holder, until=now + seconds)
-    )
-    return taken.rowcount == 1
+def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
+    """Take or keep the lead of a task for so many seconds; false while somebody else has it."""
+    leader = tables.leader
+    lead = {"holder": holder, "until": unit.now + seconds}
+    free = (leader.c.holder == holder) | (leader.c.until <= unit.now)
+    taken = unit.execute(update(leader).where(leader.c.name == name, free).values(lead))
+    if taken.rowcount == 1:
+        return True
+    if unit.execute(select(leader.c.name).where(leader.c.name == name)).one_or_none() is None:
+        unit.execute(insert(leader).values(name=name, **lead))  # nobody led before
+        return True
+    return False
 
 
-def lay_down_duty(connection: Connection, name: str, holder: str, now: float) -> None:
-    """Give a duty up, so that another process can take it at once."""
-    duty = tables.duty
-    connection.execute(
-        update(duty).where(duty.c.name == name, duty.c.holder == holder).values(until=now)
-    )
+def release_lead(unit: Unit, name: str, holder: str) -> None:
+    """Give the lead up, so that another process can take it at once."""
+    leader = tables.leader
+    held = update(leader).where(leader.c.name == name, leader.c.holder == holder)
+    unit.execute(held.values(until=unit.now))

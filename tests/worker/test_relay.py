@@ -21,7 +21,7 @@ FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"
 def relay(catalogue: Catalogue, settings: Settings) -> Iterator[Relay]:
     relay = Relay(catalogue, settings)
     yield relay
-    relay.lay_down()
+    relay.release_lead()
 
 
 def until(condition: Callable[[], bool], act: Callable[[], None], patience: float = 20) -> None:
@@ -95,10 +95,10 @@ def test_only_one_relay_is_on_duty(
     catalogue.submit(NEW)
     other.turn()
     assert redis.llen(FRESH) == 0
-    relay.lay_down()
+    relay.release_lead()
     other.turn()
     assert redis.llen(FRESH) == 1
-    other.lay_down()
+    other.release_lead()
 
 
 def test_the_bell_ends_the_relays_wait(broker: Broker) -> None:

@@ -23,10 +23,10 @@ STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)
 def test_a_batch_is_listed_in_the_order_of_its_jobs(catalogue: Catalogue, clock: Clock) -> None:
     other = catalogue.submit(NEW).job.id
     jobs = [replace(NEW, label=str(index)) for index in range(7)]
-    submitted = catalogue.submit_batch(jobs, owner="me", label="clearances")
+    submitted = catalogue.submit_batch(jobs, label="clearances")
     batch = submitted.batch
     assert submitted.created
-    assert (batch.owner, batch.label, batch.created) == ("me", "clearances", clock.now)
+    assert (batch.label, batch.created) == ("clearances", clock.now)
     assert (batch.count, batch.states[JobState.queued], batch.fraction) == (7, 7, 0.0)
     page = catalogue.jobs(batch=batch.id, oldest_first=True, limit=4)
     seen = list(page.jobs)
@@ -35,7 +35,7 @@ def test_a_batch_is_listed_in_the_order_of_its_jobs(catalogue: Catalogue, clock:
     assert page.next is None
     assert [job.label for job in seen] == [str(index) for index in range(7)]
     assert tuple(job.id for job in seen) == submitted.jobs
-    assert {(job.owner, job.batch) for job in seen} == {("me", batch.id)}
+    assert {job.batch for job in seen} == {batch.id}
     assert other not in submitted.jobs
     assert len(catalogue.due_wake_ups(100)) == 8
 
@@ -117,16 +117,16 @@ def test_cancelling_a_batch_cancels_what_has_not_ended(catalogue: Catalogue, clo
 
 
 def test_a_key_finds_the_earlier_batch(catalogue: Catalogue, clock: Clock) -> None:
-    key = SubmissionKey("me", "key", "fingerprint", seconds=10)
-    first = catalogue.submit_batch([NEW, NEW], owner="me", key=key)
-    again = catalogue.submit_batch([NEW, NEW], owner="me", key=key)
+    key = SubmissionKey("key", "fingerprint", seconds=10)
+    first = catalogue.submit_batch([NEW, NEW], key=key)
+    again = catalogue.submit_batch([NEW, NEW], key=key)
     assert (again.batch, again.jobs, again.created) == (first.batch, first.jobs, False)
     with pytest.raises(KeyReused):
-        catalogue.submit_batch([NEW], owner="me", key=replace(key, fingerprint="other"))
+        catalogue.submit_batch([NEW], key=replace(key, fingerprint="other"))
     with pytest.raises(KeyReused):
         catalogue.submit(NEW, replace(key, fingerprint="other"))
     clock.now += 11
-    assert catalogue.submit_batch([NEW], owner="me", key=key).created
+    assert catalogue.submit_batch([NEW], key=key).created
     assert len(catalogue.jobs().jobs) == 3
 
 
@@ -140,7 +140,7 @@ def test_an_unknown_batch_is_named(catalogue: Catalogue) -> None:
 def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index(catalogue: Catalogue) -> None:
     """However many wait: a scan or a sort of 100 000 rows twice a second would be felt."""
     statements: list[str] = []
-    connection = catalogue._connections
+    connection = catalogue.connections
     batch = catalogue.submit_batch([NEW] * 3).batch.id
     with connection.reading() as reading:
         raw = reading.connection.driver_connection

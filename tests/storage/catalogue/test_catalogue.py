@@ -27,12 +27,12 @@ NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 
 
 
 def test_a_job_comes_back_as_it_was_submitted(catalogue: Catalogue, clock: Clock) -> None:
-    new = replace(NEW, label="Größe 1", owner="me", batch="B" * 26, expires=clock.now + 5)
+    new = replace(NEW, label="Größe 1", batch="B" * 26, expires=clock.now + 5)
     submitted = catalogue.submit(new)
     job = catalogue.get(submitted.job.id)
     assert submitted.created
     assert job == submitted.job
-    assert (job.spec, job.digest, job.label, job.owner) == (NEW.spec, NEW.digest, "Größe 1", "me")
+    assert (job.spec, job.digest, job.label) == (NEW.spec, NEW.digest, "Größe 1")
     assert (job.batch, job.expires, job.created) == ("B" * 26, clock.now + 5, clock.now)
     assert (job.state, job.attempt, job.started, job.error) == (JobState.queued, 0, None, None)
 
@@ -59,11 +59,10 @@ def test_pages_follow_each_other_while_jobs_arrive(catalogue: Catalogue, clock: 
 
 
 def test_lists_are_filtered(catalogue: Catalogue) -> None:
-    wanted = catalogue.submit(replace(NEW, label="a", owner="me")).job
+    wanted = catalogue.submit(replace(NEW, label="a")).job
     other = catalogue.submit(replace(NEW, kind="sweep", label="b")).job
     catalogue.request_cancel(other.id)
     assert [job.id for job in catalogue.jobs(label="a").jobs] == [wanted.id]
-    assert [job.id for job in catalogue.jobs(owner="me").jobs] == [wanted.id]
     assert [job.id for job in catalogue.jobs(kind="sweep").jobs] == [other.id]
     assert [job.id for job in catalogue.jobs(state=JobState.queued).jobs] == [wanted.id]
     assert catalogue.jobs(kind="sweep", state=JobState.queued).jobs == ()
@@ -78,18 +77,17 @@ def test_a_page_is_bounded(catalogue: Catalogue, limit: int) -> None:
 def test_a_key_finds_the_earlier_job_until_it_is_forgotten(
     catalogue: Catalogue, clock: Clock
 ) -> None:
-    key = SubmissionKey("me", "key", "fingerprint", seconds=10)
+    key = SubmissionKey("key", "fingerprint", seconds=10)
     first = catalogue.submit(NEW, key)
     assert catalogue.submit(NEW, key).job.id == first.job.id
     with pytest.raises(KeyReused, match="use a new key"):
         catalogue.submit(NEW, replace(key, fingerprint="other"))
-    assert catalogue.submit(NEW, replace(key, owner="you")).created
     clock.now += 11
     assert catalogue.submit(NEW, replace(key, fingerprint="other")).created
 
 
 def test_one_key_sent_at_once_by_many_makes_one_job(catalogue: Catalogue) -> None:
-    key = SubmissionKey("", "key", "fingerprint")
+    key = SubmissionKey("key", "fingerprint")
     with ThreadPoolExecutor(8) as pool:
         answers = list(pool.map(lambda _: catalogue.submit(NEW, key), range(16)))
     assert sum(answer.created for answer in answers) == 1
@@ -268,15 +266,15 @@ def test_an_error_is_kept_word_for_word(catalogue: Catalogue, clock: Clock) -> N
 
 
 def test_a_duty_has_one_holder_at_a_time(catalogue: Catalogue, clock: Clock) -> None:
-    assert catalogue.hold_duty("relay", "a", 5)
-    assert not catalogue.hold_duty("relay", "b", 5)
-    assert catalogue.hold_duty("relay", "a", 5)
+    assert catalogue.take_lead("relay", "a", 5)
+    assert not catalogue.take_lead("relay", "b", 5)
+    assert catalogue.take_lead("relay", "a", 5)
     clock.now += 5
-    assert catalogue.hold_duty("relay", "b", 5)
-    catalogue.lay_down_duty("relay", "a")  # not its own any more
-    assert not catalogue.hold_duty("relay", "a", 5)
-    catalogue.lay_down_duty("relay", "b")
-    assert catalogue.hold_duty("relay", "a", 5)
+    assert catalogue.take_lead("relay", "b", 5)
+    catalogue.release_lead("relay", "a")  # not its own any more
+    assert not catalogue.take_lead("relay", "a", 5)
+    catalogue.release_lead("relay", "b")
+    assert catalogue.take_lead("relay", "a", 5)
 
 
 def test_ids_sort_by_time_also_within_a_millisecond_and_when_the_clock_steps_back() -> None:
@@ -291,7 +289,7 @@ def test_what_was_accepted_is_durable_and_progress_is_cheap(new_url: Callable[[]
     catalogue = Catalogue(new_url())
     modes = {}
     for durable in (True, False):
-        with catalogue._connections.writing(durable=durable) as connection:
+        with catalogue.connections.writing(durable=durable) as connection:
             modes[durable] = connection.exec_driver_sql("PRAGMA synchronous").scalar_one()
     assert modes == {True: 2, False: 1}  # FULL, NORMAL
     catalogue.close()
@@ -304,7 +302,7 @@ def test_a_database_that_is_no_file_is_refused() -> None:
 
 def test_a_reader_is_not_held_up_by_a_writer(catalogue: Catalogue) -> None:
     job = catalogue.submit(NEW).job.id
-    with catalogue._connections.writing():
+    with catalogue.connections.writing():
         assert catalogue.get(job).id == job
 
 

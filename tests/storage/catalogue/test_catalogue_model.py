@@ -116,7 +116,7 @@ class CatalogueModel(RuleBasedStateMachine):
           fingerprint=st.sampled_from(["one", "other"]))  # fmt: skip
     def submit(self, count: int, seal: bool, key: str | None, fingerprint: str) -> Any:
         new = NewJob("simulate", {"n": count}, "d" * 64, "1", blocks=((0, 1),) * count, seal=seal)
-        submission_key = SubmissionKey("", key, fingerprint, KEY_SECONDS) if key else None
+        submission_key = SubmissionKey(key, fingerprint, KEY_SECONDS) if key else None
         known = self.keys.get(key or "")
         if known and known[2] > self.now and known[1] != fingerprint:
             with pytest.raises(KeyReused):

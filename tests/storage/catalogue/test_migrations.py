@@ -2,14 +2,13 @@ import multiprocessing
 from pathlib import Path
 
 import pytest
-from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import create_engine
+from alembic.util import CommandError
 
-from jointplay.storage.catalogue import Catalogue, NewJob, schema, tables
+from jointplay.storage.catalogue import Catalogue, schema, tables
 
 
 def migrate(url: str) -> None:
@@ -21,7 +20,7 @@ def migrate(url: str) -> None:
 
 def test_migrations_build_exactly_the_tables_of_the_code(empty_catalogue: Path) -> None:
     catalogue = Catalogue(f"sqlite:///{empty_catalogue}")
-    with catalogue._connections.reading() as connection:
+    with catalogue.connections.reading() as connection:
         context = MigrationContext.configure(connection, opts={"compare_type": True})
         assert compare_metadata(context, tables.metadata) == []
     catalogue.close()
@@ -33,25 +32,16 @@ def test_the_code_knows_the_newest_revision() -> None:
     assert ScriptDirectory.from_config(configuration).get_current_head() == schema.REVISION
 
 
-def test_jobs_of_the_first_schema_are_kept(tmp_path: Path) -> None:
-    engine = create_engine(f"sqlite:///{tmp_path / 'old.sqlite'}")
-    configuration = Config()
-    configuration.set_main_option("script_location", "storage:migrations")
-    with engine.begin() as connection:
-        configuration.attributes["connection"] = connection
-        command.upgrade(configuration, "0001")
-        connection.exec_driver_sql(
-            "INSERT INTO job (id, kind, owner, spec, digest, solver_version, result_schema, state,"
-            " progress_time, progress_fraction, attempt, created)"
-            " VALUES ('A', 'simulate', '', '{\"duration\": 2}', 'd', '0', 1, 'succeeded',"
-            " 2, 1, 1, 5)"
-        )
-    engine.dispose()
-    catalogue = Catalogue(f"sqlite:///{tmp_path / 'old.sqlite'}")
-    catalogue.migrate()
-    job = catalogue.get("A")
-    assert (job.spec, job.state, job.activity) == ({"duration": 2}, "succeeded", None)
-    assert catalogue.submit_batch([NewJob("simulate", {}, "d" * 64, "1")]).batch.count == 1
+def test_a_catalogue_of_another_revision_is_left_alone(tmp_path: Path) -> None:
+    url = f"sqlite:///{tmp_path / 'old.sqlite'}"
+    migrate(url)
+    catalogue = Catalogue(url)
+    with catalogue.connections.writing() as connection:
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
+    with pytest.raises(CommandError, match="9999"):
+        catalogue.migrate()
+    with pytest.raises(RuntimeError, match="at revision 9999"):
+        catalogue.ping()
     catalogue.close()
 
 

@@ -35,7 +35,7 @@ def at_the_same_time(
 
     other = Catalogue(url)
     with ThreadPoolExecutor(len(submissions)) as threads:
-        with other._connections.writing():
+        with other.connections.writing():
             event.listen(Engine, "before_cursor_execute", count)
             waiting = [threads.submit(outcome, submission) for submission in submissions]
             while len(catalogue._submissions._waiting) < len(submissions) - 1:
@@ -76,14 +76,14 @@ def test_of_equal_jobs_one_is_made(new_url: Callable[[], str]) -> None:
 def test_whoever_is_refused_spoils_nothing(new_url: Callable[[], str]) -> None:
     url = new_url()
     catalogue = Catalogue(url)
-    catalogue.submit(NEW, SubmissionKey("", "known", "a"))
+    catalogue.submit(NEW, SubmissionKey("known", "a"))
     unstorable = replace(NEW, label="\ud800")  # not a text that has UTF-8
     bad = [
-        lambda: catalogue.submit(NEW, SubmissionKey("", "known", "b")),
+        lambda: catalogue.submit(NEW, SubmissionKey("known", "b")),
         lambda: catalogue.submit(unstorable),
     ]
     good = [
-        lambda k=k: catalogue.submit(NEW, SubmissionKey("", f"key {k % 9}", "c")) for k in range(18)
+        lambda k=k: catalogue.submit(NEW, SubmissionKey(f"key {k % 9}", "c")) for k in range(18)
     ]
     found, _ = at_the_same_time(catalogue, url, [*bad, *good])
     assert isinstance(found[0], KeyReused)
@@ -91,5 +91,5 @@ def test_whoever_is_refused_spoils_nothing(new_url: Callable[[], str]) -> None:
     assert len({answer.job.id for answer in found[2:]}) == 9  # each key came twice
     assert len(catalogue.jobs(limit=1000).jobs) == 10
     with pytest.raises(KeyReused):
-        catalogue.submit(NEW, SubmissionKey("", "known", "b"))
+        catalogue.submit(NEW, SubmissionKey("known", "b"))
     catalogue.close()
