@@ -1,4 +1,4 @@
-"""What every method and tolerance costs and buys, on every preset that integrates anything."""
+"""Cost and accuracy of every method and tolerance, on every preset that integrates anything."""
 
 import jointplay
 from jointplay.client import Refused

@@ -12,7 +12,7 @@ from jointplay.solver.kernels.loop.runs import Status
 
 PRESSES = 64
 CLEARANCES = [float(clearance) for clearance in np.linspace(3e-4, 6e-4, PRESSES)]
-"""Of as many presses, m."""
+"""Radial clearances of the presses, m."""
 
 
 def busy_lanes(

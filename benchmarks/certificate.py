@@ -1,4 +1,4 @@
-"""What a certificate costs: processor time of the press with and without one.
+"""Cost of a certificate: processor time of the press with and without one.
 
 One and a hundred revolutions of the press as it is shipped, with the friction of the publication's
 second part, and at 2.5 pi rad/s, where it impacts all the time. Runs with and without take turns;

@@ -1,4 +1,4 @@
-"""What a Lyapunov exponent costs: presses with tangent vectors against the evaluations they need.
+"""Cost of a Lyapunov exponent: presses with tangent vectors against the evaluations they need.
 
 Eight clearances, ten revolutions, tolerance 1e-6, no extremes sought. The evaluations alone are
 as many calls of the compiled equations, and of their derivatives, as the run makes. All times are
@@ -33,7 +33,7 @@ def repeat(address: int, work: Any, count: int) -> None:
 
 
 def calls(function: Any, bundle: Bundle, count: int) -> float:
-    """Return the seconds of so many calls of a lane function, the best of repeated tenths."""
+    """Return the seconds of `calls` calls of a lane function, the best of repeated tenths."""
     address, seconds = address_of(function, OVER_LANES), []
     for _ in range(REPEATS):
         begun = time.thread_time()

@@ -1,4 +1,4 @@
-"""What becomes of a run at each end of the ranges, as a table in Markdown.
+"""Outcome of a run at each end of the ranges, as a table in Markdown.
 
 A run that is done has finite samples, its energy ledger closes to within ten tolerances of the
 gross work, and while it is converged its certificate covers its true error; one that fails or is

@@ -1,9 +1,9 @@
-"""What a job of one revolution waits for beside its solver: from POST to its peaks.
+"""Latency of a job of one revolution beside its solver: from POST to its peaks.
 
     python -m benchmarks latency
 
 One warm worker, one job after the other.  The moments are those of the job's events, so that each
-step can be told: until a worker has it, until its results are sealed, until the client knows.
+step can be measured: until a worker has it, until its results are sealed, until the client knows.
 """
 
 import json
@@ -41,7 +41,7 @@ def one_job(http: httpx.Client) -> dict[str, float]:
     """Return the seconds of each step of a job."""
     sent = time.time()
     answer = http.post("/v1/jobs", json=JOB, headers={"Prefer": "wait=60"}).raise_for_status()
-    told = time.time()
+    known = time.time()
     address = answer.headers["Location"]
     http.get(f"{address}/peaks").raise_for_status()
     read = time.time()
@@ -52,8 +52,8 @@ def one_job(http: httpx.Client) -> dict[str, float]:
         "until a worker has it": happened["claimed"] - happened["queued"],
         "until it is computed, stored and sealed": happened["succeeded"] - happened["claimed"],
         "of these the solver": solver,
-        "until the client is told": told - happened["succeeded"],
-        "reading the peaks": read - told,
+        "until the client knows": known - happened["succeeded"],
+        "reading the peaks": read - known,
         "all but the solver": read - sent - solver,
     }
 

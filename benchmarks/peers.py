@@ -1,4 +1,4 @@
-"""What a user would write instead, beside a bare run of ours, at equal error, in one run.
+"""Peers: what a user would write instead, beside a bare run of ours, at equal error, in one run.
 
     taskset -c 0 python -m benchmarks peers
 
@@ -46,7 +46,7 @@ EXUDYN_RUNS = (*(("DOPRI5", tolerance) for tolerance in (1e-4, 1e-6, 1e-8, 1e-10
 """Tolerances, and a fixed step in s."""
 REPEATS = 9
 FIRST_STEP, LONGEST_STEP = 1e-7, 1e-3
-"""Of peers, s: a force that is zero at an onset misleads their choice of the first one."""
+"""First step of peers, s: a force that is zero at an onset misleads their own choice."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a bifurcation diagram asks of broker, catalogue and disk, against what one of each sustains.
+"""Demands of a bifurcation diagram on broker, catalogue and disk, against what each sustains.
 
     python -m benchmarks platform
 

@@ -1,4 +1,4 @@
-"""What a client of a long history waits for and transfers: opening, slices, overviews.
+"""Waiting and transfer of a client of a long history: opening, slices, overviews.
 
 The service runs in a process of its own; the store of ten million samples is written here.
 """

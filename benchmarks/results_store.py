@@ -1,4 +1,4 @@
-"""What the results store costs: creating, filling, sealing, reading.
+"""Cost of the results store: creating, filling, sealing, reading.
 
     python benchmarks/results_store.py [FOLDER]
 

@@ -1,4 +1,4 @@
-"""What a user waits for: the first run after installation, and the second one.
+"""Time to a first result: the first run after installation, and the second one.
 
 The first compiles everything into an empty cache and draws the figures; the second is a whole
 process again, from the interpreter's start to its end: imports, one revolution of the press, the

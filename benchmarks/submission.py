@@ -1,4 +1,4 @@
-"""How fast jobs are accepted, each durably: as many as go, and how long each waits at 50 a second.
+"""Rate at which jobs are accepted, each durably: the most, and each one's wait at 50 a second.
 
     python -m benchmarks submission
 

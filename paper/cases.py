@@ -13,7 +13,7 @@ from jointplay.paper.variants import Variant
 from jointplay.solver.scene import presets
 
 DURATION: Final = 2.0
-"""Of the response to the start, s: one revolution at the slowest speed that was published."""
+"""Duration of responses, s: one revolution at the slowest speed that was published."""
 STEP: Final = 1e-4
 """Between samples, s: half of the publication's, and smooth enough for paths."""
 LONG_STEP: Final = 2e-4

@@ -21,7 +21,7 @@ class Cell:
 
     @property
     def grade(self) -> str:
-        """How near ours is, in one word; empty where there is nothing to compare."""
+        """Nearness of ours in one word; empty where there is nothing to compare."""
         if self.ratio is None:
             return ""
         deviation = abs(self.ratio - 1.0)

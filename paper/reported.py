@@ -1,4 +1,4 @@
-"""What the publication prints: its numbers with their places, and the parameters they belong to."""
+"""Printed values: the publication's numbers, their places, and the parameters of each."""
 
 import json
 import math

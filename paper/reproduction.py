@@ -1,4 +1,4 @@
-"""The whole of it: compute, draw, write."""
+"""The whole reproduction: compute, draw, write."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from jointplay.worker.local.interruption import interruption
 RUNS = "runs"
 PAGE = "report.html"
 _DRAWING_FROM = 0.85
-"""Of the progress, computing; the rest draws."""
+"""Share of the progress that is computing; the rest is drawing."""
 
 
 def reproduce(folder: Path, size: Size, count: int | None, progress: Report) -> Path:

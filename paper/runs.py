@@ -18,7 +18,7 @@ from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.study_block import create_store, run_block, seal_store
 
 _SEALS_FROM: Final = 0.96
-"""Of the progress, computing; the rest makes the stores of studies durable."""
+"""Share of the progress that is computing; the rest makes stores of studies durable."""
 
 
 class RunFailed(Exception):

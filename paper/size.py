@@ -1,4 +1,4 @@
-"""How much a reproduction computes: the whole, or little of everything."""
+"""Extent of a reproduction: the whole, or little of everything."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -8,7 +8,7 @@ from jointplay.paper.variants import AS_PUBLISHED, CONSTANT, MOTIONS, SLIPS, VAR
 
 @dataclass(frozen=True)
 class Size:
-    """How much is computed. Periods are revolutions of the first driver.
+    """Extent of a reproduction. Periods are revolutions of the first driver.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Size:
         Starts from which these are computed, and how exactly: at the standard tolerance exponents
         of the stiffest contacts are off by a third, or positive where neighbours converge.
     thinning
-        Of the values of bifurcation diagrams every so many-th one is computed.
+        Stride through the values of bifurcation diagrams.
     diagram
         Periods of a diagram, left out and recorded.
     variants

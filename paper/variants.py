@@ -1,4 +1,4 @@
-"""How the publication is read where it does not print what is needed: variants of one model."""
+"""Readings of the publication where it does not print what is needed: variants of one model."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -40,12 +40,12 @@ class Variant:
 
     @property
     def parameters(self) -> dict[str, float | str]:
-        """What is set in the scene."""
+        """Parameters that are set in the scene."""
         return {"slip_velocity": self.slip.name, **dict(self.law.parameters)}
 
     @property
     def structure(self) -> tuple[str, float]:
-        """What kernels depend on."""
+        """Choices that kernels depend on."""
         return self.slip.name, dict(self.law.parameters).get("exponent", 1.5)
 
 

@@ -47,7 +47,6 @@ def test_what_the_documentation_says_works(language, text, service, tmp_path):
         env=os.environ | {"PATH": path, "JOINTPLAY_URL": service},
         capture_output=True,
         text=True,
-        timeout=240,
     )
     assert ended.returncode == 0, ended.stderr
     for made in re.findall(r"(?:-o|>) ([\w-]+(?:\.\w+)?)(?=[;\s]|$)", text):
@@ -72,7 +71,6 @@ def test_a_notebook_runs_from_its_first_to_its_last_cell(notebook, service, tmp_
         env=os.environ | {"JOINTPLAY_URL": service},
         capture_output=True,
         text=True,
-        timeout=240,
     )
     assert ended.returncode == 0, ended.stderr
     executed = (tmp_path / "executed.ipynb").read_text()

@@ -1,4 +1,4 @@
-"""`python -m worker`: a Celery worker as jointplay wants it."""
+"""`python -m jointplay.worker`: a Celery worker as jointplay wants it."""
 
 import argparse
 import os
@@ -14,8 +14,8 @@ for variable in (
 
 
 def main() -> None:
-    """Run a worker with so many processes until SIGTERM."""
-    parser = argparse.ArgumentParser(prog="python -m worker", description=__doc__)
+    """Run a worker, with a number of processes, until SIGTERM."""
+    parser = argparse.ArgumentParser(prog="python -m jointplay.worker", description=__doc__)
     parser.add_argument("--processes", type=int, default=1, help="blocks computed at a time")
     arguments = parser.parse_args()
 

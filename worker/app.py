@@ -1,4 +1,4 @@
-"""The Celery application: how workers hear of blocks. Imports no task code.
+"""The Celery application, through which workers are woken. Imports no task code.
 
 Celery only wakes workers; a message carries a block's id and may be lost or come twice. Hence
 messages are acknowledged before the work starts, nothing is prefetched, and there is no result

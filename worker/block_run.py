@@ -60,7 +60,7 @@ class BlockRun:
     def run(self) -> None:
         """Compute the block and tell the catalogue how it ended.
 
-        A block that turns out to be somebody else's is left alone without a word.
+        A block that another worker has taken over is left alone silently.
         """
         try:
             with self._lease:

@@ -23,11 +23,11 @@ _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
 
 class Answer(StrEnum):
-    """What the loop is told when it reports."""
+    """Answers to a loop that reports."""
 
     go_on = "continue"
     cancel = "cancel"  # close the store with what there is
-    leave = "leave"  # touch the store no more: somebody continues it, or it is not ours
+    leave = "leave"  # touch the store no more: another worker continues it, or it is not ours
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class RestartPoint:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a run is. `restart_point()` may be called until the report returns."""
+    """Progress of a run. `restart_point()` may be called until the report returns."""
 
     time: float  # simulated time [s]
     fraction: float  # 0..1
@@ -54,7 +54,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended; `left` means that it did not, and its store is open."""
+    """End of a run; `left` means that it did not, and its store is open."""
 
     state: EndState
     time: float  # simulated time reached [s]

@@ -44,14 +44,14 @@ class Lease:
         self._advanced = time.monotonic()
 
     def verdict(self) -> Verdict:
-        """Return whether to go on, reading only; Fenced if the block is somebody else's."""
+        """Return whether to go on, reading only; Fenced if another worker has the block."""
         self._refuse_when_fenced()
         return self._catalogue.verdict(self._block, self._attempt)
 
     def record_progress(
         self, simulated: float, fraction: float, steps: int | None = None
     ) -> Verdict:
-        """Store progress and extend the lease; Fenced if the block is somebody else's."""
+        """Store progress and extend the lease; Fenced if another worker has the block."""
         self._refuse_when_fenced()
         return self._catalogue.record_progress(
             self._block,

@@ -1,7 +1,7 @@
 """`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
 
 Reads one admitted job document a line and answers each with one line of JSON; ends with its
-input, or when nobody asked for a while. A job that is over within the budget is known exactly; of
+input, or when idle for a while. A job that is over within the budget is known exactly; of
 a longer one the pace at the end of the beginning is taken for the rest.
 """
 
@@ -41,7 +41,7 @@ _IDLE = 300.0  # s after which memory is given back
 
 @dataclass(frozen=True)
 class Cost:
-    """What a job takes: `seconds` of one core, accepted `steps`, `bytes` on the disk."""
+    """Cost of a job: `seconds` of one core, accepted `steps`, `bytes` on the disk."""
 
     seconds: float
     steps: int
@@ -54,7 +54,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Mark:
-    """How far a probe was."""
+    """Progress of a probe."""
 
     seconds: float
     fraction: float
@@ -100,7 +100,7 @@ def _of_simulation(admission: Admission) -> Cost:
 
 
 def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int]:
-    """Compute for so many seconds; return also the bytes of documents, and those of numbers."""
+    """Compute for a number of seconds; return also the bytes of documents, and those of numbers."""
     marks: list[Mark] = []
     began = time.process_time()
 

@@ -1,7 +1,7 @@
-"""Relay and reaper, `jointplay.worker.relay`: tells workers of queued blocks and ends leases.
+"""Relay and reaper, `jointplay.worker.relay`: announces queued blocks and ends lost leases.
 
 Several may run; the catalogue lets one of them at a time lead and do the work. If two ever overlap
-nothing breaks: a wake-up too many finds nothing to claim.
+nothing breaks: a redundant wake-up finds nothing to claim.
 """
 
 import logging
@@ -19,11 +19,11 @@ from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.removal import remove_expired
-from jointplay.worker.wake_up import Doorman
+from jointplay.worker.wake_up import WakeUpListener
 
 _TASK = "relay"
 _LEAD_SECONDS = 5.0
-_REMOVAL_PATIENCE = 2.0  # s; whoever relays next goes on with it
+_REMOVAL_PATIENCE = 2.0  # s; the next leader goes on with it
 _log = logging.getLogger(__name__)
 
 
@@ -100,13 +100,13 @@ def main() -> None:
     catalogue = Catalogue(settings.catalogue_url)
     catalogue.migrate()
     relay = Relay(catalogue, settings)
-    with Doorman(settings.redis_url) as doorman:
+    with WakeUpListener(settings.redis_url) as listener:
         while not stop.is_set():
             try:
                 relay.turn()
             except SQLAlchemyError as error:
                 _log.warning("the catalogue does not answer, trying again: %s", error)
-            doorman.wait(settings.relay_period)
+            listener.wait(settings.relay_period)
     relay.release_lead()
     catalogue.close()
 

@@ -28,7 +28,7 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class StudyProgress:
-    """How far a block is. `restart_point()` may be called until the report returns."""
+    """Progress of a block. `restart_point()` may be called until the report returns."""
 
     fraction: float  # 0..1, of the block
     watermark: int  # points that have ended

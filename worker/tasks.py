@@ -31,7 +31,7 @@ def _platform() -> tuple[Settings, Catalogue]:
 
 @app.task(name=RUN_BLOCK)  # type: ignore[untyped-decorator]
 def run_block(block: str) -> None:
-    """Compute a block if it is still to be had; a message too many does nothing."""
+    """Compute a block if it can be claimed; a redundant message does nothing."""
     settings, catalogue = _platform()
     if _draining.is_set():
         return

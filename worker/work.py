@@ -1,4 +1,4 @@
-"""What a claimed block asks for: a simulation, a block of a study, or the sealing of one."""
+"""Work of a claimed block: a simulation, a block of a study, or the sealing of one."""
 
 import logging
 import shutil
@@ -26,7 +26,7 @@ Kept = tuple[str, int]
 
 
 class AnyProgress(Protocol):
-    """How far a block is."""
+    """Progress of a block."""
 
     @property
     def time(self) -> float:
@@ -52,14 +52,14 @@ class Work(Protocol):
     """One claimed block's work."""
 
     recognised: bool
-    """Whether whoever takes the block again finds that it is done, and need not repeat it."""
+    """Whether a later attempt at the block finds that it is done, and need not repeat it."""
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Do it; `advanced` is for what has no slices."""
         ...
 
     def tidy(self) -> None:
-        """Remove what nobody needs when the job has ended."""
+        """Remove what is of no use once the job has ended."""
         ...
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from benchmarks.extreme_cases.case import JOURNAL, PRESS, THROWN, Case
 
 HERTZ = {"stiffness": 5e9}
-"""Of the press, so that its clearance may vary alone."""
+"""Parameters of the press, so that its clearance may vary alone."""
 
 
 def cases() -> Iterator[Case]:

@@ -1,4 +1,4 @@
-"""How much of a run's true error its certificate covers, where finer runs tell the true error."""
+"""Share of a run's true error that its certificate covers, where finer runs give that error."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ FINER = 1e-2
 """A reference has at most this share of the tolerance of what it judges."""
 DOUBT = 0.1
 ROUNDING = 1e-10
-"""Of a value: what a reference itself is off by, which for a constant is all there is."""
+"""Error of a value: what a reference itself is off by, which for a constant is all there is."""
 PATIENCE = 20.0
 """Seconds of computing that a run may take."""
 
 
 class Coverage(NamedTuple):
-    """Of the errors of a run, over channels and instants at which it is converged."""
+    """Coverage of the errors of a run, over channels and instants at which it is converged."""
 
     covered: float
-    """Share of those whose truth is known that the estimate covers; not a number: none is known."""
+    """Share of those whose truth is known that the estimate covers; NaN: none is known."""
     known: float
     """Share of which the truth is known."""
     converged: float
@@ -80,12 +80,12 @@ def coverage_of(job: dict[str, Any]) -> Coverage | None:
     estimate, rounding = certificate.error[within], ROUNDING * np.abs(truth)
     known = doubt <= DOUBT * np.maximum(estimate, error) + rounding
     covered = error <= estimate + rounding
-    told = known & (error > rounding) & (error > 0.0)
+    usable = known & (error > rounding) & (error > 0.0)
     return Coverage(
         float(covered[known].mean()) if known.any() else np.nan,
         float(known.mean()),
         float(within.mean()),
-        float(np.median(estimate[told] / error[told])) if told.any() else np.nan,
+        float(np.median(estimate[usable] / error[usable])) if usable.any() else np.nan,
     )
 
 

@@ -1,4 +1,4 @@
-"""``jointplay calibrate``: parameters of a scene that give the numbers somebody measured."""
+"""``jointplay calibrate``: parameters of a scene that give measured numbers."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a calibration found, as tables and sentences."""
+"""Findings of a calibration, as tables and sentences."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""What the figures of a sweep share: the runs that are compared, their colours, their curves."""
+"""Curves of the figures of a sweep: the runs that are compared, their colours, their curves."""
 
 from __future__ import annotations
 

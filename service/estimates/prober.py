@@ -53,7 +53,7 @@ class Prober:
             process.communicate()
 
     def _asked(self, line: bytes) -> dict[str, Any]:
-        for _ in range(2):  # it ends by itself when nobody asked for a while
+        for _ in range(2):  # it ends by itself when idle for a while
             process = self._process = self._alive()
             assert process.stdin is not None  # noqa: S101  (it was opened with pipes)
             try:

@@ -4,7 +4,7 @@ from pydantic import BaseModel, Field
 
 
 class Estimate(BaseModel):
-    """What a job will cost on the machine of the service."""
+    """Cost of a job on the machine of the service."""
 
     seconds: float = Field(
         description="Computing time of one core; compiling is not in it, nor waiting in the queue.",

@@ -43,8 +43,8 @@ def serve(host: str, port: int, data: Path, workers: int, *, as_json: bool = Fal
         sys.stdout.write(f"jointplay is ready at {url} (data in {data}; Ctrl-C stops it)\n")
         if not _is_loopback(host):
             sys.stdout.write(
-                "It listens beyond this machine and asks nobody for a password: whoever can"
-                " reach it can run jobs and read all results.\n"
+                "It listens beyond this machine and asks for no password: everyone who can reach"
+                " it can run jobs and read all results.\n"
             )
         sys.stdout.flush()
 

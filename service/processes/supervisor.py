@@ -38,7 +38,7 @@ class Supervisor:
     workers
         How many blocks are computed at a time.
     parent_pipe
-        A file descriptor that becomes readable when whoever started this ends.
+        A file descriptor that becomes readable when the starting process ends.
 
     Raises
     ------
@@ -156,7 +156,7 @@ class Supervisor:
             self._pause(wake, 0.05)
 
     def _pause(self, wake: int, seconds: float = _LOOK_AGAIN) -> None:
-        """Wait for a signal, for the end of our parent, or just so long."""
+        """Wait for a signal, for the end of our parent, or until the time is over."""
         watched = [wake] if self._parent_pipe is None else [wake, self._parent_pipe]
         ready, _, _ = select.select(watched, [], [], seconds)
         if wake in ready:

@@ -1,4 +1,4 @@
-"""Calibration: parameters of a scene that make its peaks those that somebody has measured.
+"""Calibration: parameters of a scene that make its peaks those that were measured.
 
 `problem.admit_calibration` checks a document, `measure.Measurement` computes what candidates give,
 `calibrate.calibrate` searches and returns an `outcome.Outcome`: what fits best, and the spread of

@@ -1,4 +1,4 @@
-"""What candidates give in one case: each is a run, eight of them to a kernel.
+"""Measured values of candidates in one case: each is a run, eight of them to a kernel.
 
 Lanes do not touch each other, so what a candidate gives depends on nothing but the candidate.
 """

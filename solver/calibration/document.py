@@ -85,7 +85,7 @@ class CalibrationCase(Strict):
 
 
 class Search(Strict):
-    """How long is searched: differential evolution, from a Latin hypercube."""
+    """Length of the search: differential evolution, from a Latin hypercube."""
 
     population: Annotated[
         int,
@@ -105,7 +105,7 @@ class Search(Strict):
 
 
 class Spread(Strict):
-    """What counts as fitting equally well, and how long is looked for more of it."""
+    """Limit of an equally good fit, and length of the search for more of them."""
 
     factor: Annotated[
         float,

@@ -38,17 +38,17 @@ def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
     quantiles = outcome.quantiles()
     for k, parameter in enumerate(calibration.space.names):
         declared = document["parameters"][parameter]
-        told = f" Fitted; 90 % of what fits equally well: {quantiles[0, k]:.3g} to "
-        told += f"{quantiles[-1, k]:.3g}."
-        declared["help"] = declared["help"][: LONGEST_HELP - len(told)] + told
+        note = f" Fitted; 90 % of what fits equally well: {quantiles[0, k]:.3g} to "
+        note += f"{quantiles[-1, k]:.3g}."
+        declared["help"] = declared["help"][: LONGEST_HELP - len(note)] + note
         declared["default"] = float(outcome.best[k])
         declared["inferred"] = True
-    told = f" Inferred: {', '.join(calibration.space.names)}, by a fit to {_targets(outcome)}"
-    told += f" (root mean square of the misses {outcome.cost:.2g} tolerances)."
+    note = f" Inferred: {', '.join(calibration.space.names)}, by a fit to {_targets(outcome)}"
+    note += f" (root mean square of the misses {outcome.cost:.2g} tolerances)."
     if calibration.job.description:
-        told += f" {calibration.job.description}"
+        note += f" {calibration.job.description}"
     said = document.get("description", "")
-    document["description"] = (said + told)[:LONGEST_DESCRIPTION]
+    document["description"] = (said + note)[:LONGEST_DESCRIPTION]
     try:
         Scene.model_validate(document)
     except ValidationError as error:

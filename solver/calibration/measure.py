@@ -1,4 +1,4 @@
-"""What candidates give in all cases."""
+"""Measured values of candidates in all cases."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Measurement:
         """Look at every target, or only at those that are fitted."""
         self.cases: list[CaseMeasure] = []
         self.columns: list[list[int]] = []
-        """Of each case: where its values stand among all targets."""
+        """By case: where its values stand among all targets."""
         self.indices: list[int] = []
         self.count = 0
         for index, case in enumerate(calibration.cases):
@@ -53,7 +53,7 @@ class Measurement:
             raise InvalidInput(problems)
 
     def __call__(self, candidates: Floats) -> Floats:
-        """Return (n, targets): not numbers where a run failed or a target is not looked at."""
+        """Return (n, targets): NaN where a run failed or a target is not looked at."""
         out = np.full((len(candidates), self.count), np.nan)
         for case, columns in zip(self.cases, self.columns, strict=True):
             out[:, columns] = case(candidates)

@@ -1,4 +1,4 @@
-"""What a calibration found: the best candidate, the spread around it, and every target's value."""
+"""Outcome of a calibration: the best candidate, the spread around it, and every target's value."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ AT_BOUND = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What fits best, and what fits equally well.
+    """Best parameters, and those that fit equally well.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Outcome:
 
     @property
     def misses(self) -> Floats:
-        """How far each target is missed, in tolerances, (targets,)."""
+        """Misses of the targets, in tolerances, (targets,)."""
         return self.calibration.goals.misses(self.values)
 
     def quantiles(self) -> Floats:
@@ -156,5 +156,5 @@ class Outcome:
 
 
 def _number(value: np.float64) -> float | None:
-    """JSON has no word for what is not a number."""
+    """Return a value for JSON, which has no NaN."""
     return float(value) if np.isfinite(value) else None

@@ -24,7 +24,7 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
 
 MOST_RUNS = 10_000_000
-"""Of a calibration: some hours."""
+"""Largest number of runs of a calibration: some hours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class CheckedCase:
     parameters: dict[str, float | str | None]
     targets: tuple[CalibrationTarget, ...]
     channels: tuple[Channel, ...]
-    """Of each target."""
+    """Channel of each target."""
     study: Study
     """A sweep over the corners: it makes the scene of any candidate."""
 
@@ -59,7 +59,7 @@ class Calibration:
     space: Space
     cases: tuple[CheckedCase, ...]
     goals: Goals
-    """Of all targets, case after case."""
+    """Goals of all targets, case after case."""
 
     @property
     def tolerance(self) -> float:
@@ -68,7 +68,7 @@ class Calibration:
 
     @property
     def seed(self) -> int:
-        """Of the search and of the spread."""
+        """Seed of the search and of the spread."""
         return self.job.search.seed
 
 

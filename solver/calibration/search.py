@@ -29,7 +29,7 @@ or by this (in tolerances)."""
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What a search came to.
+    """Result of a search.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
         costs.append(found)
         return found
 
-    def told(intermediate_result: OptimizeResult) -> None:
+    def note_generation(intermediate_result: OptimizeResult) -> None:
         best = min(float(found.min()) for found in costs)
         done = (len(costs) - 1) / settings.generations
         report(min(done, 1.0), f"best cost {best:.4g}")
@@ -83,7 +83,7 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
         tol=ALIKE,
         atol=NOTHING,
         rng=np.random.default_rng(settings.seed),
-        callback=told,
+        callback=note_generation,
         polish=False,
         init="latinhypercube",
         updating="deferred",

@@ -20,9 +20,9 @@ from jointplay.solver.calibration.search import Cost, Found, Report
 Floats = NDArray[np.float64]
 
 CHAINS = 64
-"""Chains, in two halves: whole octets of lanes."""
+"""Chains, in two halves: whole groups of lanes."""
 LONG_STEPS = 10
-"""Every so many generations steps are of full length, from one end of a set to the other."""
+"""Generations between steps of full length, from one end of a set to the other."""
 STIR = 1e-4
 """Standard deviation of what is added to each step, so that no direction is closed."""
 SETTLING = 4
@@ -31,7 +31,7 @@ SETTLING = 4
 
 @dataclass(frozen=True, eq=False)
 class EquallyGood:
-    """Candidates that fit as well as can be told.
+    """Candidates that fit equally well.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How far numbers are from the targets, in units of each target's tolerance."""
+"""Misses of the targets, in units of each target's tolerance."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def goals_of(targets: Sequence[CalibrationTarget]) -> Goals:
 
 
 def tolerance_of(target: CalibrationTarget) -> float:
-    """Return what counts as a miss of one, in the target's unit; zero if it cannot be told."""
+    """Return what counts as a miss of one, in the target's unit; zero if it is undetermined."""
     if target.absolute_tolerance is not None:
         return target.absolute_tolerance
     given = [target.value] if target.between is None else target.between

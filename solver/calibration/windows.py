@@ -19,14 +19,14 @@ from jointplay.solver.calibration.targets import grid_indices
 Floats = NDArray[np.float64]
 
 LAST_STEP = 1e-6
-"""Of a leg: length of a last step.  An extreme is noticed by its channel turning from one step to
+"""Length of a leg's last step.  An extreme is noticed by its channel turning from one step to
 the next; a step from which a long one turns, and after which a short one begins, misses none."""
 SAME = 1e-9
-"""Of a time: so close to the end of the run, an instant of the grid is the end."""
+"""Closeness of times: this near to the end of the run, an instant of the grid is the end."""
 
 
 class Windows:
-    """What a run has to be asked for, and the targets' values from what it answers."""
+    """Windows of a run that its targets need, and their values from its results."""
 
     def __init__(self, targets: Sequence[CalibrationTarget]) -> None:
         self.targets = tuple(targets)
@@ -37,7 +37,7 @@ class Windows:
         self.read = tuple(dict.fromkeys(target.channel for target in read))
         """Channels that are read off a grid."""
         self.step = next((target.sampled for target in read if target.sampled), 0.0)
-        """Of that grid, s; 0 if there is none."""
+        """Step of that grid, s; 0 if there is none."""
         ends = {time for target in watched for time in (target.start, target.stop) if time > 0.0}
         last = max((grid_indices(t.start, t.stop, self.step)[-1] for t in read), default=-1)
         if last * self.step > max(ends, default=0.0) * (1.0 + SAME):

@@ -20,7 +20,7 @@ from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
 Floats = NDArray[np.float64]
 
 ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
-"""Of the logarithm of a norm; no growth a block is known better, as rounding may always be up."""
+"""Rounding of the logarithm of a norm, the least error of a growth: it may always be upwards."""
 
 
 def exponent_from_growth(log_growth: Floats, block_time: float) -> Estimate:

@@ -14,7 +14,7 @@ from jointplay.solver.nonlinear.steadiness import change_between
 Floats = NDArray[np.float64]
 
 SETTLINGS = {"unsettled": 0, "recurrence": 1, "statistics": 2}
-"""How a motion settled, as it is stored; a code never changes its meaning."""
+"""Codes of settling, as they are stored; a code never changes its meaning."""
 
 EVERY = 16
 """Sections between two looks for a period."""
@@ -25,12 +25,12 @@ FIRST_COMPARISON = 128
 GROWTH = 4.0 / 3.0
 """… and the factor to each next time: few comparisons, so that few agree by chance."""
 SLOWEST = 0.99
-"""Largest q, of changes over a third of the look back: more cannot be told from noise."""
+"""Largest q, of changes over a third of the look back: more is indistinguishable from noise."""
 
 
 @dataclass(frozen=True)
 class Settled:
-    """How settling ended: `code` of `SETTLINGS`, after how many sections, and one sentence."""
+    """End of settling: `code` of `SETTLINGS`, after how many sections, and one sentence."""
 
     code: int
     count: int

@@ -21,7 +21,7 @@ TINY = float(np.finfo(np.float64).tiny)
 
 
 def change_between(windows: Sequence[Floats], tolerance: float) -> str:
-    """Say what changes between windows (n, d) of a motion; empty: nothing that can be told.
+    """Return what changes between windows (n, d) of a motion; empty: nothing noticeable.
 
     The windows follow one another, and any two must agree, in every column: their means and their
     standard deviations within three sampling errors, which count correlation, or within the

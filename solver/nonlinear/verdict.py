@@ -26,7 +26,7 @@ LOOSE = 0.01
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a motion is. `period`: in sections, 0 unless periodic. `reason`: one sentence."""
+    """Kind of motion. `period`: in sections, 0 unless periodic. `reason`: one sentence."""
 
     code: int
     period: int

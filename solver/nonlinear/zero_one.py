@@ -31,7 +31,7 @@ def zero_one_test(series: Floats, seed: int = 0, resolution: float | Floats = 0.
 
     series : (n,) or (n, d), one sample per forcing period (a Poincaré section). Samples closer in
         time hide chaos: K tends to 0 when the series looks smooth. n = 1000 or more; below 300 the
-        error is 1, which says that nothing can be told.
+        error is 1, which says that nothing is known.
     seed : of the 100 frequencies c, uniform in (π/5, 4π/5).
     resolution : (d,) or one number, unit of the series: a column whose whole range is no larger is
         constant. Without it the last bits of a motion of period 1 are analysed: the test has no

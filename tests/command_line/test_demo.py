@@ -38,9 +38,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_the_demo_prints_every_published_number_beside_ours_and_stops_everything(folder):
-    ended = subprocess.run(
-        [*DEMO, str(folder), "--json"], capture_output=True, text=True, timeout=240
-    )
+    ended = subprocess.run([*DEMO, str(folder), "--json"], capture_output=True, text=True)
     assert ended.returncode == 0, ended.stderr
     reported = presets.document("seven-bar-press")["reported"]
     rows = json.loads(ended.stdout)["comparison"]

@@ -54,7 +54,6 @@ def test_interrupted_waiting_says_how_to_come_back_and_leaves_the_job(http, work
         env=environment,
         capture_output=True,
         text=True,
-        timeout=60,
     )
     assert ended.returncode == 128 + signal.SIGINT
     assert f"jointplay show --wait {job_id}" in ended.stderr.splitlines()[-1]

@@ -20,8 +20,13 @@ def submit(catalogue: Catalogue, admission: Admission) -> str:
     return catalogue.submit(new).job.id
 
 
+def standing(catalogue: Catalogue, job: str) -> object:
+    """Return what changes while a worker has a job: leases, attempts, progress."""
+    return catalogue.get(job).state, catalogue.blocks(job)
+
+
 def ended(catalogue: Catalogue, job: str) -> Job:
-    until(lambda: catalogue.get(job).state.terminal)
+    until(lambda: catalogue.get(job).state.terminal, progress=lambda: standing(catalogue, job))
     return catalogue.get(job)
 
 
@@ -34,7 +39,7 @@ def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
         held = block.lease_until is not None and block.checkpoint is not None
         return held and block.progress_fraction > after
 
-    until(is_there)
+    until(is_there, progress=lambda: standing(catalogue, job))
     return catalogue.blocks(job)[0]
 
 

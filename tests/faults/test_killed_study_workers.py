@@ -3,12 +3,11 @@
 import os
 import signal
 import sqlite3
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from jobs import IMPATIENT, ended, pid_of
+from jobs import IMPATIENT, ended, pid_of, standing
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
@@ -65,7 +64,7 @@ def in_mid_block(catalogue: Catalogue, job: str, index: int, after: float = 0.0)
         held = block.lease_until is not None and block.checkpoint is not None
         return held and block.progress_fraction > after
 
-    until(is_there)
+    until(is_there, progress=lambda: standing(catalogue, job))
     return catalogue.blocks(job)[index]
 
 
@@ -114,20 +113,21 @@ def test_a_stopped_service_goes_on_with_a_study(
 @contextmanager
 def stalled(settings: Settings, process: int) -> Iterator[None]:
     """Stop a process, but not while it holds the catalogue, and let it go on at the end."""
-    deadline = time.monotonic() + 60
-    while True:
+
+    def is_stopped_outside_of_transactions() -> bool:
         os.kill(process, signal.SIGSTOP)
         database = sqlite3.connect(settings.data / "catalogue.sqlite", timeout=0.5)
         try:
             database.execute("BEGIN IMMEDIATE")
             database.rollback()
-            break
         except sqlite3.OperationalError:
             os.kill(process, signal.SIGCONT)
-            assert time.monotonic() < deadline
-            time.sleep(0.05)  # for it to end its transaction
+            return False
         finally:
             database.close()
+        return True
+
+    until(is_stopped_outside_of_transactions)
     try:
         yield
     finally:
@@ -168,11 +168,11 @@ def test_a_cancelled_study_ends_soon_and_keeps_what_it_computed(
         job = submit(catalogue, study)
         in_mid_block(catalogue, job, 0, after=0.3)
         assert catalogue.request_cancel(job).state is JobState.cancelling
-        asked = time.monotonic()
+        reached = catalogue.blocks(job)[0].progress_fraction
         finished = ended(catalogue, job)
-        took = time.monotonic() - asked
     assert finished.state is JobState.cancelled
-    assert took < 5  # a slice of computing and a restart point
+    # it goes on for a slice of a quarter second and a restart point, of some two seconds in all
+    assert catalogue.blocks(job)[0].progress_fraction < reached + 0.5
     reader = StudyReader(settings.running_study(job))
     assert not reader.complete
     assert reader.counts[:8].min() > 0

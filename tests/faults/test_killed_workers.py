@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 from pathlib import Path
 
 import pytest
@@ -121,11 +120,11 @@ def test_a_cancelled_job_keeps_what_it_computed(
         job = submit(catalogue, admission)
         in_mid_job(catalogue, job)
         assert catalogue.request_cancel(job).state is JobState.cancelling
-        asked = time.monotonic()
+        reached = catalogue.get(job).progress_fraction
         finished = ended(catalogue, job)
-        took = time.monotonic() - asked
     assert finished.state is JobState.cancelled
-    assert took < 5  # a slice of computing and the closing of the store
+    # it goes on for a slice of a quarter second, of some three seconds in all
+    assert finished.progress_fraction < reached + 0.5
     reader = sealed_run(settings, finished)
     assert not reader.complete
     reader.verify()

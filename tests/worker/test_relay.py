@@ -2,7 +2,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 from redis import Redis
@@ -11,7 +11,8 @@ from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue import Catalogue, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.relay import Relay
-from jointplay.worker.wake_up import Bell, Doorman
+from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher
+from tests.waiting import until
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
 FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"
@@ -22,13 +23,6 @@ def relay(catalogue: Catalogue, settings: Settings) -> Iterator[Relay]:
     relay = Relay(catalogue, settings)
     yield relay
     relay.release_lead()
-
-
-def until(condition: Callable[[], bool], act: Callable[[], None], patience: float = 20) -> None:
-    deadline = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < deadline
-        act()
 
 
 def test_a_message_carries_a_blocks_id_and_nothing_else(
@@ -48,7 +42,7 @@ def test_what_redis_forgot_is_told_again(relay: Relay, catalogue: Catalogue, red
     relay.turn()
     assert redis.llen(FRESH) == 3
     redis.flushall()
-    until(lambda: redis.llen(FRESH) == 3, relay.turn)
+    until(lambda: redis.llen(FRESH) == 3, act=relay.turn)
 
 
 def test_a_claimed_block_is_told_no_more(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
@@ -57,7 +51,7 @@ def test_a_claimed_block_is_told_no_more(relay: Relay, catalogue: Catalogue, red
     relay.turn()
     catalogue.claim_block(f"{job}-0", "worker", 30)
     redis.flushall()
-    until(lambda: redis.llen(FRESH) > 0, relay.turn)
+    until(lambda: redis.llen(FRESH) > 0, act=relay.turn)
     assert redis.llen(FRESH) == 1
     assert other in str(redis.lindex(FRESH, 0))
 
@@ -67,7 +61,7 @@ def test_the_block_of_a_silent_worker_is_queued_ahead_of_others(
 ) -> None:
     job = catalogue.submit(NEW).job.id
     catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
-    until(lambda: redis.llen(RECOVERED) == 1, relay.turn)
+    until(lambda: redis.llen(RECOVERED) == 1, act=relay.turn)
     assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost"]
 
 
@@ -78,15 +72,15 @@ def test_a_broker_that_dies_is_waited_for(
     relay.turn()
     assert broker.child.pid is not None
     os.kill(broker.child.pid, signal.SIGKILL)
-    until(lambda: not broker.child.alive, lambda: None)
+    until(lambda: not broker.child.alive)
     catalogue.submit(NEW)
     relay.turn()  # cannot send, must not raise
     broker.start()
     redis.flushall()
-    until(lambda: redis.llen(FRESH) == 2, relay.turn)
+    until(lambda: redis.llen(FRESH) == 2, act=relay.turn)
 
 
-def test_only_one_relay_is_on_duty(
+def test_only_one_relay_leads(
     relay: Relay, catalogue: Catalogue, settings: Settings, redis: Redis
 ) -> None:
     relay.turn()
@@ -101,26 +95,26 @@ def test_only_one_relay_is_on_duty(
     other.release_lead()
 
 
-def test_the_bell_ends_the_relays_wait(broker: Broker) -> None:
-    bell = Bell(broker.url)
+def test_a_wake_up_ends_the_relays_wait(broker: Broker) -> None:
+    publisher = WakeUpPublisher(broker.url)
     heard = threading.Event()
-    with Doorman(broker.url) as doorman:
+    with WakeUpListener(broker.url) as listener:
 
         def listen() -> None:
-            doorman.wait(60)
+            listener.wait(60)
             heard.set()
 
-        listener = threading.Thread(target=listen)
-        listener.start()
-        until(heard.is_set, lambda: (bell.ring(), heard.wait(0.05)))  # type: ignore[arg-type]
-        listener.join()
+        waiting = threading.Thread(target=listen)
+        waiting.start()
+        until(heard.is_set, act=lambda: (publisher.publish(), heard.wait(0.05)))
+        waiting.join()
 
 
 def test_without_redis_a_wait_is_just_a_wait() -> None:
     began = time.monotonic()
-    with Doorman("unix:///nowhere.sock") as doorman:
-        doorman.wait(0.2)
-    Bell("unix:///nowhere.sock").ring()
+    with WakeUpListener("unix:///nowhere.sock") as listener:
+        listener.wait(0.2)
+    WakeUpPublisher("unix:///nowhere.sock").publish()
     assert 0.2 <= time.monotonic() - began < 10
 
 
@@ -133,7 +127,7 @@ def test_the_results_of_deleted_jobs_are_removed(
         settings.running_folder(job).mkdir(parents=True)
         settings.sealed_run(job, 1).put([b"results"])
     catalogue.delete(deleted)
-    until(lambda: catalogue.get(deleted).removed is not None, relay.turn)
+    until(lambda: catalogue.get(deleted).removed is not None, act=relay.turn)
     assert not settings.running_folder(deleted).exists()
     assert not settings.sealed_run(deleted, 1).exists()
     assert settings.running_folder(kept).exists()

@@ -15,36 +15,10 @@ from pathlib import Path
 import pytest
 
 from jointplay.service.processes import StartFailed, WrongSetting, running_service, serve
-from tests.waiting import until
+from tests.waiting import descendants, is_alive, until
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
-PATIENCE = 30.0  # s
 SERVE = "from pathlib import Path; from jointplay.service.processes import serve; {call}"
-
-
-def descendants(pid: int) -> dict[int, str]:
-    """Process ids and command lines of everything a process has started."""
-    parents, commands = {}, {}
-    for entry in Path("/proc").glob("[0-9]*"):
-        try:
-            stat = (entry / "stat").read_text().rsplit(")", 1)[1].split()
-            commands[int(entry.name)] = (entry / "cmdline").read_text().replace("\0", " ")
-        except OSError:
-            continue
-        if stat[0] != "Z":
-            parents[int(entry.name)] = int(stat[1])
-    found, new = set(), {pid}
-    while new:
-        new = {child for child, parent in parents.items() if parent in new}
-        found |= new
-    return {child: commands[child] for child in found}
-
-
-def alive(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
 
 
 def healthy(url: str) -> bool:
@@ -78,8 +52,8 @@ def test_it_ends_cleanly_when_asked(tmp_path: Path, number: signal.Signals) -> N
         started = descendants(process.pid)
         assert len(started) >= 4  # broker, API, relay, worker
         process.send_signal(number)
-        assert process.wait(30) == 0
-        assert not [pid for pid in started if alive(pid)]
+        assert process.wait() == 0
+        assert not [pid for pid in started if is_alive(pid)]
     assert not list((tmp_path / "data" / "broker").glob("*.sock"))
 
 
@@ -87,7 +61,7 @@ def test_nothing_outlives_a_killed_supervisor(tmp_path: Path) -> None:
     with served(tmp_path / "data") as (process, _):
         started = descendants(process.pid)
         process.kill()
-        until(lambda: not any(alive(pid) for pid in started), PATIENCE)
+        until(lambda: not any(is_alive(pid) for pid in started))
 
 
 def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
@@ -104,10 +78,10 @@ def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
             before = find(words)
             assert before is not None
             os.kill(before, signal.SIGKILL)
-            until(partial(find_new, words, before), PATIENCE)
-        until(lambda: healthy(url), PATIENCE)
+            until(partial(find_new, words, before))
+        until(lambda: healthy(url))
         process.terminate()
-        assert process.wait(30) == 0
+        assert process.wait() == 0
 
 
 def test_a_folder_has_one_service(tmp_path: Path) -> None:
@@ -136,7 +110,7 @@ def test_a_background_service_ends_with_its_parent(tmp_path: Path) -> None:
             assert len(started) >= 5
         finally:
             parent.kill()
-    until(lambda: not any(alive(pid) for pid in started), PATIENCE)
+    until(lambda: not any(is_alive(pid) for pid in started))
 
 
 def test_a_taken_port_is_said(tmp_path: Path) -> None:

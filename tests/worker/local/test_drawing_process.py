@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -16,11 +15,10 @@ from jointplay.local.drawing_process import DrawingProcess
 from jointplay.solver.kinds import admit
 from jointplay.storage.packed import pack
 from tests.stores import files_of
-from tests.waiting import until
+from tests.waiting import is_alive, until
 
 CRANK = {"clearance": 1e-4, "duration": 0.05}
 ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks at /proc")
-PATIENCE = 120.0  # s; other tests run beside this one
 
 
 @pytest.fixture(scope="module")
@@ -60,18 +58,8 @@ def contents(folder):
     return {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
-def is_gone(pid):
-    """No such process, or one that only waits to be forgotten."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except FileNotFoundError:
-        return True
-
-
 def test_both_draw_the_same_bytes_as_one_alone(job, alone, second, tmp_path):
-    shared = Drawn(
-        job, lambda: until(lambda: len(list(tmp_path.iterdir())) >= len(alone) - 1, PATIENCE)
-    )
+    shared = Drawn(job, lambda: until(lambda: len(list(tmp_path.iterdir())) >= len(alone) - 1))
     draw_all(shared, tmp_path, second)
     assert len(alone) == 7
     assert len(shared.here) == 1  # the other one drew the rest
@@ -81,7 +69,7 @@ def test_both_draw_the_same_bytes_as_one_alone(job, alone, second, tmp_path):
 def test_what_a_killed_drawer_leaves_is_drawn_here(job, alone, second, tmp_path):
     def kill():
         if len(shared.here) == 1:
-            until(lambda: len(list(tmp_path.iterdir())) > 1, PATIENCE)  # it has drawn one at least
+            until(lambda: len(list(tmp_path.iterdir())) > 1)  # it has drawn one at least
             os.kill(second.pid, signal.SIGKILL)
 
     shared = Drawn(job, kill)
@@ -93,7 +81,7 @@ def test_what_a_killed_drawer_leaves_is_drawn_here(job, alone, second, tmp_path)
 @ON_LINUX
 def test_a_drawer_that_is_gone_before_leaves_all_figures_here(job, alone, second, tmp_path):
     os.kill(second.pid, signal.SIGKILL)
-    until(lambda: is_gone(second.pid), PATIENCE)
+    until(lambda: not is_alive(second.pid))
     draw_all(job, tmp_path, second)
     assert contents(tmp_path) == alone
 
@@ -138,9 +126,9 @@ def test_it_ends_with_the_process_that_started_it():
     )
     with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE) as process:
         pid = int(process.stdout.readline())
-        assert not is_gone(pid)
+        assert is_alive(pid)
         process.kill()
-    until(lambda: is_gone(pid), PATIENCE)
+    until(lambda: not is_alive(pid))
 
 
 @pytest.mark.parametrize(
@@ -178,4 +166,4 @@ def test_it_does_not_wait_for_an_order_for_ever():
         "drawing_program.main(0)\n"
     )
     with subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE) as process:
-        assert process.wait(PATIENCE) == 0
+        assert process.wait() == 0
