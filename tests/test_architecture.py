@@ -190,3 +190,14 @@ def test_importing_a_module_does_not_load(module, never):
 def test_version_control_ignores_what_the_targets_make():
     ignored = (ROOT / ".gitignore").read_text().split()
     assert {".venv/", "demo/", "__pycache__/", ".jointplay/"} <= set(ignored)
+
+
+def test_documents_name_files_that_are_there():
+    named = re.compile(r"`((?:[a-z_]+/)+[\w.-]*)`")
+    missing = [
+        f"{page.name}: {path}"
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+        for path in named.findall(page.read_text())
+        if (ROOT / path.partition("/")[0]).is_dir() and not (ROOT / path).exists()
+    ]
+    assert missing == []
