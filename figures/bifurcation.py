@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _MOST_PANELS = 6
 _FIRST_PANELS = 4
-"""Of the observables, when none are chosen."""
+"""Observables that are shown when none are chosen."""
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _EXPONENT_HEIGHT = 20.0
@@ -31,7 +31,7 @@ _AXIS_HEIGHT = 8.0
 
 @dataclass(frozen=True)
 class _Diagram:
-    """What all panels share."""
+    """Source, points, axis and groups, which all panels share."""
 
     source: StudySource
     points: slice

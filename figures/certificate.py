@@ -19,7 +19,7 @@ MOST_PANELS = 8
 _PANEL_HEIGHT = 30.0  # mm
 _AXIS_HEIGHT = 8.0
 _SMALLEST = 1e-12
-"""Of the largest error that a panel shows: errors below are drawn there."""
+"""Share of the largest error that a panel shows: errors below are drawn there."""
 
 
 def _of(source: Source) -> CertificateLike:

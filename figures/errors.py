@@ -1,4 +1,4 @@
-"""What can go wrong when a figure is asked for."""
+"""Errors of asking for a figure."""
 
 from collections.abc import Sequence
 

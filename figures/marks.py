@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 MOST_VALUES: Final = 4_000_000
-"""Of an observable's values in one picture; of more, every second, third, … section is taken."""
+"""Most values of an observable in one picture; of more, every second, third, … section is taken."""
 MOST_MARKS: Final = 100_000
-"""Of a colour; of more, those that lie within half a dot of each other become one."""
+"""Most marks of a colour; of more, those that lie within half a dot of each other become one."""
 _DOTS: Final = 2000
 _BLOCK: Final = 1_000_000
 _LARGEST, _SMALLEST = 1.6, 0.4  # diameter, points

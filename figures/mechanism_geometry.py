@@ -1,4 +1,4 @@
-"""Where the bodies, points and joints of a scene are, in world coordinates."""
+"""Bodies, points and joints of a scene in world coordinates."""
 
 from __future__ import annotations
 

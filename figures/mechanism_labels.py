@@ -26,7 +26,7 @@ _UP, _DOWN = math.pi / 2.0, -math.pi / 2.0
 # straight down first: a support apart, the space below a joint is where one looks for its name
 _DIRECTIONS = (_DOWN, _UP, *(math.pi * quarter / 4.0 for quarter in (-1, -3, 1, 3, 0, 4)))
 _ALONG = (0.0, 0.15, -0.15, 0.3, -0.3)
-"""Where along a body its name may stand, from the middle, in lengths of the body."""
+"""Places of a name along its body, from the middle, in lengths of the body."""
 
 
 _Box = tuple[float, float, float, float]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _COLUMNS = 2
 _INTERVALS = 6
-"""Of the axes of a panel as wide as the page, so that their numbers stand apart."""
+"""Intervals of the axes of a panel as wide as the page: their numbers stand apart."""
 _PANEL_HEIGHT = 47.0  # mm
 _WIDE_PANEL_HEIGHT = 78.0
 

@@ -22,7 +22,7 @@ _STYLES = (
     (page.BLACK, ":"),
     (page.GREY, "-"),
 )
-"""Colour and dashes: told apart in grey, too."""
+"""Colour and dashes: distinct in grey, too."""
 MOST_CURVES = len(_STYLES)
 
 

@@ -23,7 +23,7 @@ LEGEND_HEIGHT: Final = 5.0
 """Height of a legend above the panels [mm], for each row of it."""
 LEGEND_COLUMNS: Final = 4
 
-# Okabe and Ito 2008: told apart with any colour vision, and in grey
+# Okabe and Ito 2008: distinct with any colour vision, and in grey
 BLUE: Final = "#0072B2"
 VERMILION: Final = "#D55E00"
 BLACK: Final = "#000000"

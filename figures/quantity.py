@@ -16,7 +16,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Scale:
-    """How one axis shows its quantity: divided by `factor`, in `unit` ("" for a pure number)."""
+    """Scale of one axis: divided by `factor`, in `unit` ("" for a pure number)."""
 
     factor: float
     unit: str

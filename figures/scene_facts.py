@@ -1,4 +1,4 @@
-"""What figures need to know of the scene: declared outputs and clearance joints.
+"""Facts of a scene that figures need: declared outputs and clearance joints.
 
 Names come from the scene document alone; no mechanism is known here.
 """

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _MOST_PANELS = 8
 _COLUMNS = 2
 _INTERVALS = 8
-"""Of the axis of a panel as wide as the page, so that its numbers stand apart."""
+"""Intervals of the axis of a panel as wide as the page: its numbers stand apart."""
 _PANEL_HEIGHT = 40.0  # mm
 _SINGLE_HEIGHT = 65.0
 

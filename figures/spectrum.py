@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20
-"""Of a longer window its end, where transients are over."""
+"""Most samples: of a longer window its end is taken, where transients are over."""
 _PERIODS: Final = 8
-"""Of the drivers in one segment: their lines stand four steps of resolution clear of each other."""
+"""Periods of the drivers in one segment: their lines are four steps of resolution apart."""
 _MOST_SEGMENTS: Final = 15
 _DECADES: Final = 12
 """Shown below the strongest power: what lies deeper is rounding."""
 _COLUMNS: Final = 1000
-"""Of the page, on a logarithmic axis: each shows the largest and the smallest power in it."""
+"""Columns of the page on a logarithmic axis: each shows its largest and smallest power."""
 _NOTHING: Final = "fewer than 32 samples, or no change"
 _PANEL_HEIGHT, _AXIS_HEIGHT = 34.0, 8.0  # mm
 

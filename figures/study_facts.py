@@ -1,4 +1,4 @@
-"""What figures need to know of a study: its observables in pairs, its directions, its verdicts."""
+"""Facts of a study that figures need: observables in pairs, directions, verdicts."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -67,7 +67,7 @@ def chosen_observables(source: StudySource, selection: Selection) -> tuple[str, 
 
 
 def statistics(source: StudySource) -> tuple[Channel, ...]:
-    """Give the statistics of channels and joints whose meaning the study tells."""
+    """Give the statistics of channels and joints whose meaning the study gives."""
     meanings = source.attributes.get("meanings", {})
     return tuple(Channel(name, *meanings[name]) for name in source.statistics if name in meanings)
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _MOST_CURVES = 8
 _MOST_MAPS = 6
 _FIRST_PANELS = 4
-"""Of the channels, when none are chosen."""
+"""Channels that are shown when none are chosen."""
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _MAP_HEIGHT = 46.0
@@ -85,7 +85,7 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
 
 @dataclass(frozen=True)
 class _Row:
-    """What one row of panels shows: both extremes of a channel, or one statistic."""
+    """Content of one row of panels: both extremes of a channel, or one statistic."""
 
     panels: dict[str, Floats]
     """By what it is of the channel; "" is a statistic."""

@@ -1,4 +1,4 @@
-"""What accuracy costs: the error of every method and tolerance over its evaluations."""
+"""Work-precision diagram: the error of every method and tolerance over its evaluations."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _STYLES = (
     (page.BLACK, "D", ":"),
     (page.GREY, "v", "-"),
 )
-"""Colour, mark and dashes: told apart in grey, too."""
+"""Colour, mark and dashes: distinct in grey, too."""
 _MOST_ASTRAY = 0.05
 """Share of energy astray beyond which methods are refused."""
 
@@ -90,7 +90,7 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
 
 
 def _column(source: StudySource, name: str) -> Floats:
-    """Give (points,) of a number; not a number where no run has it yet."""
+    """Give (points,) of a number; NaN where no run has it yet."""
     return source.statistics.get(name, np.full(source.points, np.nan))
 
 

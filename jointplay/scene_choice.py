@@ -11,7 +11,7 @@ Scene = str | PathLike[str] | Mapping[str, Any]
 
 
 class NotAScene(ValueError):
-    """What was given is no scene, or has no such parameter; a sentence says what is wrong."""
+    """Raised for what is no scene, or has no such parameter; a sentence says what is wrong."""
 
 
 def scene_document(scene: Scene) -> Mapping[str, Any]:
@@ -51,8 +51,8 @@ def with_parameters(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict
     if unknown := [name for name in values if name not in declared]:
         known = ", ".join(declared) or "none"
         raise NotAScene(f"{unknown[0]}: the scene declares no such parameter; it has {known}.")
-    told = {
+    changed = {
         name: {**one, "default": values[name]} if name in values and isinstance(one, dict) else one
         for name, one in declared.items()
     }
-    return {**scene, "parameters": told}
+    return {**scene, "parameters": changed}

@@ -1,6 +1,6 @@
 """The certificate of a run as one document: how far its numbers can be believed.
 
-No error is told where the motion is not converged: there stands None.
+Errors are None where the motion is not converged.
 """
 
 from collections.abc import Mapping, Sequence

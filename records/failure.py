@@ -1,4 +1,4 @@
-"""What the solver refuses, and how it says so; it knows nothing of HTTP or storage."""
+"""Refusals and failures of the solver; HTTP and storage are unknown here."""
 
 from collections.abc import Iterable
 from typing import NamedTuple

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from typing import Any, Literal, Self
 
 ErrorClass = Literal["user", "solver", "platform", "limit"]
-"""Who can mend it: the user by another document, nobody but another tolerance or method, the
-operator, a smaller job."""
+"""Remedy: another document (user), another tolerance or method (solver), the operator (platform),
+a smaller job (limit)."""
 
 
 @dataclass(frozen=True)
 class JobError:
-    """Why a job failed."""
+    """Reason for which a job failed."""
 
     error_class: ErrorClass
     code: str
@@ -38,7 +38,7 @@ class JobError:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a job is."""
+    """Progress of a job."""
 
     time: float
     """Simulated time reached [s]; 0 for studies."""

@@ -23,7 +23,7 @@ class PointStatus(IntEnum):
 
 
 class Failure(NamedTuple):
-    """Why a point has no results, or not all."""
+    """Reason for which a point has no results, or not all."""
 
     code: str
     """The reason for programs, for example ``step-size-underflow``."""
@@ -70,7 +70,7 @@ class StudySlice:
     """Points' news since the last slice."""
 
     fraction: float
-    """Of the block, 0..1."""
+    """Part of the block that is done, 0..1."""
     started: Sequence[int]
     """Points whose computing began."""
     rows: Sequence[SectionRows]

@@ -1,4 +1,4 @@
-"""What figures and exports take: named channels over time, wherever they came from."""
+"""Readable results of one run: named channels over time, from whatever place."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Protocol
@@ -23,7 +23,7 @@ class NumbersLike(Protocol):
 
 
 class CertificateLike(Protocol):
-    """What is known of the errors of one run: a document, and arrays by name.
+    """Estimated errors of one run: a document, and arrays by name.
 
     The arrays are those that `records.certificate` names, their columns in the order of channels.
     """
@@ -78,4 +78,4 @@ class Source(Protocol):
         """Give the contacts in order of release: (j,) of dtype `records.impact.IMPACT`."""
 
     def certificate(self) -> CertificateLike | None:
-        """Give what is known of the errors; none where nobody asked for it, or not yet."""
+        """Give the estimated errors; none before the run's end, or where none were asked for."""

@@ -1,4 +1,4 @@
-"""What figures and exports of a study take: values, status, sections and peaks of many points."""
+"""Readable results of a study: values, status, sections and peaks of many points."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol

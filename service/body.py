@@ -39,7 +39,7 @@ async def _bounded(request: Request, largest: int) -> bytes:
 
 
 def _json_document(largest: int) -> Callable[[Request], Awaitable[object]]:
-    """Return what parses a body of at most so many bytes.
+    """Return a parser of bodies of at most `largest` bytes.
 
     The media type is insisted on: a browser sends a foreign page's ``text/plain`` here without
     asking, but not its ``application/json``.

@@ -1,4 +1,4 @@
-"""What endpoints need from the application: the catalogue, the settings, a job of the path."""
+"""Dependencies of endpoints on the application: the catalogue, the settings, a job of the path."""
 
 from datetime import UTC, datetime
 from typing import Annotated

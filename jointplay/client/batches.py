@@ -41,7 +41,7 @@ class Batch:
 
     @property
     def states(self) -> str:
-        """How many jobs are in each state, in words."""
+        """Numbers of jobs in each state, in words."""
         counts = [f"{count} {state}" for state, count in self.counts.items() if count]
         return f"{self.size} jobs: {', '.join(counts)}"
 

@@ -33,9 +33,9 @@ def _submitting(
 
     described = signature(describe)
     own = Parameter("self", Parameter.POSITIONAL_OR_KEYWORD)
-    told: Any = submit  # for those who ask with help() or a question mark
-    told.__name__, told.__doc__ = describe.__name__, describe.__doc__
-    told.__signature__ = described.replace(
+    described_method: Any = submit  # for those who ask with help() or a question mark
+    described_method.__name__, described_method.__doc__ = describe.__name__, describe.__doc__
+    described_method.__signature__ = described.replace(
         parameters=[own, *described.parameters.values()], return_annotation=Job
     )
     return submit

@@ -82,4 +82,4 @@ class NotFinished(Refused):
 
 
 class TimedOut(ClientError):
-    """What was waited for is not finished yet; it goes on."""
+    """Waiting took too long; the job goes on."""

@@ -63,12 +63,12 @@ class JobRecord:
 
     @property
     def is_finished(self) -> bool:
-        """Whether the state will not change any more."""
+        """True if the state will not change any more."""
         return self.state in TERMINAL_STATES
 
     @property
     def is_study(self) -> bool:
-        """Whether it has points, and not one history."""
+        """True if it has points, and not one history."""
         return "history" not in self.links
 
     @property
@@ -86,7 +86,7 @@ class JobRecord:
 
     @property
     def done_so_far(self) -> str:
-        """How far it is, in words: simulated time, or of a study the part of all its points."""
+        """Progress in words: simulated time, or of a study the part of all its points."""
         done = f"{self.progress.fraction:.0%}"
         return done if self.is_study else f"t = {self.progress.time:.4g} s ({done})"
 

@@ -36,7 +36,7 @@ class ReadableJob(JobRecord):
 
     @property
     def history(self) -> "xr.Dataset":
-        """Of a simulation: all channels over the samples, read from the store as they are used."""
+        """All channels of a simulation over the samples, read from the store as they are used."""
         tables.insist(self, "history", "history")
         return self.open()
 
@@ -90,27 +90,27 @@ class ReadableJob(JobRecord):
 
     @property
     def impacts(self) -> "pd.DataFrame":
-        """Of a simulation: contacts in order of release, one row each."""
+        """Contacts of a simulation in order of release, one row each."""
         return tables.impacts(self, self.results)
 
     @property
     def points(self) -> "pd.DataFrame":
-        """Of a study: values, status, verdict, indicators and statistics, one row a point."""
+        """Values, status, verdict, indicators and statistics of a study, one row a point."""
         return tables.points(self, self.results)
 
     @property
     def statistics(self) -> dict[str, Any]:
-        """Of a simulation: what it cost, and its energy ledger with the residual, in J."""
+        """Cost of a simulation, and its energy ledger with the residual, in J."""
         return self.results.statistics()
 
     @property
     def certificate(self) -> dict[str, Any]:
-        """Of a simulation: how far it can be believed; `NotFound` where there is none."""
+        """Certificate of a simulation; `NotFound` where there is none."""
         return self.results.certificate()
 
     @property
     def accuracy(self) -> dict[str, Any]:
-        """Of an accuracy-study: ``points`` with costs and errors as they are now, ``advice``."""
+        """Costs and errors of an accuracy-study's ``points`` as they are now, and ``advice``."""
         return self.results.accuracy()
 
     def study(

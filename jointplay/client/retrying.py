@@ -1,4 +1,4 @@
-"""Which exchanges are repeated, and how long to wait before."""
+"""Repetition of exchanges: which are repeated, and after which pause."""
 
 import random
 import time

@@ -59,7 +59,7 @@ application.add_typer(scene.application, name="scene")
 
 OBJECTS_BETWEEN_COLLECTIONS = 500_000
 """A command imports and draws: most objects live on, and Python would look at them all, and again,
-for a seventh of the time of a short run. So many objects that nobody needs take some 50 MB."""
+for a seventh of the time of a short run. That many objects of no more use take some 50 MB."""
 
 _WRONG_PATH = (
     FileNotFoundError,
@@ -76,20 +76,20 @@ def run(arguments: list[str] | None = None) -> int:
     try:
         code = application(arguments, prog_name="jointplay", standalone_mode=False)
     except (KeyboardInterrupt, typer.Abort):
-        return _told(Exit.INTERRUPTED, "interrupted")
+        return _reported(Exit.INTERRUPTED, "interrupted")
     except typer.TyperException as error:
-        return _told(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
+        return _reported(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
     except Exception as error:
-        told = _classified(error)
-        if told is None:
+        classified = _classified(error)
+        if classified is None:
             raise  # a fault of ours: the traceback is what helps
-        return _told(*told)
+        return _reported(*classified)
     if code == Exit.INTERRUPTED:  # typer's own way to say Ctrl-C
-        return _told(Exit.INTERRUPTED, "interrupted")
+        return _reported(Exit.INTERRUPTED, "interrupted")
     return int(code or Exit.OK)
 
 
-def _told(code: Exit, line: str) -> int:
+def _reported(code: Exit, line: str) -> int:
     sys.stderr.write(f"jointplay: {' '.join(line.split())}\n")
     return code
 

@@ -46,8 +46,8 @@ def demo(
         peaks = [job.results.peaks() for job in jobs]
         _fetch_figures(cases, jobs, output)
     if as_json:
-        told = {"source": scene["source"], "figures": str(output)}
-        print_json(told | {"comparison": document(cases, peaks)})
+        facts = {"source": scene["source"], "figures": str(output)}
+        print_json(facts | {"comparison": document(cases, peaks)})
         return
     typer.echo(f"everything is stopped\n\nsource: {scene['source']}")
     typer.echo("\n".join(table(cases, peaks)))

@@ -1,4 +1,4 @@
-"""What a job will cost, in words."""
+"""Expected cost of a job, in words."""
 
 from typing import TYPE_CHECKING
 

@@ -4,7 +4,7 @@ from enum import IntEnum
 
 
 class Exit(IntEnum):
-    """What a script can tell from the command's exit."""
+    """Exit codes, for scripts."""
 
     OK = 0
     BAD_INPUT = 2  # also wrong usage

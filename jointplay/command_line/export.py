@@ -35,7 +35,7 @@ def export(
         typer.Option(
             min=1,
             metavar="N",
-            help="At most so many pairs of smallest and largest values, as a screen shows them.",
+            help="Most pairs of smallest and largest values, as a screen shows them.",
         ),
     ] = None,
     form: Annotated[Form, typer.Option("--format", help="Text format.")] = "csv",

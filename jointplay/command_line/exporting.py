@@ -19,7 +19,7 @@ _OF_STUDIES = ("poincare", "points")
 
 
 class Asked(NamedTuple):
-    """What of the results to write, as it was typed."""
+    """Part of the results to write, as it was typed."""
 
     table: Table | None
     channels: str | None
@@ -42,7 +42,7 @@ class Asked(NamedTuple):
 
 
 class Text(NamedTuple):
-    """What is written, and about how many values that are."""
+    """Text to write, and about how many values it has."""
 
     pieces: Iterator[str]
     values: int

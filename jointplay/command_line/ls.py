@@ -12,9 +12,7 @@ from jointplay.command_line.output import AS_JSON, print_json
 
 
 def ls(
-    count: Annotated[
-        int, typer.Option("-n", "--count", min=1, help="Show at most so many jobs.")
-    ] = 20,
+    count: Annotated[int, typer.Option("-n", "--count", min=1, help="Most jobs to show.")] = 20,
     state: Annotated[
         str | None, typer.Option(help="Only jobs in this state, such as running.")
     ] = None,

@@ -38,8 +38,8 @@ def show(
         found = _results(job)
         if as_json:
             points = found.pop("points")
-            told = found | {"points": None if points is None else summary_of(points)}
-            print_json({"job": job.to_document(), **told})
+            shown = found | {"points": None if points is None else summary_of(points)}
+            print_json({"job": job.to_document(), **shown})
         else:
             _print_record(job)
             if job.is_finished and not any(found.values()):

@@ -1,4 +1,4 @@
-"""What became of a study, in a few lines and a table of its points."""
+"""Summary of a study: a few lines and a table of its points."""
 
 from collections import Counter
 from pathlib import Path
@@ -57,8 +57,8 @@ def print_points(source: "StudySource") -> None:
     summary = summary_of(source)
     for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):
         if counts is not None:
-            told = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
-            typer.echo(f"{heading:9} {told}")
+            listed = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
+            typer.echo(f"{heading:9} {listed}")
     done = source.status == PointStatus.done
     width = max((len(channel.name) for channel in source.channels), default=0)
     for channel in source.channels if done.any() else ():

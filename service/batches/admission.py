@@ -11,7 +11,7 @@ from jointplay.storage.catalogue import NewJob
 from jointplay.storage.settings import Settings
 
 _FIELDS = ("jobs", "label")
-_MOST_PROBLEMS = 100  # that are looked for: one problem document carries so many
+_MOST_PROBLEMS = 100  # that are looked for: as many as one problem document carries
 
 
 def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str]:

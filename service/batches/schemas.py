@@ -27,7 +27,7 @@ class BatchDocument(BaseModel):
 
 
 class BatchProgress(BaseModel):
-    """How far the whole batch is."""
+    """Progress of the whole batch."""
 
     fraction: float = Field(ge=0, le=1, description="0 to 1, every job weighing the same.")
 

@@ -1,1 +1,1 @@
-"""What happens to jobs, as it happens: waiting for their end, and streams of their events."""
+"""``/v1/jobs/{id}/events``: streams of what happens to jobs."""

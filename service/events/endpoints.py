@@ -62,7 +62,7 @@ async def show_events(
 ) -> Response:
     """Stream what happens to a job, and how far it is, until it is finished.
 
-    Events carry their number as `id`; whoever comes back with it as Last-Event-ID misses nothing.
+    Events carry their number as `id`; a client that sends it as Last-Event-ID misses nothing.
     Between them events of the type `progress`, without a number, say how far the job is.
     """
     if job.state.terminal:
@@ -80,19 +80,19 @@ async def _stream(
 ) -> AsyncIterator[bytes]:
     yield format_sse_event(retry=_COME_BACK)
     with watcher.watching(job.id) as watch:
-        async for glance in watch.changes(_QUIET):
-            if glance is None:
+        async for status in watch.changes(_QUIET):
+            if status is None:
                 yield format_sse_event(comment="the job goes on")
                 continue
-            while last < glance.last_event:
+            while last < status.last_event:
                 page = await run_in_threadpool(catalogue.events, job.id, after=last, limit=_PAGE)
                 if not page:
                     break
                 last = page[-1].seq
                 yield b"".join(map(_of_history, page))
-            progress = JobProgress.of(glance).model_dump_json()
+            progress = JobProgress.of(status).model_dump_json()
             yield format_sse_event(event="progress", data_str=progress)
-            if glance.state.terminal:
+            if status.state.terminal:
                 return
 
 

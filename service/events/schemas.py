@@ -33,7 +33,7 @@ class JobProgress(BaseModel):
 
     @classmethod
     def of(cls, status: JobStatus) -> Self:
-        """Show what the catalogue's status saw."""
+        """Show the catalogue's record."""
         return cls(
             state=status.state,
             activity=status.activity,

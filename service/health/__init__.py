@@ -1,1 +1,1 @@
-"""``/healthz`` and ``/readyz``: for whoever supervises the service."""
+"""``/healthz`` and ``/readyz``: for the service's supervisor."""

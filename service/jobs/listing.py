@@ -1,4 +1,4 @@
-"""Which jobs a list holds."""
+"""Filters of a list of jobs."""
 
 import re
 from datetime import UTC, datetime
@@ -23,7 +23,7 @@ Moment = Annotated[AwareDatetime, BeforeValidator(_written)]
 
 
 class JobQuery(PageQuery):
-    """Which jobs, and which page of them."""
+    """Filters, and a page of the list."""
 
     state: JobState | None = Field(default=None, description="Only jobs in this state.")
     kind: str | None = Field(

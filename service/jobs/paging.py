@@ -1,4 +1,4 @@
-"""Which page of a list of jobs."""
+"""Pages of a list of jobs."""
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -7,7 +7,7 @@ from jointplay.service.problems import RequestRefused
 
 
 class PageQuery(BaseModel):
-    """Which page of the list of jobs."""
+    """One page of the list of jobs."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

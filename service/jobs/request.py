@@ -1,4 +1,4 @@
-"""What a request says beside its job: whether an earlier result will do, how long to keep it."""
+"""Fields of a request beside its job: whether an earlier result will do, how long to keep it."""
 
 from datetime import UTC, datetime
 from typing import Any, NamedTuple
@@ -22,7 +22,7 @@ FIELDS: dict[str, dict[str, Any]] = {
 
 
 class Wishes(NamedTuple):
-    """What a request says beside the job."""
+    """Fields of a request beside the job."""
 
     cache: bool = True
     expires: float | None = None  # epoch seconds

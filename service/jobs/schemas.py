@@ -14,7 +14,7 @@ SECONDS: dict[str, Any] = {"unit": "s"}
 
 
 class Progress(BaseModel):
-    """How far a job is."""
+    """Progress of a job."""
 
     time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
     fraction: float = Field(ge=0, le=1, description="Part of the whole job, 0 to 1.")
@@ -22,14 +22,14 @@ class Progress(BaseModel):
 
 
 class JobError(BaseModel):
-    """Why a job failed."""
+    """Reason for which a job failed."""
 
     model_config = ConfigDict(serialize_by_alias=True, validate_by_name=True)
 
     error_class: ErrorClass = Field(
         alias="class",
-        description="Who can do something about it: the user (the job's document), nobody but "
-        "another tolerance (solver), the operator (platform), a smaller job (limit).",
+        description="What mends it: another document (user), another tolerance or method (solver), "
+        "the operator (platform), a smaller job (limit).",
     )
     code: str = Field(description="The reason for programs, for example step-size-underflow.")
     detail: str = Field(description="The reason, and what to try.")

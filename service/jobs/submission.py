@@ -14,7 +14,7 @@ from jointplay.worker.wake_up import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
     "required": True,
-    "description": "What to compute, told apart by its kind: all values in SI units.",
+    "description": "What to compute, by its kind; all values in SI units.",
     "content": {"application/json": {"schema": {"$ref": "#/components/schemas/JobDocument"}}},
 }
 
@@ -59,7 +59,7 @@ def _admitted(document: object) -> NewJob:
 def submit(
     catalogue: Catalogue, settings: Settings, document: object, key: SubmissionKey | None = None
 ) -> Submitted:
-    """Check the document, record the job durably, and wake whoever publishes it.
+    """Check the document, record the job durably, and wake the relay.
 
     Raises
     ------

@@ -16,7 +16,7 @@ _PREFERRED = re.compile(r"""(?:^|[,;])\s*wait\s*=\s*"?(\d{1,9})"?\s*(?=[,;]|$)""
 
 
 class WaitQuery(BaseModel):
-    """How long to wait for the end of a job."""
+    """Time to wait for the end of a job."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True)
 
@@ -30,7 +30,7 @@ class WaitQuery(BaseModel):
 
 
 class Patience:
-    """How long this request may be held back, and what holds it back."""
+    """Time for which this request may be held back, and the means to do so."""
 
     def __init__(
         self, watcher: Watcher, catalogue: Catalogue, response: Response, prefer: str | None
@@ -68,7 +68,7 @@ async def _patience(
         str | None,
         Header(
             description="`wait=10` (RFC 7240) holds the answer back until the job is finished, at "
-            "most so many seconds."
+            "most for that time."
         ),
     ] = None,
 ) -> Patience:

@@ -78,7 +78,7 @@ def _methods_at(request: Request) -> set[str]:
 
 @singledispatch
 def refusal(error: Exception) -> RequestRefused:
-    """Return what a client is told about an exception; nobody foresaw this one."""
+    """Return the answer to an exception; this one is of no known kind."""
     return RequestRefused(kinds.INTERNAL, "The service failed; its log says why.")
 
 

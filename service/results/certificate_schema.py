@@ -8,7 +8,7 @@ Span = tuple[float, float]
 
 
 class Exponent(BaseModel):
-    """How fast small deviations grew: a finite-time Lyapunov exponent over windows of the run."""
+    """Growth of small deviations: a finite-time Lyapunov exponent over windows of the run."""
 
     value: float = in_unit("1/s", "Mean over the windows.")
     error: float | None = in_unit("1/s", "Standard error of the mean; null of one window.")
@@ -19,7 +19,7 @@ class Exponent(BaseModel):
 
 
 class Violation(BaseModel):
-    """How far the constraints of joints and drivers were violated at most, at the samples."""
+    """Largest violation of the constraints of joints and drivers, at the samples."""
 
     position: float = in_unit("m", "Of positions.")
     angle: float = in_unit("rad", "Of angles.")
@@ -58,7 +58,7 @@ class Histogram(BaseModel):
 
 
 class ChannelCertificate(Described):
-    """How far one channel can be believed."""
+    """Estimated errors and extremes of one channel."""
 
     until: float | None = in_unit(
         "s", "Until when its error stays below a small share of its scale."
@@ -69,7 +69,7 @@ class ChannelCertificate(Described):
 
 
 class Certificate(Partial):
-    """How far a run can be believed."""
+    """Estimated errors of a run, and for how long they are known."""
 
     note: str
     horizon: float | None = in_unit("s", "Until when the trajectory itself is converged.")

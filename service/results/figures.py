@@ -52,7 +52,7 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 
 
 class FigureSelection(Selection):
-    """What a figure shows."""
+    """Selection of what a figure shows."""
 
     start: float | None = Field(
         default=None,

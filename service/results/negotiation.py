@@ -1,4 +1,4 @@
-"""Which form of an answer a client takes (RFC 9110, section 12.5.1)."""
+"""Negotiation of the form of an answer (RFC 9110, section 12.5.1)."""
 
 from collections.abc import Sequence
 from importlib.util import find_spec

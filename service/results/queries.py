@@ -1,4 +1,4 @@
-"""What a client can ask of results: channels and a window of time, within bounds."""
+"""Queries of results: channels and a window of time, within bounds."""
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -53,7 +53,7 @@ class HistoryQuery(Selection):
         default=None,
         ge=1,
         le=MOST_POINTS,
-        description="Show at most so many pairs of smallest and largest values, such as pixels of "
+        description="Most pairs of smallest and largest values to show, such as pixels of "
         "a screen; a window of no more samples is shown exactly. Default: every sample.",
     )
 
@@ -105,7 +105,7 @@ def check_points(points: int, channels: int) -> None:
         return
     sentence = (
         f"{points} pairs of {channels} channels are more than the {MOST_VALUES} values that one "
-        f"answer carries; of so many channels it carries {most} points."
+        f"answer carries; of these channels it carries {most} points."
     )
     raise RequestRefused.of_parameter(
         "points", sentence, kinds.RESPONSE_TOO_LARGE, remedy=f"Ask for at most {most} points."

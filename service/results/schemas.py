@@ -116,7 +116,7 @@ class Impacts(Partial):
 
 
 class EnergyLedger(BaseModel):
-    """Where the mechanism's energy came from and went, integrated along with the motion."""
+    """Energy that the mechanism took in and gave off, integrated along with the motion."""
 
     driver_work: float = in_unit("J", "Work of the drivers.")
     gravity_work: float = in_unit("J", "Work of gravity.")
@@ -136,7 +136,7 @@ class EnergyLedger(BaseModel):
 
 
 class Statistics(Partial):
-    """What a run cost, and its energy ledger; null where there is none."""
+    """Cost of a run, and its energy ledger; null where there is none."""
 
     method: str | None = Field(default=None, description="The integration method that ran.")
     method_reason: str | None = Field(

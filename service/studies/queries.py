@@ -1,4 +1,4 @@
-"""What a client can ask of a study: a range of points and of their sections, within bounds."""
+"""Queries of a study: a range of points and of their sections, within bounds."""
 
 from collections.abc import Sequence
 
@@ -52,7 +52,7 @@ class SweepQuery(PointRange):
 
 
 class PoincareQuery(Selection):
-    """What to show at Poincare sections: of a simulation by time, of a study by points."""
+    """Selection of Poincare sections: of a simulation by time, of a study by points."""
 
     start: float | None = Field(
         default=None,

@@ -12,7 +12,7 @@ PURE: dict[str, Any] = {"unit": "1"}
 
 
 class PointFailure(BaseModel):
-    """Why one point failed; what it recorded before is kept."""
+    """Failure of one point; what it recorded before is kept."""
 
     point: int
     code: str = Field(description="The reason for programs, for example step-size-underflow.")
@@ -122,7 +122,7 @@ class AccuracyPoint(BaseModel):
 
 
 class Accuracy(Partial):
-    """What every method and tolerance costs and buys, against a reference run."""
+    """Cost and error of every method and tolerance, against a reference run."""
 
     duration: float = Field(description="Simulated time of every run.", json_schema_extra=SECONDS)
     window: float | None = Field(

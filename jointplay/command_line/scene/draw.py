@@ -24,7 +24,7 @@ def draw(
     """Draw a mechanism as it stands at t = 0.
 
     One that does not close, or cannot be run for another reason, is drawn as far as it was put
-    together; the reason is told beside.
+    together; the reason stands beside it.
 
     Example: `jointplay scene draw mine.json -o mine.svg`
     """

@@ -106,7 +106,7 @@ def test_jobs_are_found_by_scene_and_by_the_time_of_their_submission(
     assert [job.id for job in window.jobs] == [second]
 
 
-def test_a_glance_shows_how_far_a_job_is(catalogue: Catalogue) -> None:
+def test_a_status_shows_how_far_a_job_is(catalogue: Catalogue) -> None:
     job = catalogue.submit(replace(NEW, blocks=((0, 1), (1, 1)))).job.id
     for index in (0, 1):
         catalogue.claim_block(f"{job}-{index}", "worker", 30)
