@@ -29,13 +29,13 @@ def _described(kind: str) -> Callable[..., Document]:
     def describe(*args: Any, **named: Any) -> Document:
         bound = signature.bind(*args, **named).arguments
         scene, parameters = bound.pop("scene"), bound.pop("given", {})
-        told = {
+        written = {
             name: _as_field(fields.get(name, {}), value)
             for name, value in bound.items()
             if value is not None
         }
         values = {name: _plain(value) for name, value in parameters.items()}
-        return {"kind": kind, "scene": with_parameters(scene_document(scene), values), **told}
+        return {"kind": kind, "scene": with_parameters(scene_document(scene), values), **written}
 
     shown: Any = describe  # for those who ask with help() or a question mark
     shown.__name__ = shown.__qualname__ = kind.replace("-", "_")

@@ -4,6 +4,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from typing import Any
 
 from sqlalchemy.exc import SQLAlchemyError
 
@@ -12,9 +13,9 @@ from jointplay.records.job import ErrorClass, JobError
 from jointplay.storage.catalogue import BlockState, Catalogue, Claim, Fenced, Verdict
 from jointplay.storage.results import ResultsError
 from jointplay.storage.settings import Settings
-from jointplay.worker.execute import Answer, Outcome
+from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.lease import Lease
-from jointplay.worker.work import AnyProgress, Kept, Work, work_of
+from jointplay.worker.work import Kept, Work, work_of
 
 _log = logging.getLogger(__name__)
 _BLOCK_STATES = {
@@ -60,7 +61,7 @@ class BlockRun:
     def run(self) -> None:
         """Compute the block and tell the catalogue how it ended.
 
-        A block that another worker has taken over is left alone silently.
+        A block that another worker has taken over is left alone without a word.
         """
         try:
             with self._lease:
@@ -120,7 +121,7 @@ class BlockRun:
     def _failed(self, error_class: ErrorClass, code: str, detail: str) -> Outcome:
         return Outcome("failed", *self._reached, JobError(error_class, code, detail))
 
-    def _report(self, progress: AnyProgress, keep: Callable[[], Kept]) -> Answer:
+    def _report(self, progress: Progress[Any], keep: Callable[[], Kept]) -> Answer:
         """Between two slices: soon notice a request to stop; about once a second, record."""
         self._lease.advanced()
         self._reports += 1

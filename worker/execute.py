@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Generic, Literal, TypeVar
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.records.job import JobError
@@ -23,7 +23,7 @@ _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
 
 class Answer(StrEnum):
-    """Answers to a loop that reports."""
+    """Reply to a report: whether the loop goes on."""
 
     go_on = "continue"
     cancel = "cancel"  # close the store with what there is
@@ -42,19 +42,23 @@ class RestartPoint:
     fraction: float  # 0..1
 
 
-@dataclass(frozen=True)
-class Progress:
-    """Progress of a run. `restart_point()` may be called until the report returns."""
+Kept = TypeVar("Kept", covariant=True)
 
-    time: float  # simulated time [s]
-    fraction: float  # 0..1
-    restart_point: Callable[[], RestartPoint]
-    steps: Callable[[], int | None] = lambda: None  # accepted steps so far
+
+@dataclass(frozen=True)
+class Progress(Generic[Kept]):
+    """State of a block between two slices. `restart_point()` is valid until the report returns."""
+
+    time: float  # simulated time [s]; 0 of a study
+    fraction: float  # 0..1, of the block
+    restart_point: Callable[[], Kept]
+    steps: Callable[[], int | None] = lambda: None  # accepted steps of this try so far
+    watermark: int = 0  # points of a study that have ended
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """End of a run; `left` means that it did not, and its store is open."""
+    """End of a run; `left` means that it did not end, and its store is open."""
 
     state: EndState
     time: float  # simulated time reached [s]
@@ -68,7 +72,7 @@ def execute(
     folder: Path,
     target: StoredObject,
     *,
-    report: Callable[[Progress], Answer | str],
+    report: Callable[[Progress[RestartPoint]], Answer | str],
     restart: RestartPoint | None = None,
     longest: float = math.inf,
 ) -> Outcome:
@@ -129,7 +133,7 @@ def _advance(
     slices: Iterator[Slice],
     writer: ResultWriter,
     folder: Path,
-    report: Callable[[Progress], Answer | str],
+    report: Callable[[Progress[RestartPoint]], Answer | str],
     begin: tuple[float, float],
 ) -> Outcome:
     """Run to the end, to an error, or to an answer other than to go on."""

@@ -1,8 +1,8 @@
 """`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
 
 Reads one admitted job document a line and answers each with one line of JSON; ends with its
-input, or when idle for a while. A job that is over within the budget is known exactly; of
-a longer one the pace at the end of the beginning is taken for the rest.
+input, or after five minutes without a question. A job that is over within the budget is known
+exactly; of a longer one the pace at the end of the beginning is taken for the rest.
 """
 
 import json
@@ -100,11 +100,11 @@ def _of_simulation(admission: Admission) -> Cost:
 
 
 def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int]:
-    """Compute for a number of seconds; return also the bytes of documents, and those of numbers."""
+    """Compute for `budget` seconds; return also the bytes of documents, and those of numbers."""
     marks: list[Mark] = []
     began = time.process_time()
 
-    def report(progress: Progress) -> Answer:
+    def report(progress: Progress[Any]) -> Answer:
         spent = time.process_time() - began
         marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
         return Answer.cancel if len(marks) > 1 and spent > budget else Answer.go_on

@@ -4,7 +4,7 @@ import logging
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from jointplay.records.channel import Channel
@@ -21,30 +21,13 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultsError
 from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
-from jointplay.worker.execute import Answer, Outcome
+from jointplay.worker.execute import Answer, Outcome, Progress
 
 _log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True)
-class StudyProgress:
-    """Progress of a block. `restart_point()` may be called until the report returns."""
-
-    fraction: float  # 0..1, of the block
-    watermark: int  # points that have ended
-    restart_point: Callable[[], str]
-    """Brings what was computed to the disk and returns the name to resume from."""
-    ended_steps: int = 0
-    """Accepted steps of the points that ended since this try began."""
-
-    @property
-    def time(self) -> float:
-        """Simulated time means nothing where many points are computed."""
-        return 0.0
-
-    def steps(self) -> int:
-        """Return the accepted steps."""
-        return self.ended_steps
+Report = Callable[[Progress[str]], Answer | str]
+"""Called between slices; a restart point is the name of what was brought to the disk."""
 
 
 def layout_of(study: Study) -> StudyLayout:
@@ -103,9 +86,11 @@ def run_block(
     index: int,
     folder: Path,
     *,
-    report: Callable[[StudyProgress], Answer | str] = lambda _: Answer.go_on,
+    report: Report = lambda _: Answer.go_on,
     attempt: int = 1,
     resume_from: tuple[str, float] | None = None,
+    layout: StudyLayout | None = None,
+    longest: float = math.inf,
 ) -> Outcome:
     """Compute a block and write it to the study's store, which is made if need be.
 
@@ -125,6 +110,10 @@ def run_block(
     resume_from
         What a restart point of an earlier try returned, and the fraction of the block at which it
         was made. Where it is no good the block begins anew.
+    layout
+        The study's, if it is at hand.
+    longest
+        Seconds of computing after which the block fails.
 
     Returns
     -------
@@ -141,20 +130,7 @@ def run_block(
     OSError
         The store cannot be written.
     """
-    return run_laid_out(study, layout_of(study), index, folder, report, attempt, resume_from)
-
-
-def run_laid_out(
-    study: Study,
-    layout: StudyLayout,
-    index: int,
-    folder: Path,
-    report: Callable[[StudyProgress], Answer | str],
-    attempt: int,
-    resume_from: tuple[str, float] | None,
-    longest: float = math.inf,
-) -> Outcome:
-    """As `run_block`, with the study's layout at hand; it fails after `longest` seconds."""
+    layout = layout or layout_of(study)
     create(folder, layout)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
@@ -168,7 +144,8 @@ def run_laid_out(
         return block.flush(computation.checkpoint())
 
     while True:
-        answer = Answer(report(StudyProgress(fraction, block.watermark, restart_point, steps)))
+        known = partial(int, steps)
+        answer = Answer(report(Progress(0.0, fraction, restart_point, known, block.watermark)))
         if answer is Answer.leave:
             return Outcome("left", 0.0, fraction)
         if answer is Answer.cancel:

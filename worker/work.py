@@ -1,10 +1,10 @@
-"""Work of a claimed block: a simulation, a block of a study, or the sealing of one."""
+"""The work of a claimed block: a simulation, a block of a study, or the sealing of one."""
 
 import logging
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
@@ -17,7 +17,7 @@ from jointplay.storage.studies import StudyLayout, seal
 from jointplay.worker import checkpoints
 from jointplay.worker.checkpoints import UnusableRestartPoint
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
-from jointplay.worker.study_block import StudyProgress, layout_of, run_laid_out
+from jointplay.worker.study_block import layout_of, run_block
 
 _log = logging.getLogger(__name__)
 
@@ -25,26 +25,7 @@ Kept = tuple[str, int]
 """Name of a restart point on the disk, and the samples or points that readers may see."""
 
 
-class AnyProgress(Protocol):
-    """Progress of a block."""
-
-    @property
-    def time(self) -> float:
-        """Simulated time, s; 0 where it means nothing."""
-        ...
-
-    @property
-    def fraction(self) -> float:
-        """0..1, of the block."""
-        ...
-
-    @property
-    def steps(self) -> Callable[[], int | None]:
-        """Return the accepted steps of this try, as far as they are known."""
-        ...
-
-
-Report = Callable[[AnyProgress, Callable[[], Kept]], Answer]
+Report = Callable[[Progress[Any], Callable[[], Kept]], Answer]
 """Called between two slices; the second argument brings a restart point to the disk."""
 
 
@@ -52,14 +33,14 @@ class Work(Protocol):
     """One claimed block's work."""
 
     recognised: bool
-    """Whether a later attempt at the block finds that it is done, and need not repeat it."""
+    """Whether a second attempt at the block finds that it is done, and need not repeat it."""
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Do it; `advanced` is for what has no slices."""
         ...
 
     def tidy(self) -> None:
-        """Remove what is of no use once the job has ended."""
+        """Remove what is of no use when the job has ended."""
         ...
 
 
@@ -80,7 +61,7 @@ class SimulationWork:
         if (outcome := self._adopted(target)) is not None:
             return outcome
 
-        def between_slices(progress: Progress) -> Answer:
+        def between_slices(progress: Progress[RestartPoint]) -> Answer:
             return report(progress, lambda: self._keep(progress.restart_point()))
 
         return execute(
@@ -147,20 +128,20 @@ class StudyWork:
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Compute the block's points, from the restart point of the attempt before if any."""
 
-        def between_slices(progress: StudyProgress) -> Answer:
+        def between_slices(progress: Progress[str]) -> Answer:
             return report(progress, lambda: (progress.restart_point(), progress.watermark))
 
         block = self._block
         name = block.checkpoint
-        return run_laid_out(
+        return run_block(
             self._study,
-            self._layout,
             block.index,
             self._folder,
-            between_slices,
-            block.attempt,
-            None if name is None else (name, block.progress_fraction),
-            self._longest,
+            report=between_slices,
+            attempt=block.attempt,
+            resume_from=None if name is None else (name, block.progress_fraction),
+            layout=self._layout,
+            longest=self._longest,
         )
 
     def tidy(self) -> None:

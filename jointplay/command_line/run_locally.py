@@ -52,17 +52,17 @@ def run(
         with progress(output.name) as report:
             compute(admission, output, processes, report)
         job = load(output)
-        told: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None}
+        shown: dict[str, Any] = {"peaks": None, "points": None, "accuracy": None}
         if "accuracy" in job.links:
-            told |= _of_accuracy(job, output, as_json)
+            shown |= _of_accuracy(job, output, as_json)
         elif isinstance(admission, Study):
-            told |= _of_study(job, output, as_json)
+            shown |= _of_study(job, output, as_json)
         else:
-            told |= _of_simulation(job, output, second, as_json)
+            shown |= _of_simulation(job, output, second, as_json)
     if as_json:
-        print_json({"job": job.to_document(), **told})
+        print_json({"job": job.to_document(), **shown})
     job.check()
-    points = told["points"]
+    points = shown["points"]
     if points is not None and len(points["failures"]) == points["number"]:
         raise Stopped(Exit.FAILED, "every point failed; the first one says why above")
 

@@ -106,7 +106,7 @@ class _One:
         alike = len({tuple(problems) for problems in failed.values()}) == 1
         if len(failed) > 1 and alike:
             raise InvalidInput(failed[0])
-        raise InvalidInput(self.told(failed, len(failed)))
+        raise InvalidInput(self.at_values(failed, len(failed)))
 
     def refuse(self, suspects: NDArray[np.bool_]) -> None:
         """Check the suspects one by one; refuse those that fail."""
@@ -120,9 +120,9 @@ class _One:
             if len(failed) == MOST_NAMED:
                 break
         if failed:
-            raise InvalidInput(self.told(failed, count))
+            raise InvalidInput(self.at_values(failed, count))
 
-    def told(self, failed: Mapping[int, list[Problem]], count: int) -> list[Problem]:
+    def at_values(self, failed: Mapping[int, list[Problem]], count: int) -> list[Problem]:
         """Return the problems of points at their values, one a place, of `count` like them."""
         if not self.points.axes:
             return failed[0]
@@ -192,7 +192,7 @@ def _mechanisms(
         varies = bool(shapes) or any(True for _ in structure_columns(scenes))
         everywhere = not found and alike and (len(failed) > 1 or not varies)
         problems = next(iter(failed.values()))
-        raise InvalidInput(problems if everywhere else one.told(failed, len(failed)))
+        raise InvalidInput(problems if everywhere else one.at_values(failed, len(failed)))
     return tuple(found[index] for index in range(len(found)))
 
 

@@ -1,4 +1,4 @@
-"""Whether a channel can cross a value at all: a section that is never taken is refused."""
+"""Sections at a value that a channel cannot cross are refused: they would never be taken."""
 
 from __future__ import annotations
 

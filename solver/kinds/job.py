@@ -51,7 +51,7 @@ SceneChoice = Annotated[
 
 
 class MechanismJob(Strict):
-    """What every kind of job says: the mechanism, and the form of its equations."""
+    """Fields of every kind: the mechanism, and the form of its equations."""
 
     kind: str
     scene: SceneChoice
@@ -68,7 +68,7 @@ class MechanismJob(Strict):
 
 
 class Job(MechanismJob):
-    """What all kinds say but one that tries every method: how the motion is computed."""
+    """Fields of every kind but the one that tries every method: how the motion is computed."""
 
     tolerance: Annotated[
         float | None,

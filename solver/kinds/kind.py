@@ -26,7 +26,7 @@ class Kind(ABC, Generic[J]):
 
     @property
     def name(self) -> str:
-        """How documents ask for it."""
+        """Name by which documents ask for it."""
         return str(get_args(self.document.model_fields["kind"].annotation)[0])
 
     @abstractmethod

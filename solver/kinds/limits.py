@@ -1,4 +1,4 @@
-"""How much a job may ask for."""
+"""Limits of a job: lengths, counts and bytes."""
 
 from jointplay.records.failure import LimitExceeded, Problem
 from jointplay.solver.runs.study.plan import Study
@@ -13,11 +13,11 @@ BYTES_PER_VALUE = 8.0
 DEFAULT_SAMPLES = 2000
 
 MOST_POINTS = 100_000
-"""Of a study."""
+"""Points of a study."""
 MOST_GEOMETRIES = 2000
-"""Of a study, or structures: each takes about two milliseconds to put together."""
+"""Geometries or structures of a study: each takes about two milliseconds to put together."""
 MOST_PERIODS = 1e8
-"""Of all points of a study together."""
+"""Periods of all points of a study together."""
 LONGEST_SETTLING = 2000
 """Periods after which "settle": "auto" stops waiting."""
 EVENT_PATIENCE = 20
@@ -25,11 +25,11 @@ EVENT_PATIENCE = 20
 LONGEST_ACCURACY_STUDY = 100
 """Periods: each of some fifty runs takes that long, and references at the tightest tolerance."""
 MOST_STATISTICS = 512
-"""Of channels and contacts, a point: each is an array of its own."""
+"""Statistics of channels and contacts a point: each is an array of its own."""
 MOST_SAMPLES_OF_STATISTICS = 1e10
-"""Of all points of a study together: some hours of looking at them."""
+"""Samples of all points of a study together: some hours of looking at them."""
 BYTES_PER_POINT = 512.0
-"""Of a study beside sections and peaks: status, statistics, indicators."""
+"""Bytes of a study beside sections and peaks: status, statistics, indicators."""
 
 
 def check_count(count: int, pointer: str) -> None:

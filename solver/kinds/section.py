@@ -1,4 +1,4 @@
-"""Where Poincare sections are taken: at a crank angle, at onsets of contact, at a crossing."""
+"""Poincare sections: taken at a crank angle, at onsets of contact, or at a crossing."""
 
 from typing import Annotated, Any, Literal
 

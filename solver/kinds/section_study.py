@@ -94,7 +94,7 @@ J = TypeVar("J", bound=SectionStudyJob)
 
 
 class SectionStudy(Kind[J]):
-    """What `bifurcation`, `poincare` and `ensemble` share; a member says which points it has."""
+    """A kind of sections, as `bifurcation`, `poincare` and `ensemble`; a member has its points."""
 
     @abstractmethod
     def points(self, job: J) -> Points:

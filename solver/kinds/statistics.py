@@ -1,4 +1,4 @@
-"""Whether the statistics that a sweep asks for can be had, and how many they are."""
+"""Statistics that a sweep asks for: whether they can be had, and how many they are."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def statistic_count(names: Sequence[str], channels: int, joints: int) -> int:
 
 
 def check_statistics(names: Sequence[str], joints: Collection[str], channels: int) -> None:
-    """Refuse statistics that cannot be had of the joints with clearance and so many channels.
+    """Refuse statistics that cannot be had of these joints with clearance, or are too many.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a simulation hands out: slices while it runs, a summary at any time."""
+"""Results of a simulation: slices while it runs, a summary at any time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Slice:
-    """What became known since the last slice; samples and sections continue without gaps."""
+    """Results since the last slice; samples and sections continue without gaps."""
 
     time: float
     """Simulated time reached, s."""

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 class Perturbation(NamedTuple):
-    """Of an ensemble's starts: standard deviation in the scales of `start_scales`, and seed."""
+    """Spread of an ensemble's starts, a standard deviation in `start_scales`, and its seed."""
 
     spread: float
     seed: int

@@ -30,7 +30,7 @@ SHARE = 0.1
 FEWER = 20
 TIGHTER = 1e-3
 """The implicit method gets this share of the tolerance: where friction chatters, its steps pass
-over so many kinks that at the same tolerance it loses up to 600 times the energy that it may."""
+over many kinks, so that at the same tolerance it loses up to 600 times the energy that it may."""
 LEAST = 1e-13
 """Smallest tolerance of a job."""
 PIECE = 100
@@ -39,7 +39,7 @@ LANE = 0
 
 
 def is_open(admission: Admission) -> bool:
-    """Whether a run has to show first how steps of the explicit method bring it on."""
+    """Whether the method is chosen only after steps of the explicit one were seen."""
     possible = TIGHTER * admission.tolerance >= LEAST
     return bool(admission.job["method"] == "auto" and admission.method == EXPLICIT and possible)
 

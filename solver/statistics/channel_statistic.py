@@ -27,7 +27,7 @@ class ChannelStatistic(Protocol):
 
     @property
     def long_name(self) -> str:
-        """What it is, in words that "of" may follow."""
+        """Its name in words that "of" may follow."""
         ...
 
     def begin(self, grid: Grid, channels: int) -> Floats:

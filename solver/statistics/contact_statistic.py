@@ -21,12 +21,12 @@ class ContactStatistic(Protocol):
 
     @property
     def unit(self) -> str:
-        """Of the statistic."""
+        """Unit of the statistic."""
         ...
 
     @property
     def long_name(self) -> str:
-        """What it is, in words."""
+        """Its name in words."""
         ...
 
     def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:

@@ -1,4 +1,4 @@
-"""How many contacts began."""
+"""Count of contacts that began."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_o
 
 
 class MeanAbsolute:
-    """Of the samples."""
+    """Mean absolute value of the samples."""
 
     long_name = "mean absolute value"
 

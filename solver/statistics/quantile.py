@@ -1,4 +1,4 @@
-"""Quantiles: of all samples while there are few, else of every so many, evenly over the time."""
+"""Quantiles: of all samples while there are few, else of every nth, evenly over the time."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Quantile:
         return np.zeros((-(-grid.samples // stride(grid)), channels))
 
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
-        """Keep every so many."""
+        """Keep every nth."""
         every = stride(grid)
         kept = values[-before % every :: every]
         first = -(-before // every)

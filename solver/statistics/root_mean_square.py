@@ -8,7 +8,7 @@ from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_o
 
 
 class RootMeanSquare:
-    """Of the samples."""
+    """Root mean square of the samples."""
 
     long_name = "root mean square"
 

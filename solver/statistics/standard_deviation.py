@@ -12,7 +12,7 @@ from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_o
 
 
 class StandardDeviation:
-    """Of the samples."""
+    """Standard deviation of the samples."""
 
     long_name = "standard deviation"
 

@@ -11,8 +11,8 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.studies import StudyReader
-from jointplay.worker.execute import Answer
-from jointplay.worker.study_block import StudyProgress, run_block, seal_store
+from jointplay.worker.execute import Answer, Progress
+from jointplay.worker.study_block import run_block, seal_store
 from tests.stores import packed, target
 
 JOB = {
@@ -66,7 +66,7 @@ def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
     names: list[str] = []
 
     def leave_after(points: int) -> Any:
-        def report(progress: StudyProgress) -> Answer:
+        def report(progress: Progress[str]) -> Answer:
             if progress.watermark < points:
                 return Answer.go_on
             names.append(progress.restart_point())

@@ -22,11 +22,13 @@ def admission() -> Admission:
     return admit(JOB)
 
 
-def after(slices: int, answer: Answer, points: list[RestartPoint]) -> Callable[[Progress], Answer]:
+def after(
+    slices: int, answer: Answer, points: list[RestartPoint]
+) -> Callable[[Progress[RestartPoint]], Answer]:
     """Let so many slices pass, then take a restart point and give an answer."""
     seen = 0
 
-    def report(progress: Progress) -> Answer:
+    def report(progress: Progress[RestartPoint]) -> Answer:
         nonlocal seen
         seen += 1
         if seen <= slices:

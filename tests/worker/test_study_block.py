@@ -12,13 +12,10 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.storage.errors import IncompleteStudy
 from jointplay.storage.results import StoreExists
 from jointplay.storage.studies import StudyReader
-from jointplay.worker.execute import Answer, Outcome
+from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.study_block import (
-    StudyProgress,
     create_store,
-    layout_of,
     run_block,
-    run_laid_out,
     seal_store,
 )
 from tests.stores import packed, target
@@ -57,11 +54,11 @@ def write(study: Study, folder: Path) -> Path:
     return packed(folder)
 
 
-def after(slices: int, answer: Answer, names: list[str]) -> Callable[[StudyProgress], Answer]:
+def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress[str]], Answer]:
     """Let so many slices pass, then take a restart point and give an answer."""
     seen = 0
 
-    def report(progress: StudyProgress) -> Answer:
+    def report(progress: Progress[str]) -> Answer:
         nonlocal seen
         seen += 1
         if seen <= slices:
@@ -159,14 +156,14 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
 def test_a_block_that_is_done_is_not_computed_again(study: Study, tmp_path: Path) -> None:
     assert run_block(study, 1, tmp_path).state == "succeeded"
 
-    def report(progress: StudyProgress) -> str:
+    def report(progress: Progress[str]) -> str:
         raise AssertionError("nothing is to be computed")
 
     assert run_block(study, 1, tmp_path, report=report, attempt=2).state == "succeeded"
 
 
 def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) -> None:
-    def report(progress: StudyProgress) -> Answer:
+    def report(progress: Progress[str]) -> Answer:
         return Answer.cancel if progress.fraction > 0.4 else Answer.go_on
 
     outcome = run_block(study, 0, tmp_path, report=report)
@@ -185,9 +182,7 @@ def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) 
 def test_a_block_that_computes_too_long_fails_with_what_it_has(
     study: Study, tmp_path: Path
 ) -> None:
-    outcome = run_laid_out(
-        study, layout_of(study), 0, tmp_path, lambda _: Answer.go_on, 1, None, longest=0.0
-    )
+    outcome = run_block(study, 0, tmp_path, longest=0.0)
     assert outcome.state == "failed"
     assert outcome.error is not None
     assert (outcome.error.error_class, outcome.error.code) == ("limit", "time-limit")

@@ -59,11 +59,11 @@ def _simulation(
     admission: "Admission", running: Path, target: StoredObject, report: Report
 ) -> "Outcome":
     report(0.0, "preparing the kernel")
-    from jointplay.worker.execute import Progress, execute
+    from jointplay.worker.execute import Progress, RestartPoint, execute
 
     with interruption() as asked_to_end:
 
-        def go_on(done: Progress) -> str:
+        def go_on(done: Progress[RestartPoint]) -> str:
             report(done.fraction, f"t = {done.time:.4g} s")
             return "cancel" if asked_to_end() else "continue"
 

@@ -66,12 +66,13 @@ def compute(
 
 def _here(study: "Study", folder: Path, count: int, report: Report) -> bool:
     """Compute all blocks in this process, one after the other."""
-    from jointplay.worker.study_block import StudyProgress, run_block
+    from jointplay.worker.execute import Progress
+    from jointplay.worker.study_block import run_block
 
     with interruption() as asked_to_end:
         for index, (first, count) in enumerate(study.blocks):
 
-            def go_on(done: StudyProgress, first: int = first, count: int = count) -> str:
+            def go_on(done: Progress[str], first: int = first, count: int = count) -> str:
                 ended = first + done.watermark
                 fraction = (first + count * done.fraction) / study.points
                 report(fraction, f"{ended} of {study.points} points")
@@ -113,9 +114,10 @@ def _study(job: str) -> "Study":
 
 def _block(job: str, folder: str, index: int, advance: Advance) -> str:
     """Compute one block and return how it ended."""
-    from jointplay.worker.study_block import StudyProgress, run_block
+    from jointplay.worker.execute import Progress
+    from jointplay.worker.study_block import run_block
 
-    def go_on(done: StudyProgress) -> str:
+    def go_on(done: Progress[str]) -> str:
         return "continue" if advance(done.fraction, done.watermark) else "cancel"
 
     return run_block(_study(job), index, Path(folder), report=go_on).state

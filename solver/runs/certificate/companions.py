@@ -162,7 +162,7 @@ class Companions:
         return np.concatenate([np.zeros((0, width)), *self.rows[lane]])
 
     def values(self, columns: NDArray[np.int64]) -> Floats:
-        """Return channels of lanes 1 to 7, (7, instants, columns); not a number: not reached."""
+        """Return channels of lanes 1 to 7, (7, instants, columns); NaN: not reached."""
         found = np.full((BUNDLE - 1, len(self.instants.index), len(columns)), np.nan)
         for lane in range(1, BUNDLE):
             rows = self.dense(lane)

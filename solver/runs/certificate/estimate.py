@@ -37,7 +37,7 @@ LASTING = 8
 def estimated_error(values: Floats) -> Floats:
     """Return the estimated error, (instants, channels), in the channels' units.
 
-    values : (7, instants, channels) of lanes 1 to 7; not a number where one was left behind.
+    values : (7, instants, channels) of lanes 1 to 7; NaN where one was left behind.
     Infinite where there are not two left to compare.
     """
     compared = [lane - 1 for lane in (TIGHTEST, TIGHTER, *PERTURBED)]
@@ -47,7 +47,7 @@ def estimated_error(values: Floats) -> Floats:
     distances += [
         np.abs(values[lane - 1] - values[TIGHTEST - 1]) / LADDER[lane - 1] for lane in LOOSER
     ]
-    with warnings.catch_warnings():  # of instants that nobody reached
+    with warnings.catch_warnings():  # of instants that no lane reached
         warnings.simplefilter("ignore", RuntimeWarning)
         apart = np.nanmax(distances, axis=0)
     return SAFETY * around(np.where(np.isnan(apart), np.inf, apart))

@@ -41,7 +41,7 @@ class Exponent:
     highest: float
     windows: int
     time: float
-    """Of all windows, s."""
+    """Length of all windows, s."""
 
 
 class Windows:
@@ -73,7 +73,7 @@ class Windows:
         aligning = math.ceil(ALIGNING * self.attempts)
         goal = aligning if self.bundle.attempts < aligning else self.attempts
         running = self._grow(min(budget, goal - self.bundle.attempts))
-        while self.bundle.behind:  # a window is so many attempts, of all lanes alike
+        while self.bundle.behind:  # a window is a number of attempts, of all lanes alike
             running = self._grow(self.bundle.behind)
         if self.bundle.attempts == aligning:
             still = self.bundle.runs["status"] == Status.RUNNING

@@ -31,7 +31,7 @@ class Survey:
         self.violation = Violation(problem.scene, bundle.kernel.row) if lagrange else None
         self.windows: Windows | None = None
         self.goes_on = True
-        """Whether there is something left to compute."""
+        """True while something is left to compute."""
 
     @property
     def time(self) -> float:
@@ -39,7 +39,7 @@ class Survey:
         return self.companions.time
 
     def advance(self, budget: int) -> None:
-        """Make at most so many attempts: of trajectory and companions, then of windows."""
+        """Make at most `budget` attempts: of trajectory and companions, then of windows."""
         if self.bundle.lane(RUN).running:
             self._follow(budget)
             return
@@ -53,7 +53,7 @@ class Survey:
         self.goes_on = self.windows.advance(budget)
 
     def _follow(self, budget: int) -> int:
-        """Make attempts until a lane ends, at most so many; return how many."""
+        """Make attempts until a lane ends, at most `budget`; return how many."""
         before = self.bundle.attempts
         self.bundle.advance(self.companions.allowance(budget))
         self.companions.collect()

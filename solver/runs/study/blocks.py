@@ -1,4 +1,4 @@
-"""How the points of a study are cut: into chains of continuation, and into blocks of work.
+"""Chains of continuation and blocks of work that the points of a study are cut into.
 
 Nothing here depends on the workers: the same study always has the same chains and blocks.
 """

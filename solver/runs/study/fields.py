@@ -1,23 +1,22 @@
-"""What a scene's fields say of the numbers in them: whether they are admissible, what they decide.
+"""Numbers that vary from point to point: whether their fields admit them, what they decide.
 
-All points of a study are looked at together: a column of numbers against the one field that they
-go to, with the same validation as that of the whole document.
+Validating the whole scene of each point would take half a millisecond a point, five seconds of a
+study of ten thousand: only the field that a number goes to is validated, once for each value.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, get_args
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
-from pydantic.fields import FieldInfo
 
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
-from jointplay.solver.runs.study.scenes import PointScenes, value_at
+from jointplay.solver.runs.study.scenes import PointScenes, replaced, value_at
 from jointplay.solver.scene.document import Revolute, Scene
 
 Floats = NDArray[np.float64]
@@ -36,15 +35,22 @@ HARMLESS = re.compile(
 
 
 def inadmissible(scenes: PointScenes) -> NDArray[np.bool_]:
-    """Return (points,) at which a number is not one that its field takes."""
+    """Return (points,) at which a number is not one that its field takes.
+
+    Each value is put into the field that it goes to, which is validated as in a whole document.
+    """
     bad = np.zeros(len(scenes.values), np.bool_)
     for leaf in scenes.leaves:
-        numbers: Any = list[_type_at(scenes.base, leaf.path)]  # type: ignore[misc]
-        adapter: TypeAdapter[Any] = TypeAdapter(numbers, config=_CONFIG)
+        owner, field, inside = _owner(scenes.base, leaf.path)
+        values, which = np.unique(scenes.column(leaf), return_inverse=True)
+        own = getattr(owner, field)
+        fields: Any = list[type(owner).model_fields[field].rebuild_annotation()]  # type: ignore[misc]
+        adapter: TypeAdapter[Any] = TypeAdapter(fields, config=_CONFIG)
         try:
-            adapter.validate_python(scenes.column(leaf).tolist())
+            adapter.validate_python([replaced(own, inside, value) for value in values.tolist()])
         except ValidationError as error:
-            bad[[int(item["loc"][0]) for item in error.errors(include_input=False)]] = True
+            wrong = {int(item["loc"][0]) for item in error.errors(include_input=False)}
+            bad |= np.isin(which, list(wrong))
     return bad
 
 
@@ -90,41 +96,18 @@ def _is_clearance(scene: Scene, path: str) -> bool:
 
 
 def _structural(scene: Scene, path: str) -> tuple[float, ...]:
-    field = _field_at(scene, path)
-    extra = None if field is None else field.json_schema_extra
+    """Return values of a number that decide the form of the equations."""
+    owner, field, inside = _owner(scene, path)
+    extra = None if inside else type(owner).model_fields[field].json_schema_extra
     found = extra.get("structural", ()) if isinstance(extra, dict) else ()
     return tuple(float(value) for value in found)  # type: ignore[union-attr,arg-type]
 
 
-def _field_at(scene: Scene, path: str) -> FieldInfo | None:
-    """Return the field that a number stands in directly, not as an item of a list or an object."""
-    parent, _, last = path.rpartition("/")
-    owner = value_at(scene, parent) if parent else scene
-    return type(owner).model_fields.get(last) if isinstance(owner, BaseModel) else None
-
-
-def _type_at(scene: Scene, path: str) -> Any:
-    """Return the annotated type of what stands at a path."""
-    node: Any = scene
-    annotation: Any = Scene
-    for key in path.strip("/").split("/"):
+def _owner(scene: Scene, path: str) -> tuple[BaseModel, str, list[str]]:
+    """Return the innermost part that a number stands in, its field, and the keys inside that."""
+    keys = path.strip("/").split("/")
+    for depth in range(len(keys) - 1, 0, -1):
+        node = value_at(scene, "/".join(keys[:depth]))
         if isinstance(node, BaseModel):
-            field = type(node).model_fields[key]
-            annotation = (
-                Annotated[field.annotation, *field.metadata]
-                if field.metadata
-                else (field.annotation)
-            )
-            node = getattr(node, key)
-        else:
-            annotation = _item_type(annotation)
-            node = node[key] if isinstance(node, Mapping) else node[int(key)]
-    return annotation
-
-
-def _item_type(annotation: Any) -> Any:
-    """Return the type of an item of a list or object whose type may be annotated."""
-    arguments = get_args(annotation)
-    if hasattr(annotation, "__metadata__"):
-        return _item_type(arguments[0])
-    return arguments[-1]
+            return node, keys[depth], keys[depth + 1 :]
+    return scene, keys[0], keys[1:]

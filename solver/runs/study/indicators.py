@@ -22,7 +22,7 @@ MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
 FEWEST_FOR_SPECTRUM = 16
 LATE = 0.1
-"""Of a period: growth is noted with the first step beyond its end, a hundredth of it at most."""
+"""Share of a period: growth is noted with the first step beyond its end, 0.01 of it at most."""
 
 
 def indicators_of(

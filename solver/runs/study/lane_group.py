@@ -141,7 +141,7 @@ class LaneGroup:
             take_contacts(study, run, contacts)
 
     def _goes_on(self, lane: int, run: PointRun) -> bool:
-        """Whether a lane at the end of a leg was given the next one."""
+        """Give a lane at the end of a leg the next one; return whether there was one."""
         if run.settled >= 0:
             return False
         study, point, bundle = self.study, run.point, self.bundle

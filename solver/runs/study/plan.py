@@ -42,9 +42,9 @@ class Study:
     """Channels whose peaks are kept per point; may be none."""
     indicators: tuple[str, ...]
     perturbation: Perturbation | None
-    """Of the starts of points that differ in nothing else; none: the scene's start rule."""
+    """Perturbation of starts of points that differ in nothing else; none: the start rule."""
     blocks: tuple[tuple[int, int], ...]
-    """(first, count) of contiguous points. Without continuation whole octets, 64 points at most,
+    """(first, count) of contiguous points. Without continuation whole bundles, 64 points at most,
     the last one shorter; with it up to eight whole chains of one direction, of any length."""
     chain_of: Integers
     """(points,) index of each point's chain; a point without continuation is its own chain."""

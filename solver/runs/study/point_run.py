@@ -35,13 +35,13 @@ class PointRun:
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
     tallies: list[Floats] = field(default_factory=list)
-    """Of the job's statistics, in its order; see `solver.runs.study.window`."""
+    """Tallies of the job's statistics, in its order; see `solver.runs.study.window`."""
     sampled: int = 0
     """Samples that they have had."""
     settling: Settling | None = field(default=None, repr=False)
 
     def has_settled(self, scales: Floats, angles: NDArray[np.bool_], most: int) -> bool:
-        """Whether the sections seen so far say so; those of the last leg are looked at now."""
+        """Look at the sections of the last leg; return whether the motion has settled."""
         found = self.settling or Settling(scales, RECURS, max(most, 1))
         if found.result is None:
             states = (

@@ -25,7 +25,7 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
 
 SERIES = ("seen", "growth", "tallies")
-"""Of a point's run: lists of arrays that a restart point needs."""
+"""Lists of arrays of a point's run that a restart point needs."""
 
 
 class StudyRun:

@@ -27,7 +27,7 @@ class Leaf:
     path: str
     """JSON pointer into the scene."""
     column: int
-    """Of the points' values."""
+    """Index into the points' values."""
     factor: float
 
 
@@ -109,6 +109,13 @@ def value_at(node: Any, path: str) -> Any:
         else:
             return None
     return node
+
+
+def replaced(node: Any, keys: Sequence[str], value: float) -> Any:
+    """Return a copy of a part with the number at these keys replaced."""
+    for key in reversed(keys):
+        value = {key: value}  # type: ignore[assignment]
+    return _changed(node, value)
 
 
 def _changed(node: Any, change: Any) -> Any:

@@ -14,7 +14,7 @@ from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, Grid
 
 Floats = NDArray[np.float64]
 SAME = 1e-5
-"""Of a step: a sample so close to an end of the stretch lies on it."""
+"""Share of a step: a sample closer than that to an end of the stretch lies on it."""
 
 
 @dataclass(frozen=True)

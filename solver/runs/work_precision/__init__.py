@@ -1,1 +1,1 @@
-"""What accuracy costs: every method and tolerance on one scene, against a reference run."""
+"""The cost of accuracy: every method and tolerance on one scene, against a reference run."""

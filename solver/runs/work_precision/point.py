@@ -29,7 +29,7 @@ class Point:
 
     @property
     def name(self) -> str:
-        """How a job asks for it."""
+        """Method and tolerance or step, as a job asks for them."""
         if self.tolerance is None:
             return f"{self.method} in steps of {self.step:g} s"
         return f"{self.method} at {self.tolerance:.0e}"

@@ -30,7 +30,7 @@ class WorkPrecisionRun:
     """The block of an accuracy-study; `slices` computes it, `checkpoint` keeps the runs that ended.
 
     But for their seconds, runs give the same whenever and wherever they are computed: a run is
-    given up after so many evaluations, not after so much time. One that was interrupted begins
+    given up after a number of evaluations, not after a time. One that was interrupted begins
     anew, so that its seconds are those of one machine.
     """
 
@@ -141,8 +141,8 @@ class WorkPrecisionRun:
     def _end(
         self, point: int, failure: SimulationFailed | None, found: dict[str, float]
     ) -> PointEnd:
-        told = (failure.code, failure.detail, failure.time) if failure else ("", "", self._until)
-        return PointEnd(point, *told, NO_PEAKS, found, {})
+        how = (failure.code, failure.detail, failure.time) if failure else ("", "", self._until)
+        return PointEnd(point, *how, NO_PEAKS, found, {})
 
     @property
     def _until(self) -> float:

@@ -43,7 +43,7 @@ class TimedRun:
 
     @property
     def evaluations(self) -> int:
-        """Of the equations of motion so far, in attempted steps."""
+        """Evaluations of the equations of motion so far, in attempted steps."""
         return self.bundle.attempts * self._each
 
     @property
@@ -53,7 +53,7 @@ class TimedRun:
 
     @property
     def fraction(self) -> float:
-        """How far it is, 0..1."""
+        """Part of the duration that is done, 0..1."""
         return min(self.bundle.lane(0).time / self.duration, 1.0)
 
     def advance(self) -> bool:

@@ -1,4 +1,4 @@
-"""What an accuracy-study found: its runs, and the sentence that recommends one."""
+"""Findings of an accuracy-study: its runs, and the sentence that recommends one."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 
 class Found(Protocol):
-    """What is stored of a study; a reader of its store is one as it is."""
+    """A stored study, as far as it is read here; a reader of its store is one."""
 
     @property
     def attributes(self) -> Mapping[str, Any]:
