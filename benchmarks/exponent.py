@@ -10,10 +10,17 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numba import float64, int64, njit, types, void
+from numba import int64, njit, void
 
 from benchmarks.press import compiled, problem
-from jointplay.solver.kernels.emit.functions import OVER_LANES, WORK, address_of, over_lanes
+from jointplay.solver.kernels.emit.functions import (
+    ADDRESSES,
+    DTYPE,
+    OVER_LANES,
+    WORK,
+    address_of,
+    functions_at,
+)
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents, compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -22,22 +29,23 @@ REVOLUTIONS = 10
 STAGES = 6
 """Evaluations of a step: of the equations, and of their derivative."""
 REPEATS = 15
-LANE_FUNCTION = types.FunctionType(void(float64[::1]))
 
 
-@njit(void(int64, WORK, int64))
-def repeat(address: int, work: Any, count: int) -> None:
+@njit(void(ADDRESSES, WORK, int64))
+def repeat(addresses: Any, work: Any, count: int) -> None:
     """Call a lane function many times."""
+    function = functions_at(addresses[0]).observe
     for _ in range(count):
-        over_lanes(address)(work)
+        function(work)
 
 
 def calls(function: Any, bundle: Bundle, count: int) -> float:
-    """Return the seconds of `calls` calls of a lane function, the best of repeated tenths."""
-    address, seconds = address_of(function, OVER_LANES), []
+    """Return the seconds of `count` calls of a lane function, the best of repeated tenths."""
+    addresses, seconds = np.zeros(1, DTYPE), []
+    addresses["observe"] = address_of(function, OVER_LANES)
     for _ in range(REPEATS):
         begun = time.thread_time()
-        repeat(address, bundle.groups[0].work, count // 10)
+        repeat(addresses, bundle.groups[0].work, count // 10)
         seconds.append(time.thread_time() - begun)
     return 10.0 * min(seconds)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
-from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, offered, with_parameters

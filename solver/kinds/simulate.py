@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.records.failure import LimitExceeded, Problem
-from jointplay.solver.kernels.record.length import check_length
+from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.job import ChannelChoice, Job
 from jointplay.solver.kinds.kind import Kind

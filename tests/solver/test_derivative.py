@@ -12,12 +12,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from jointplay.solver.kernels.emit import lane_functions
-from jointplay.solver.kernels.emit.emit import reachable
 from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
+from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.derivative import RULES, Derivative
 from jointplay.solver.kernels.record.equations import record
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities import scalars
 from tests.solver.random_mechanisms import instants, near_start, trees
@@ -56,7 +55,7 @@ def as_in_kernels(outputs: list[Expression], values: dict[str, float]) -> np.nda
                 found[node.index] = np.float64(evaluate(node, values, fixed))
             else:
                 arguments = [found[a.index] for a in node.arguments]
-                found[node.index] = np.float64(lane_functions.FOLD[node.operation](*arguments))
+                found[node.index] = np.float64(lane_functions.ON_FLOATS[node.operation](*arguments))
     return np.array([found[node.index] for node in outputs])
 
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.cache import load
+from jointplay.solver.kernels.emit import kinks
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record import kinks
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb

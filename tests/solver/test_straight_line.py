@@ -12,7 +12,6 @@ from numba import njit
 
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
-from jointplay.solver.kernels.emit.lane_functions import FOLD
 from jointplay.solver.kernels.emit.straight_line import (
     over_lanes,
     over_one_lane,
@@ -21,6 +20,7 @@ from jointplay.solver.kernels.emit.straight_line import (
 )
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS, Layout
+from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
 from jointplay.solver.kernels.record.recorder import Recorder
 
 SLOTS = 24
@@ -71,7 +71,7 @@ def test_every_operation_does_in_each_lane_what_it_does_to_floats(
     work = np.zeros((SLOTS, LANES))
     work[:3] = operands
     RUNS[operation](work)
-    expected = [FOLD[operation](*map(float, operands[:count, lane])) for lane in range(LANES)]
+    expected = [ON_FLOATS[operation](*map(float, operands[:count, lane])) for lane in range(LANES)]
     assert work[9].tolist() == expected
 
 

@@ -6,13 +6,18 @@ constant offsets. Names on a tape are the emitter's own; nothing of a scene's te
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from types import MappingProxyType
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Expression, too_many
+from jointplay.solver.kernels.record.recorder import (
+    MOST_STATEMENTS,
+    Expression,
+    reachable,
+    too_many,
+)
 
 HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
 
@@ -210,31 +215,3 @@ def lane_function(
 def nothing(name: str) -> str:
     """Return the source of a function W -> W that does nothing."""
     return f"{DECORATOR}\ndef {name}(W):\n    pass\n"
-
-
-def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:
-    """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
-
-    So are `known` nodes.
-
-    A fixed node comes where it is first used, so that the order, and with it the source, does not
-    depend on what the scene's numbers are computed from.
-    """
-    wanted = list(outputs)
-    found: dict[int, Expression] = {}
-    waiting = list(wanted)
-    while waiting:
-        node = waiting.pop()
-        if node.index in found:
-            continue
-        found[node.index] = node
-        if not (node.fixed or node in known):
-            waiting.extend(node.arguments)
-    ordered: dict[int, Expression] = {}
-    for node in (found[index] for index in sorted(found) if not found[index].fixed):
-        needed = () if node in known else node.arguments
-        for argument in (*needed, node):
-            ordered.setdefault(argument.index, argument)
-    for node in wanted:
-        ordered.setdefault(node.index, node)
-    return list(ordered.values())

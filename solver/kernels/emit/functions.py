@@ -4,17 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import namedtuple
+from collections.abc import Callable, Mapping
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, cast
 
 import numpy as np
 from numba import float64, from_dtype, int64, types, void
 from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
-
-from jointplay.solver.kernels.jit import LaneFunction, kernel
 
 WORK = float64[:, ::1]
 """Work array (slots, lanes)."""
@@ -44,32 +43,32 @@ SIGNATURES: Mapping[str, types.FunctionType] = {
     "tangent_step": OVER_LANES,
     "tangent_gaps": OVER_LANES,
 }
-"""Every function that the loop calls."""
+"""Every function that loops call."""
 OF_TANGENTS = ("tangent_step", "tangent_gaps")
 
+Functions = namedtuple("Functions", SIGNATURES)  # type: ignore[misc]  # noqa: PYI024
+"""All of them, by name, inside compiled loops."""
 DTYPE = np.dtype([(name, np.int64) for name in SIGNATURES])
 ADDRESSES = from_dtype(DTYPE)[::1]
-"""How kernels take the record: an array of one. First-class functions as arguments cost 5 us each
-at every call from Python."""
+"""How loops take the record: an array of one. First-class functions as arguments would cost 5 us
+each at every call from Python."""
 
 
 def addresses_of(*modules: ModuleType) -> NDArray[np.void]:
-    """Return the addresses of modules' functions by name, (1,); 0 where no module has one.
+    """Return the addresses of modules' functions by name, (1,); 0: no module has its tangents.
 
     Raises
     ------
     TypeError
-        A function has another signature than the loop calls it with.
+        A function is missing, or has another signature than the loop calls it with.
     """
     addresses = np.zeros(1, DTYPE)
-    for module in modules:
-        for name, expected in SIGNATURES.items():
-            function = getattr(module, name, None)
-            if function is not None:
-                addresses[name] = address_of(function, expected)
-    missing = [n for n in SIGNATURES if not addresses[n][0] and n not in OF_TANGENTS]
-    if missing:
-        raise TypeError(f"the kernel has no function {', '.join(missing)}")
+    for name, expected in SIGNATURES.items():
+        found = [getattr(module, name) for module in modules if hasattr(module, name)]
+        if found:
+            addresses[name] = address_of(found[0], expected)
+        elif name not in OF_TANGENTS:
+            raise TypeError(f"the kernel has no function '{name}'")
     return addresses
 
 
@@ -77,67 +76,27 @@ def address_of(function: Any, expected: types.FunctionType) -> int:
     """Return the address of a compiled function of the expected signature."""
     compiled = next(iter(function.overloads.values()))
     if not expected.check_signature(compiled.signature):
-        raise TypeError(f"{function.__name__} is {compiled.signature}, not {expected}")
+        raise TypeError(f"'{function.__name__}' is {compiled.signature}, not {expected}")
     name = compiled.fndesc.llvm_cfunc_wrapper_name
     return int(compiled.library.get_pointer_to_function(name))
 
 
-def _callable(kind: types.FunctionType) -> Any:
-    """Return what makes an address a function of this kind, inside kernels."""
+def _functions_at(_typing: Any, record: Any) -> Any:
+    """Return the functions whose addresses a record has."""
+    named = types.NamedTuple(list(SIGNATURES.values()), Functions)
 
-    def at_address(_typing: Any, address: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        functions = []
+        for name, kind in SIGNATURES.items():
+            place = cgutils.get_record_member(builder, arguments[0], record.offset(name), WORD)
             function = cgutils.create_struct_proxy(kind)(context, builder)
-            null = cgutils.voidptr_t(None)
-            function.c_addr = builder.inttoptr(arguments[0], cgutils.voidptr_t)
-            function.py_addr = function.jit_addr = null
-            return function._getvalue()
+            function.c_addr = builder.inttoptr(builder.load(place), cgutils.voidptr_t)
+            function.py_addr = function.jit_addr = cgutils.voidptr_t(None)
+            functions.append(function._getvalue())
+        return context.make_tuple(builder, named, functions)
 
-        return kind(address), generate
-
-    return intrinsic(at_address)
+    return named(record), generate
 
 
-over_lanes = _callable(OVER_LANES)
-judging = _callable(JUDGING)
-marking = _callable(MARKING)
-within_step = _callable(WITHIN_STEP)
-
-
-class Functions(NamedTuple):
-    """Functions that `advance` calls, as it calls them."""
-
-    attempt: LaneFunction
-    remember: LaneFunction
-    take: LaneFunction
-    weigh: LaneFunction
-    observe: LaneFunction
-    scan: LaneFunction
-    scan_some: LaneFunction
-    states_within: LaneFunction
-    gaps_within: LaneFunction
-    channels_within: LaneFunction
-    channels_around: LaneFunction
-    tangent_step: LaneFunction
-    tangent_gaps: LaneFunction
-
-
-@kernel()
-def functions_at(addresses: np.ndarray) -> Functions:
-    """Return the functions at a record of addresses, in kernels."""
-    at = addresses[0]
-    return Functions(
-        attempt=judging(at.attempt),
-        remember=over_lanes(at.remember),
-        take=over_lanes(at.take),
-        weigh=over_lanes(at.weigh),
-        observe=over_lanes(at.observe),
-        scan=marking(at.scan),
-        scan_some=marking(at.scan_some),
-        states_within=within_step(at.states_within),
-        gaps_within=within_step(at.gaps_within),
-        channels_within=within_step(at.channels_within),
-        channels_around=within_step(at.channels_around),
-        tangent_step=over_lanes(at.tangent_step),
-        tangent_gaps=over_lanes(at.tangent_gaps),
-    )
+WORD = cgutils.intp_t
+functions_at = cast(Callable[[Any], Any], intrinsic(_functions_at))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from jointplay.solver.kernels.record.coarse_functions import coarse_exp2
+from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 

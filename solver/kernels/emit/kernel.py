@@ -16,7 +16,6 @@ from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
-from jointplay.solver.kernels.emit.lane_functions import FOLD
 from jointplay.solver.kernels.emit.places import DenseRow, places_of
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
@@ -26,6 +25,7 @@ from jointplay.solver.kernels.record.equations import (
     slopes,
     trigonometry,
 )
+from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.kernels.record.rows import Rows, arrange
 from jointplay.solver.mechanics.tree import Tree
@@ -178,5 +178,5 @@ def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, floa
         return numbers[str(node.data)]
     if node.index not in found:
         arguments = [_evaluate(a, numbers, found) for a in node.arguments]
-        found[node.index] = FOLD[node.operation](*arguments)
+        found[node.index] = ON_FLOATS[node.operation](*arguments)
     return found[node.index]

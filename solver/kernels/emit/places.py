@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numba import from_dtype
@@ -48,75 +49,16 @@ class DenseRow:
         return rows[..., self.state : self.mode]
 
 
-class Places:
-    """Type of `at`: numbers of things, the dense row's columns, and first slots of blocks."""
-
-    states: int
-    ledger: int
-    joints: int
-    drivers: int
-    rows: int
-    """Channels that the scan looks at."""
-    size: int
-    """Slots of the work array."""
-    row: DenseRow
-    numbers: int
-    """From here to `size`: what is constant during a period."""
-    time: int
-    step: int
-    tried: int
-    arrival: int
-    stage_time: int
-    theta: int
-    active: int
-    accept: int
-    flag: int
-    next_step: int
-    end: int
-    next_due: int
-    marked: int
-    stage: int
-    total: int
-    impulse: int
-    """Each joint's impulse, at the end of `total`."""
-    gap: int
-    gap_rate: int
-    gap_start: int
-    gap_rate_start: int
-    mode: int
-    impact_rate: int
-    before_time: int
-    phase: int
-    wound: int
-    driver_start: int
-    driver_travel: int
-    contact_row: int
-    """First row of the channel block that holds a normal force again, for each contact's peak."""
-    channel: int
-    previous: int
-    highest: int
-    lowest: int
-    highest_time: int
-    lowest_time: int
-    impact_floor: int
-    restart: int
-    onset_time: int
-    approach: int
-    onset_total: int
-    opened: int
-    weight: int
-    steps: int
-    pace_at: int
-    stored: int
-    stored_start: int
-    tangent: int
-    tangent_impact_rate: int
-    tangent_gap: int
-    tangent_gap_rate: int
-    gap_acceleration: int
-
-
-COUNTS = ("states", "ledger", "joints", "drivers", "rows", "size")
+COUNTS = ("states", "ledger", "joints", "drivers", "rows")
+"""Numbers of states, terms of the ledger, joints with play, drivers, and scanned channels."""
+_SLOTS = """
+numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
+stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
+driver_start driver_travel channel previous highest lowest highest_time lowest_time impact_floor
+restart onset_time approach onset_total opened weight steps pace_at stored stored_start
+"""
+SLOTS = tuple(_SLOTS.split())
+"""Blocks of the work array that loops read or write; see the `allocate` functions beside this."""
 OF_TANGENTS = (
     "tangent",
     "tangent_impact_rate",
@@ -125,11 +67,15 @@ OF_TANGENTS = (
     "gap_acceleration",
 )
 """Blocks that only a kernel with tangents has; without, nothing reads their offsets, -1."""
+DERIVED = ("size", "impulse", "contact_row")
+"""Slots of the work array; where `total` has the joints' impulses; first row of the channel block
+that has a normal force again, for the peak of each contact."""
 
 ROW_DTYPE = np.dtype([(name, np.int64) for name in DenseRow.__annotations__])
-DTYPE = np.dtype(
-    [(name, ROW_DTYPE if name == "row" else np.dtype(np.int64)) for name in Places.__annotations__]
-)
+NAMES = (*COUNTS, *SLOTS, *OF_TANGENTS, *DERIVED)
+DTYPE = np.dtype([*((name, np.int64) for name in NAMES), ("row", ROW_DTYPE)])
+Places = Any
+"""Type of `at` in loops: a record of `DTYPE`, ``work[at.mode + j, lane]``."""
 PLACES = from_dtype(DTYPE)[::1]
 """How kernels take the record: an array of one, which costs Python least to pass."""
 
@@ -143,18 +89,11 @@ def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArr
         The layout lacks a slot that the loop reads.
     """
     places = np.zeros(1, DTYPE)
+    found = dict(counts) | {name: layout.block(name).start for name in SLOTS}
+    found |= dict.fromkeys(OF_TANGENTS, -1) | {"size": layout.size}
+    found["impulse"] = layout.block("total").stop - counts["joints"]
+    found["contact_row"] = counts["rows"] - counts["joints"]
+    for name in NAMES:
+        places[name] = found[name]
     places["row"] = tuple(getattr(row, name) for name in ROW_DTYPE.names or ())
-    for name in DTYPE.names or ():
-        if name == "size":
-            places[name] = layout.size
-        elif name == "impulse":
-            places[name] = layout.block("total").stop - counts["joints"]
-        elif name == "contact_row":
-            places[name] = counts["rows"] - counts["joints"]
-        elif name in COUNTS:
-            places[name] = counts[name]
-        elif name in OF_TANGENTS:
-            places[name] = -1
-        elif name != "row":
-            places[name] = layout.block(name).start
     return places

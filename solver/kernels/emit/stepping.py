@@ -15,13 +15,12 @@ from jointplay.solver.kernels.emit.emit import (
     Outputs,
     Tape,
     lane_function,
-    reachable,
 )
 from jointplay.solver.kernels.emit.judging import DUE, PACE, REJECTED, contact_flags, growth
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.coarse_functions import coarse_log2
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.kernels.record.lane_functions import coarse_log2
+from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 SMALLEST_ERROR = 1e-16

@@ -51,7 +51,7 @@ from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 
 PARTS = INSTANTS // LANES
-"""Of the instants: at most two, the second of the late half; see `_Tape.spread_`."""
+"""Halves, or the whole, of the instants."""
 ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
@@ -132,18 +132,32 @@ def _first_number(context, builder, signature, arguments, i):
     return context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
 
 
-def _run(tape: str, statements: _Tape) -> Any:
+def _run(tape: str, state: _Tape) -> Any:
+    """Generate the code of a tape's lines; the value that it returns."""
     for line in tape.strip().splitlines():
-        name, *rest = line.replace("= ", "").split()
-        if name.startswith("v"):
-            statements.define(name, *rest)
-        else:
-            getattr(statements, f"{name}_")(*rest)
-    return statements.result
+        match line.replace("= ", "").split():
+            case ["store", slot, value]:
+                state.store(slot, state.value(value))
+            case ["mark", slot, value]:
+                state.mark(slot, state.value(value))
+            case ["return", value]:
+                return largest(state.builder, state.value(value))
+            case [name, "load", slot]:
+                state.values[name] = state.load(state.source, slot)
+            case [name, "given", slot]:
+                state.values[name] = state.load(state.target, slot)
+            case [name, "spread", *slots]:
+                state.values[name] = state.spread(*slots)
+            case [name, "instants", *numbers]:
+                state.values[name] = state.instants(*map(float, numbers))
+            case [name, operation, *operands]:
+                values = map(state.value, operands)
+                state.values[name] = OPERATIONS[operation](state.builder, *values)
+    return None
 
 
 class _Tape:
-    """The values that a tape has made so far; its statements have their names with a ``_``."""
+    """The arrays that a tape works on, and the values that it has made so far."""
 
     def __init__(
         self, builder, source, target, *, lane=None, row=None, marks=None, part=None
@@ -151,57 +165,39 @@ class _Tape:
         self.builder, self.source, self.target = builder, source, target
         self.lane, self.row, self.marks, self.part = lane, row, marks, part
         self.values: dict[str, Any] = {}
-        self.result: Any = None
 
-    def define(self, name: str, operation: str, *operands: str) -> None:
-        if operation in OPERATIONS:
-            values = map(self._value, operands)
-            self.values[name] = OPERATIONS[operation](self.builder, *values)
-        else:
-            self.values[name] = getattr(self, f"{operation}_")(*operands)
+    def value(self, text: str) -> Any:
+        return self.values[text] if text in self.values else same(float(text))
 
-    def load_(self, slot: str) -> Any:
-        return self.builder.load(self._place(self.source, slot), align=ALIGNED)
+    def load(self, array: Any, slot: str) -> Any:
+        return self.builder.load(self._place(array, slot), align=ALIGNED)
 
-    def given_(self, slot: str) -> Any:
-        return self.builder.load(self._place(self.target, slot), align=ALIGNED)
+    def store(self, slot: str, value: Any) -> None:
+        self.builder.store(value, self._place(self.target, slot), align=ALIGNED)
 
-    def spread_(self, slot: str, later_slot: str = "") -> Any:
+    def mark(self, slot: str, value: Any) -> None:
+        builder, bits = self.builder, positive(self.builder, value)
+        builder.store(builder.or_(builder.load(self.marks), bits), self.marks)
+        rows = builder.bitcast(self._place(self.target, slot), MARKS.as_pointer())
+        builder.store(bits, builder.gep(rows, [self.row]))
+
+    def spread(self, slot: str, later_slot: str = "") -> Any:
         builder, early = self.builder, self._spread(slot)
         if not later_slot:
             return early
         late = self._spread(later_slot)
         if self.part is None:
             return lower_and_upper(builder, early, late)
-        return builder.select(self._is_part(0), early, late)
+        return builder.select(self._is_early(), early, late)
 
-    def instants_(self, *numbers: str) -> Any:
-        vectors = [
-            ir.Constant(NUMBERS, [float(number) for number in numbers[first : first + LANES]])
-            for first in range(0, INSTANTS, LANES)
-        ]
-        found = vectors[-1]
-        for part, vector in enumerate(vectors[:-1]):
-            found = self.builder.select(self._is_part(part), vector, found)
-        return found
+    def instants(self, *numbers: float) -> Any:
+        if self.part is None:
+            return ir.Constant(NUMBERS, numbers)
+        early, late = (ir.Constant(NUMBERS, half) for half in (numbers[:LANES], numbers[LANES:]))
+        return self.builder.select(self._is_early(), early, late)
 
-    def _is_part(self, part: int) -> Any:
-        return self.builder.icmp_unsigned("==", self.part, WORD(part))
-
-    def store_(self, slot: str, value: str) -> None:
-        self.builder.store(self._value(value), self._place(self.target, slot), align=ALIGNED)
-
-    def return_(self, value: str) -> None:
-        self.result = largest(self.builder, self._value(value))
-
-    def mark_(self, slot: str, value: str) -> None:
-        builder, bits = self.builder, positive(self.builder, self._value(value))
-        builder.store(builder.or_(builder.load(self.marks), bits), self.marks)
-        rows = builder.bitcast(self._place(self.target, slot), MARKS.as_pointer())
-        builder.store(bits, builder.gep(rows, [self.row]))
-
-    def _value(self, text: str) -> Any:
-        return self.values[text] if text in self.values else same(float(text))
+    def _is_early(self) -> Any:
+        return self.builder.icmp_unsigned("==", self.part, WORD(0))
 
     def _place(self, array: Any, slot: str) -> Any:
         place = WORD(int(slot.removesuffix("+")))

@@ -17,9 +17,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jointplay.solver.kernels.emit.emit import DECORATOR, lane_function
+from jointplay.solver.kernels.emit.kinks import MEMORY
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.kinks import MEMORY
 from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.quantities.scalars import select_positive
 

@@ -19,16 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.solver.kernels.cache import load
-from jointplay.solver.kernels.emit import tangent_step
+from jointplay.solver.kernels.emit import kinks, tangent_step
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel, values_of
+from jointplay.solver.kernels.emit.kinks import Kinks
 from jointplay.solver.kernels.emit.places import OF_TANGENTS
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record import kinks
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.kinks import Kinks
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.scene.document import Scene
 

@@ -213,7 +213,7 @@ def advance(
     int
         How many attempts were made.
     """
-    call, at = functions_at(addresses), places[0]
+    call, at = functions_at(addresses[0]), places[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
     table, marked = unowned(buffers.table), unowned(work.reshape(work.size).view(np.uint64))
     rows = unowned(buffers.rows)

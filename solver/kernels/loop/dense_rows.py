@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import float64, int64, void
 
-from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, over_lanes
+from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
 from jointplay.solver.kernels.lanes import LANES
@@ -113,10 +113,7 @@ def observe_rows(
     out : (count, channels)
         In the channels' units.
     """
-    at = places[0]
-    right_hand_side = over_lanes(addresses[0].right_hand_side)
-    observe = over_lanes(addresses[0].observe)
-    observe_rest = over_lanes(addresses[0].observe_rest)
+    call, at = functions_at(addresses[0]), places[0]
     for s in range(at.numbers, at.size):
         for i in range(LANES):
             blank[s, i] = work[s, lane]
@@ -124,9 +121,9 @@ def observe_rows(
         count = min(LANES, len(rows) - first)
         for i in range(LANES):
             read_row(rows[first + min(i, count - 1)], i, at, blank)
-        right_hand_side(blank)
-        observe(blank)
-        observe_rest(blank)
+        call.right_hand_side(blank)
+        call.observe(blank)
+        call.observe_rest(blank)
         for i in range(count):
             for c in range(len(columns)):
                 out[first + i, c] = blank[at.channel + columns[c], i]

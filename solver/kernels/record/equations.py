@@ -5,8 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import islice
 
-from jointplay.solver.kernels.emit.emit import reachable
-from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.records.failure import LimitExceeded
+from jointplay.solver.kernels.record.recorder import (
+    MOST_STATEMENTS,
+    Expression,
+    Recorder,
+    reachable,
+    too_many,
+)
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
@@ -164,3 +170,24 @@ def trigonometry(equations: Equations) -> list[Expression]:
         for node in reachable(expression for _, expression in right_hand_side(equations))
         if node.index in functions and functions[node.index].name in ("sine", "cosine")
     ]
+
+
+SURELY_SHORT = 7
+"""Bodies up to which no scene comes near the limit: recording it would only cost time."""
+
+
+def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
+    """Record a scene's equations and count their statements.
+
+    Raises
+    ------
+    LimitExceeded
+        More than can be compiled, with the count.
+    """
+    if len(scene.bodies) <= SURELY_SHORT:
+        return
+    equations = record(scene, tree, formulation)
+    for expressions in ([e for _, e in slopes(equations)], equations.channels.values()):
+        count = len(reachable(expressions))
+        if count > MOST_STATEMENTS:
+            raise LimitExceeded([too_many(count)])

@@ -12,10 +12,11 @@ evaluated once a run, outside the kernel.
 
 from __future__ import annotations
 
+from collections.abc import Container, Iterable
 from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded, Problem
-from jointplay.solver.kernels.emit import lane_functions
+from jointplay.solver.kernels.record import lane_functions
 
 MOST_STATEMENTS = 10_000
 """Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000)."""
@@ -80,7 +81,7 @@ class Recorder:
     def apply(self, operation: str, *arguments: Expression) -> Expression:
         """Return the node of an operation, folded where all arguments are literals."""
         if all(e.operation == "constant" for e in arguments):
-            return self.constant(lane_functions.FOLD[operation](*(e.value for e in arguments)))
+            return self.constant(lane_functions.ON_FLOATS[operation](*(e.value for e in arguments)))
         return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
 
 
@@ -249,3 +250,31 @@ class Function:
     name: str
     argument: Expression
     partner: Expression
+
+
+def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:
+    """Return the nodes that outputs need, each after its arguments; fixed nodes are leaves.
+
+    So are `known` nodes.
+
+    A fixed node comes where it is first used, so that the order, and with it the source, does not
+    depend on what the scene's numbers are computed from.
+    """
+    wanted = list(outputs)
+    found: dict[int, Expression] = {}
+    waiting = list(wanted)
+    while waiting:
+        node = waiting.pop()
+        if node.index in found:
+            continue
+        found[node.index] = node
+        if not (node.fixed or node in known):
+            waiting.extend(node.arguments)
+    ordered: dict[int, Expression] = {}
+    for node in (found[index] for index in sorted(found) if not found[index].fixed):
+        needed = () if node in known else node.arguments
+        for argument in (*needed, node):
+            ordered.setdefault(argument.index, argument)
+    for node in wanted:
+        ordered.setdefault(node.index, node)
+    return list(ordered.values())

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from jointplay.solver.kernels.emit.emit import reachable
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.record.recorder import Expression, reachable
 from jointplay.solver.scene.document import Scene
 
 

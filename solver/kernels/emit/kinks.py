@@ -10,11 +10,11 @@ slip at the jump, the mean slope grows beyond bounds and no tangent can be carri
 
 from __future__ import annotations
 
-from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothing, reachable
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothing
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.kernels.record.recorder import Expression, reachable
 
 Kinks = tuple[tuple[Expression, Expression], ...]
 """Piecewise linear functions, each with its argument."""
