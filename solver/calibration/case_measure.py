@@ -1,4 +1,4 @@
-"""Measured values of candidates in one case: each is a run, eight of them to a kernel.
+"""Measured values of candidates in one case: each is a run, in a lane of a kernel.
 
 Lanes do not touch each other, so what a candidate gives depends on nothing but the candidate.
 """
@@ -86,7 +86,7 @@ class CaseMeasure:
         ]
 
     def __call__(self, candidates: Floats) -> Floats:
-        """Return the values of the chosen targets (n, chosen); not numbers where a run failed."""
+        """Return the values of the chosen targets (n, chosen); NaN where a run failed."""
         out = np.full((len(candidates), len(self.chosen)), np.nan)
         scenes = PointScenes(self.scenes.base, self.scenes.leaves, candidates)
         groups: dict[tuple[int, ...], list[int]] = {}

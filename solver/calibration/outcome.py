@@ -33,7 +33,7 @@ class Outcome:
     values : (targets,) float
         What the best gives; every target, fitted or only shown.
     lowest, highest : (targets,) float
-        Of what fits equally well; not numbers where a target is only shown and its run failed.
+        Of what fits equally well; NaN where a target is only shown and its run failed.
     roughness : (targets,) float
         How far values change, in tolerances, when parameters move by a ten-thousandth of their
         range: what cannot be fitted, since neighbours differ by it.
@@ -127,32 +127,34 @@ class Outcome:
         ]
 
     def _targets(self) -> list[dict[str, Any]]:
-        goals, misses = self.calibration.goals, self.misses
-        rows: list[dict[str, Any]] = []
-        for case in self.calibration.cases:
-            for target, channel in zip(case.targets, case.channels, strict=True):
-                k = len(rows)
-                time = target.statistic.endswith("_time")
-                rows.append(
-                    {
-                        "case": case.name,
-                        "channel": target.channel,
-                        "statistic": target.statistic,
-                        "from": target.start,
-                        "to": target.stop,
-                        "unit": "s" if time else channel.unit,
-                        "value": target.value,
-                        "between": target.between,
-                        "tolerance": float(goals.tolerance[k]),
-                        "weight": target.weight,
-                        "fitted": _number(self.values[k]),
-                        "miss": _number(misses[k]),
-                        "lowest": _number(self.lowest[k]),
-                        "highest": _number(self.highest[k]),
-                        "roughness": _number(self.roughness[k]),
-                    }
-                )
-        return rows
+        shown = [
+            (case, target, channel)
+            for case in self.calibration.cases
+            for target, channel in zip(case.targets, case.channels, strict=True)
+        ]
+        numbers = {
+            "fitted": self.values,
+            "miss": self.misses,
+            "lowest": self.lowest,
+            "highest": self.highest,
+            "roughness": self.roughness,
+        }
+        return [
+            {
+                "case": case.name,
+                "channel": target.channel,
+                "statistic": target.statistic,
+                "from": target.start,
+                "to": target.stop,
+                "unit": "s" if target.statistic.endswith("_time") else channel.unit,
+                "value": target.value,
+                "between": target.between,
+                "tolerance": float(self.calibration.goals.tolerance[k]),
+                "weight": target.weight,
+                **{name: _number(column[k]) for name, column in numbers.items()},
+            }
+            for k, (case, target, channel) in enumerate(shown)
+        ]
 
 
 def _number(value: np.float64) -> float | None:

@@ -54,14 +54,8 @@ class Goals:
 
 def goals_of(targets: Sequence[CalibrationTarget]) -> Goals:
     """Return the columns of checked targets."""
-    low, high, tolerance = [], [], []
-    for target in targets:
-        bottom, top = _limits(target)
-        low.append(bottom)
-        high.append(top)
-        tolerance.append(tolerance_of(target))
-    weight = [target.weight for target in targets]
-    return Goals(np.array(low), np.array(high), np.array(tolerance), np.array(weight))
+    columns = [(*_limits(target), tolerance_of(target), target.weight) for target in targets]
+    return Goals(*np.array(columns, np.float64).T)
 
 
 def tolerance_of(target: CalibrationTarget) -> float:

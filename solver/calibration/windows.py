@@ -6,7 +6,6 @@ begins or ends, and the extreme over a window is that over its legs.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -66,13 +65,16 @@ class Windows:
             The channels read off the grid from 0 on.
         """
         return [
-            self._of_legs(target, legs)
-            if target.sampled is None
-            else self._of_samples(target, samples[:, self.read.index(target.channel)])
+            value_of(
+                self._over_legs(target, legs)
+                if target.sampled is None
+                else self._over_samples(target, samples[:, self.read.index(target.channel)]),
+                target.statistic,
+            )
             for target in self.targets
         ]
 
-    def _of_legs(self, target: CalibrationTarget, legs: Sequence[dict[str, Peak]]) -> float:
+    def _over_legs(self, target: CalibrationTarget, legs: Sequence[dict[str, Peak]]) -> Peak:
         starts = (0.0, *self.legs[:-1])
         inside = [
             leg[target.channel]
@@ -81,32 +83,18 @@ class Windows:
         ]
         low = min(inside, key=lambda peak: peak.minimum)
         high = max(inside, key=lambda peak: peak.maximum)
-        return _statistic(
-            target.statistic, low.minimum, low.minimum_time, high.maximum, high.maximum_time
-        )
+        return Peak(low.minimum, low.minimum_time, high.maximum, high.maximum_time)
 
-    def _of_samples(self, target: CalibrationTarget, column: Floats) -> float:
+    def _over_samples(self, target: CalibrationTarget, column: Floats) -> Peak:
         index = grid_indices(target.start, target.stop, self.step)
         values = column[index.start : index.stop]
         low, high = int(values.argmin()), int(values.argmax())
-        return _statistic(
-            target.statistic,
-            float(values[low]),
-            index[low] * self.step,
-            float(values[high]),
-            index[high] * self.step,
-        )
+        ends = ((float(values[at]), index[at] * self.step) for at in (low, high))
+        return Peak(*next(ends), *next(ends))
 
 
-def _statistic(
-    name: Statistic, minimum: float, minimum_time: float, maximum: float, maximum_time: float
-) -> float:
-    if name == "range":
-        return maximum - minimum
-    found = {
-        "minimum": minimum,
-        "minimum_time": minimum_time,
-        "maximum": maximum,
-        "maximum_time": maximum_time,
-    }
-    return found.get(name, math.nan)
+def value_of(peak: Peak, statistic: Statistic) -> float:
+    """Return a statistic of a channel's extremes over a window."""
+    if statistic == "range":
+        return peak.maximum - peak.minimum
+    return float(getattr(peak, statistic))
