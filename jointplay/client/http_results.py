@@ -1,13 +1,13 @@
 """Results of a job of a service."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import Refused
+from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
 from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import Window, floats
@@ -16,7 +16,7 @@ from jointplay.records.peak import PEAK
 from jointplay.records.run_in_memory import Dataset
 from jointplay.records.study_in_memory import StudyDataset
 
-_TOO_LARGE = "response-too-large"
+_Times = tuple[float | None, float | None]
 
 
 class HttpResults:
@@ -130,10 +130,19 @@ class HttpResults:
     def _windows(
         self, name: str, start: float | None, stop: float | None, **query: Any
     ) -> list[dict[str, Any]]:
-        def fetch(start: float | None, stop: float | None) -> dict[str, Any]:
-            return self._document(name, {**query, "start": start, "stop": stop})
+        def fetch(window: _Times) -> dict[str, Any]:
+            return self._document(name, {**query, "start": window[0], "stop": window[1]})
 
-        return list(_pieces(fetch, start, stop, lambda: float(self._job.job["duration"])))
+        def halves(window: _Times) -> tuple[_Times, _Times] | None:
+            start, stop = window
+            first = 0.0 if start is None else start
+            last = float(self._job.job["duration"]) if stop is None else stop
+            middle = first + (last - first) / 2.0
+            following = math.nextafter(middle, math.inf)  # both ends are included
+            fits = first <= middle < following <= last
+            return ((start, middle), (following, stop)) if fits else None
+
+        return [document for _, document in parts_that_fit(fetch, (start, stop), halves)]
 
     def _query(self, name: str, **query: Any) -> dict[str, Any]:
         return self._document(name, query)
@@ -150,42 +159,3 @@ def _numbers(peak: Mapping[str, Any]) -> tuple[float, float, float, float]:
 
 def _joined(names: Sequence[str] | None) -> str | None:
     return None if names is None else ",".join(names)
-
-
-def _pieces(
-    fetch: Callable[[float | None, float | None], dict[str, Any]],
-    start: float | None,
-    stop: float | None,
-    end: Callable[[], float],
-) -> Iterator[dict[str, Any]]:
-    """Yield the documents of consecutive windows that together cover ``start`` to ``stop``.
-
-    Parameters
-    ----------
-    fetch
-        Returns the document of a window, both ends included, s.
-    start, stop
-        The whole window, s; None is unbounded.
-    end
-        Returns the last time there can be, s; asked for only if one answer cannot hold all.
-
-    Raises
-    ------
-    Refused
-        The service refuses for another reason, or a window cannot be halved any more.
-    """
-    try:
-        document = fetch(start, stop)
-    except Refused as refusal:
-        if refusal.problem != _TOO_LARGE:
-            raise
-        first = 0.0 if start is None else start
-        last = end() if stop is None else stop
-        middle = first + (last - first) / 2.0
-        following = math.nextafter(middle, math.inf)
-        if not first <= middle < following <= last:
-            raise
-        yield from _pieces(fetch, start, middle, end)
-        yield from _pieces(fetch, following, stop, end)
-    else:
-        yield document

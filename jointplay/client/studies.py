@@ -1,12 +1,13 @@
 """Studies from the service's pages: one dataset of all points."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from jointplay.client.errors import Refused
+from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
 from jointplay.records.channel import Channel
 from jointplay.records.peak import PeakColumns
@@ -14,7 +15,6 @@ from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study_in_memory import StudyDataset
 
-_TOO_LARGE = "response-too-large"
 Document = dict[str, Any]
 
 
@@ -32,13 +32,18 @@ def with_sections(
     sections
         First section, and the one before which to end.
     """
-    windows = list(_windows(fetch, *sections))
+
+    def pages_of(window: tuple[int, int]) -> list[Document]:
+        ranges = {"section_start": window[0], "section_stop": window[1]}
+        return list(_pages(partial(fetch, **ranges)))
+
+    windows = list(parts_that_fit(pages_of, sections, _halves))
     tables: dict[str, list[Floats]] = {}
-    for width, pages in windows:
+    for (first, last), pages in windows:
         for name in ("", *pages[0]["channels"]):
             rows = [page["channels"][name] if name else page["time"] for page in pages]
             joined = list(chain.from_iterable(one["values"] for one in rows))
-            tables.setdefault(name, []).append(_table(joined, width))
+            tables.setdefault(name, []).append(_table(joined, last - first))
     found = {name: np.concatenate(one, axis=1) for name, one in tables.items()}
     _, pages = windows[0]
     channels = pages[0]["channels"]
@@ -72,27 +77,10 @@ def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDatase
     )
 
 
-def _windows(
-    fetch: Callable[..., Document], first: int, last: int
-) -> Iterator[tuple[int, list[Document]]]:
-    """Yield ranges of sections, each with its width and the pages of all points.
-
-    A range is halved where not even one point of it fits into an answer.
-    """
-
-    def page(start: int) -> Document:
-        return fetch(start=start, section_start=first, section_stop=last)
-
-    try:
-        pages = list(_pages(page))
-    except Refused as refusal:
-        if refusal.problem != _TOO_LARGE or last - first < 2:
-            raise
-        middle = (first + last) // 2
-        yield from _windows(fetch, first, middle)
-        yield from _windows(fetch, middle, last)
-    else:
-        yield last - first, pages
+def _halves(sections: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
+    first, last = sections
+    middle = (first + last) // 2
+    return None if last - first < 2 else ((first, middle), (middle, last))
 
 
 def _pages(fetch: Callable[..., Document]) -> Iterator[Document]:

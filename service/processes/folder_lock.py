@@ -4,8 +4,6 @@ import os
 from pathlib import Path
 from typing import Self
 
-from filelock import FileLock, Timeout
-
 from jointplay.service.processes.child import WrongSetting
 
 
@@ -16,12 +14,16 @@ class FolderLock:
     """
 
     def __init__(self, data: Path) -> None:
+        from filelock import FileLock  # loads asyncio, which commands without a service need not
+
         self._data = data
         self._path = data / "serve.lock"
         self._lock = FileLock(self._path)
         self._is_new = False
 
     def __enter__(self) -> Self:
+        from filelock import Timeout
+
         self._is_new = not self._data.exists()
         self._data.mkdir(parents=True, exist_ok=True)
         try:
