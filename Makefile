@@ -16,7 +16,7 @@ help:
 
 # The newest Python of 3.11 and up that really runs (a pyenv shim may not) and can make a
 # virtual environment (Debian's python3 without python3-venv cannot).
-$(STAMP): pyproject.toml
+$(STAMP): pyproject.toml setup.py
 	@set -e; if ! $(BIN)/python -m pip --version >/dev/null 2>&1; then \
 	  for candidate in python3.15 python3.14 python3.13 python3.12 python3.11 python3; do \
 	    if $$candidate -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; \
