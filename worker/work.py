@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol
 
+from jointplay.records.checkpoint import UnusableCheckpoint
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Claim
@@ -15,7 +16,6 @@ from jointplay.storage.results import NotAStore, ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyLayout, seal
 from jointplay.worker import checkpoints
-from jointplay.worker.checkpoints import UnusableRestartPoint
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
 from jointplay.worker.study_block import layout_of, run_block
 
@@ -108,7 +108,7 @@ class SimulationWork:
             return None
         try:
             return checkpoints.load(self._folder.parent / self._block.checkpoint, SOLVER_VERSION)
-        except UnusableRestartPoint as error:
+        except UnusableCheckpoint as error:
             _log.warning("block %s begins anew: %s", self._block.id, error)
             return None
 

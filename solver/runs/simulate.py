@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
-import json
 import math
 import time
 from collections.abc import Iterator
 
 import numpy as np
 
+from jointplay.records.checkpoint import decode, encode
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
@@ -34,7 +33,9 @@ from jointplay.solver.runs.stiff_method import (
 )
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import section_offset
+from jointplay.solver.version import SOLVER_VERSION
 
+_KIND = "simulation"
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -176,24 +177,19 @@ class DynamicRun:
             "sections": self.sections_done,
         }
         arrays = self.survey.checkpoint() if self.survey and not self.open else {}
-        arrays["state"] = np.frombuffer(self.bundle.state(), dtype=np.uint8)
-        arrays["facts"] = np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8)
-        buffer = io.BytesIO()
-        np.savez(buffer, allow_pickle=False, **arrays)
-        return buffer.getvalue()
+        return encode(_KIND, SOLVER_VERSION, facts, arrays | self.bundle.state("lanes"))
 
     def restore(self, checkpoint: bytes) -> None:
         """Continue from a checkpoint."""
-        with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
-            facts = json.loads(saved["facts"].tobytes())
-            self.seconds, self.open = facts["solver_seconds"], facts["open"]
-            if self.open:  # nothing was handed out: from the start
-                return
-            if facts["method"] != self.kernel.tableau.name:
-                self._start(facts["method"], facts["reason"])
-            self.bundle.restore(saved["state"].tobytes())
-            if self.survey:
-                self.survey.restore(saved)
+        facts, saved = decode(checkpoint, _KIND, SOLVER_VERSION)
+        self.seconds, self.open = facts["solver_seconds"], facts["open"]
+        if self.open:  # nothing was handed out: from the start
+            return
+        if facts["method"] != self.kernel.tableau.name:
+            self._start(facts["method"], facts["reason"])
+        self.bundle.restore(saved, "lanes")
+        if self.survey:
+            self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
 
     def summary(self) -> Summary:

@@ -5,23 +5,23 @@ full yet, and the restart point of the computation, all of one moment. When a bl
 last part remains until the study is sealed.
 """
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records import checkpoint
+from jointplay.records.checkpoint import packed
 from jointplay.records.point import Failure
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.studies.layout import StudyLayout
 
 FOLDER: Final = PARTS
-_MAGIC: Final = b"jointplay part of a study 1\n"
+_KIND: Final = "part of a study"
 
 Floats = NDArray[np.float64]
 
@@ -71,22 +71,12 @@ class Part:
         arrays |= {
             f"open/{row}/{column}": self.open[row, column] for row, column in sorted(self.open)
         }
-        packed = [array.astype(array.dtype.newbyteorder("<")) for array in arrays.values()]
-        body = b"".join((*(array.tobytes() for array in packed), self.carried))
-        header = {
-            "layout": layout.digest,
+        facts = {
             "block": self.index,
-            "arrays": [
-                [name, array.dtype.str, array.shape]
-                for name, array in zip(arrays, packed, strict=True)
-            ],
-            "failures": {
-                str(point): [failure.code, failure.detail, failure.time.hex()]
-                for point, failure in sorted(self.failures.items())
-            },
-            "sha256": sha256(body).hexdigest(),
+            "failures": {str(point): failure for point, failure in sorted(self.failures.items())},
         }
-        return _MAGIC + json.dumps(header, separators=(",", ":")).encode() + b"\n" + body
+        arrays["carried"] = packed(self.carried)
+        return checkpoint.encode(_KIND, layout.digest, facts, arrays)
 
     def written(self, layout: StudyLayout) -> Iterator[tuple[int, int]]:
         """List the chunks that must be in the store by now, by (row, column) of their grid."""
@@ -116,18 +106,12 @@ class Part:
         """
         content = path.read_bytes()
         try:
-            header, body = _opened(content)
-        except (ValueError, KeyError, TypeError) as error:
+            facts, arrays = checkpoint.decode(content, _KIND, digest)
+        except checkpoint.ForeignCheckpoint as error:
+            raise CheckpointMismatch(f"{path} belongs to another study: {error}") from error
+        except checkpoint.UnusableCheckpoint as error:
             raise CorruptStore(f"{path} cannot be read: {error}") from error
-        if header["layout"] != digest:
-            raise CheckpointMismatch(f"{path} belongs to another study")
-        arrays: dict[str, NDArray[Any]] = {}
-        offset = 0
-        for name, dtype, shape in header["arrays"]:
-            array = np.frombuffer(body, dtype, int(np.prod(shape)), offset).reshape(shape)
-            arrays[name] = array.copy()  # to be written to
-            offset += array.nbytes
-        part = cls(header["block"], arrays["status"], arrays["counts"], arrays["peaks"])
+        part = cls(facts["block"], arrays["status"], arrays["counts"], arrays["peaks"])
         for name, array in arrays.items():
             group, _, member = name.partition("/")
             if group == "open":
@@ -135,24 +119,10 @@ class Part:
                 part.open[int(row), int(column)] = array
             elif member:
                 getattr(part, group)[member] = array
-        part.failures = {
-            int(point): Failure(code, detail, float.fromhex(time))
-            for point, (code, detail, time) in header["failures"].items()
-        }
-        part.carried = bytes(body[offset:])
+        failures = facts["failures"].items()
+        part.failures = {int(point): Failure(*failure) for point, failure in failures}
+        part.carried = arrays["carried"].tobytes()
         return part
-
-
-def _opened(content: bytes) -> tuple[dict[str, Any], memoryview]:
-    """Split a file into header and body; ValueError if it is not whole."""
-    if not content.startswith(_MAGIC):
-        raise ValueError("it begins with other bytes")
-    end = content.index(b"\n", len(_MAGIC))
-    header: dict[str, Any] = json.loads(content[len(_MAGIC) : end])
-    body = memoryview(content)[end + 1 :]
-    if sha256(body).hexdigest() != header["sha256"]:
-        raise ValueError("its checksum differs")
-    return header, body
 
 
 def final_name(index: int) -> str:

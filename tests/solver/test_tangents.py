@@ -85,7 +85,7 @@ def test_growth_does_not_depend_on_company_slices_or_who_had_the_lane_before() -
 def test_a_checkpoint_keeps_the_tangent() -> None:
     whole, first, second = (bundle_of([PROBLEMS[2]]) for _ in range(3))
     first.advance(40)
-    second.restore(first.state())
+    second.restore(first.state("lanes"), "lanes")
     whole.advance(10**7)
     second.advance(10**7)
     assert growth(second).tobytes() == growth(whole).tobytes()

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -245,22 +245,22 @@ class Bundle:
         columns = np.array([self.kernel.rows.index(name) for name in ENERGIES], dtype=np.int64)
         return self.observe(i, self.lane(i).row(), columns)[0]
 
-    def state(self) -> bytes:
-        """Return everything that the next step depends on, however many lanes there are."""
-        buffer = io.BytesIO()
-        work = np.concatenate([group.work for group in self.groups], axis=1)
-        np.savez(buffer, work=work, runs=self.runs, first_energy=self.first_energy)
-        return buffer.getvalue()
+    def state(self, name: str) -> dict[str, NDArray[Any]]:
+        """Return everything that the next step depends on, however many lanes there are.
 
-    def restore(self, state: bytes) -> None:
+        Arrays of a checkpoint, whose names begin with `name`.
+        """
+        work = np.concatenate([group.work for group in self.groups], axis=1)
+        saved = {"work": work, "runs": self.runs, "first_energy": self.first_energy}
+        return {f"{name}/{part}": array for part, array in saved.items()}
+
+    def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""
-        with np.load(io.BytesIO(state), allow_pickle=False) as saved:
-            self.runs[:] = saved["runs"]
-            self.first_energy[:] = saved["first_energy"]
-            for group, work in zip(
-                self.groups, np.split(saved["work"], BUNDLE // LANES, axis=1), strict=True
-            ):
-                group.work[:] = work
+        self.runs[:] = saved[f"{name}/runs"]
+        self.first_energy[:] = saved[f"{name}/first_energy"]
+        works = np.split(saved[f"{name}/work"], BUNDLE // LANES, axis=1)
+        for group, work in zip(self.groups, works, strict=True):
+            group.work[:] = work
 
 
 def aligned_zeros(slots: int, columns: int) -> Floats:

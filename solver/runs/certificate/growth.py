@@ -89,15 +89,14 @@ class Windows:
 
     def checkpoint(self) -> dict[str, NDArray[Any]]:
         """Return arrays that `restore` takes."""
-        return {
-            "windows": np.frombuffer(self.bundle.state(), dtype=np.uint8),
+        return self.bundle.state("windows") | {
             "windows_growth": np.vstack([self.grown, self.aligned]),
             "windows_attempts": np.array(self.bundle.attempts),
         }
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
         """Continue from a checkpoint."""
-        self.bundle.restore(saved["windows"].tobytes())
+        self.bundle.restore(saved, "windows")
         self.bundle.attempts = int(saved["windows_attempts"])
         self.grown, self.aligned = saved["windows_growth"][0], saved["windows_growth"][1:]
 

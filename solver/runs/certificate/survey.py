@@ -74,7 +74,7 @@ class Survey:
         """Continue from a checkpoint."""
         self.companions.restore(saved)
         self.goes_on = bool(saved["goes_on"])
-        if "windows" in saved:
+        if "windows_growth" in saved:
             self.windows = self._windows()
             self.windows.restore(saved)
         if self.violation is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -10,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.records.checkpoint import decode, encode
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
@@ -21,7 +21,9 @@ from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import section_offset
+from jointplay.solver.version import SOLVER_VERSION
 
+_KIND = "ideal run"
 SCAN_A_PERIOD = 2000
 """Instants at which extremes are first sought; parabolas and re-evaluation refine them."""
 MOST_SCANNED = 200_000
@@ -74,14 +76,14 @@ class IdealRun:
 
     def checkpoint(self) -> bytes:
         """See `Simulation.checkpoint`."""
-        buffer = io.BytesIO()
-        np.save(buffer, np.array([self.samples_done, self.sections_done, self.seconds]))
-        return buffer.getvalue()
+        facts = {"done": [self.samples_done, self.sections_done], "seconds": self.seconds}
+        return encode(_KIND, SOLVER_VERSION, facts, {})
 
     def restore(self, checkpoint: bytes) -> None:
         """Continue from a checkpoint."""
-        samples, sections, self.seconds = np.load(io.BytesIO(checkpoint), allow_pickle=False)
-        self.samples_done, self.sections_done = int(samples), int(sections)
+        facts, _ = decode(checkpoint, _KIND, SOLVER_VERSION)
+        self.samples_done, self.sections_done = facts["done"]
+        self.seconds = facts["seconds"]
 
     def summary(self) -> Summary:
         """See `Simulation.summary`; a run that was lost has the extremes up to there."""

@@ -7,23 +7,23 @@ the lanes of this one are done.
 
 from __future__ import annotations
 
-import io
-import json
 import time
 from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.checkpoint import decode, encode
 from jointplay.records.point import StudySlice
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.version import SOLVER_VERSION
 
+_KIND = "block of a study"
 SERIES = ("seen", "growth", "tallies")
 """Lists of arrays of a point's run that a restart point needs."""
 
@@ -116,21 +116,16 @@ class StudyRun:
             "lanes": [None if run is None else _facts(run) for run in lanes],
         }
         if self.group is not None:
-            arrays["bundle"] = np.frombuffer(self.group.bundle.state(), dtype=np.uint8)
-        arrays["facts"] = np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8)
-        buffer = io.BytesIO()
-        np.savez(buffer, allow_pickle=False, **arrays)
-        return buffer.getvalue()
+            arrays |= self.group.bundle.state("lanes")
+        return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
     def _restore(self, checkpoint: bytes) -> None:
-        with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
-            arrays = dict(saved)
-        facts = json.loads(arrays["facts"].tobytes())
+        facts, arrays = decode(checkpoint, _KIND, SOLVER_VERSION)
         self.ended = facts["ended"]
         self.waiting = [_run(found, arrays) for found in facts["waiting"]]
         if facts["structure"] is not None:
             self.group = LaneGroup(self.study, facts["structure"])
-            self.group.bundle.restore(arrays["bundle"].tobytes())
+            self.group.bundle.restore(arrays, "lanes")
             self.group.lanes = [found and _run(found, arrays) for found in facts["lanes"]]
 
 

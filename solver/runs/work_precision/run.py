@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import io
-import json
 from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.checkpoint import decode, encode
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.point import PointEnd, StudySlice
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.timed_run import TimedRun
+from jointplay.solver.version import SOLVER_VERSION
 
 Floats = NDArray[np.float64]
 
+_KIND = "accuracy study"
 KNOWN = 1e-8
 """Runs are compared as long as the references differ by less, relative to the scene's scales."""
 MOST_REFERENCES = 20.0
@@ -51,10 +52,9 @@ class WorkPrecisionRun:
         self._reference = np.empty((0, 0))
         self._weights = np.array([run.evaluations(float(study.period[0])) for run in self.runs])
         if checkpoint is not None:
-            with np.load(io.BytesIO(checkpoint), allow_pickle=False) as saved:
-                facts = json.loads(saved["facts"].tobytes())
-                self._time, self._scales = saved["time"], saved["scales"]
-                self._reference = saved["reference"]
+            facts, saved = decode(checkpoint, _KIND, SOLVER_VERSION)
+            self._time, self._scales = saved["time"], saved["scales"]
+            self._reference = saved["reference"]
             self._next, self._most, self._given_up = facts["next"], facts["most"], facts["given_up"]
 
     def slices(self) -> Iterator[StudySlice]:
@@ -92,16 +92,8 @@ class WorkPrecisionRun:
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""
         facts = {"next": self._next, "most": self._most, "given_up": self._given_up}
-        buffer = io.BytesIO()
-        np.savez(
-            buffer,
-            allow_pickle=False,
-            facts=np.frombuffer(json.dumps(facts).encode(), dtype=np.uint8),
-            time=self._time,
-            scales=self._scales,
-            reference=self._reference,
-        )
-        return buffer.getvalue()
+        arrays = {"time": self._time, "scales": self._scales, "reference": self._reference}
+        return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
     def _slice(
         self, under_way: float, started: tuple[int, ...] = (), ended: tuple[PointEnd, ...] = ()
