@@ -14,8 +14,8 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
-from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Revolute, Scene
-from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Scene
+from jointplay.solver.scene.references import ends, has_play
 
 CONCENTRIC = JournalStart()
 
@@ -23,13 +23,16 @@ CONCENTRIC = JournalStart()
 class Marker(NamedTuple):
     """A named point on a moving body, or on the ground (body index -1), in world axes.
 
-    `arm` reaches from the centre of mass to the point; `position`, `velocity` are the point's.
+    `arm` reaches from the centre of mass to the point; `position`, `velocity` are the point's,
+    `angle` and `spin` the body's.
     """
 
     body: int
     arm: Pair
     position: Pair
     velocity: Pair
+    angle: Scalar
+    spin: Scalar
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,7 @@ class AbsoluteMechanism:
         body, point = reference.split(".")
         if body == "ground":
             x, y = self.numbers.ground.points[point]
-            return Marker(-1, (0.0, 0.0), (x, y), (0.0, 0.0))
+            return Marker(-1, (0.0, 0.0), (x, y), (0.0, 0.0), 0.0, 0.0)
         i = self.bodies.index(body)
         x, y = self.numbers.bodies[body].points[point]
         sine, cosine = sine_cosine(q[3 * i + 2])
@@ -88,17 +91,15 @@ class AbsoluteMechanism:
             arm,
             (q[3 * i] + arm[0], q[3 * i + 1] + arm[1]),
             (v[3 * i] - spin * arm[1], v[3 * i + 1] + spin * arm[0]),
+            q[3 * i + 2],
+            spin,
         )
 
     def ends(self, points: tuple[str, str], q: Scalars, v: Scalars) -> Ends:
         """Return how the second of two named points lies and moves against the first."""
-        markers = here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
-        spins = [0.0 if marker.body < 0 else v[3 * marker.body + 2] for marker in markers]
-        return Ends(
-            (there.position[0] - here.position[0], there.position[1] - here.position[1]),
-            (there.velocity[0] - here.velocity[0], there.velocity[1] - here.velocity[1]),
-            (spins[0], spins[1]),
-        )
+        here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
+        gap, rate = _less(there.position, here.position), _less(there.velocity, here.velocity)
+        return Ends(gap, rate, (here.spin, there.spin))
 
     def apply(self, between: Forces, forces: list[Scalar], q: Scalars, v: Scalars) -> None:
         """Add forces between bodies to generalised forces, (3 bodies,) N, N, N m."""
@@ -125,15 +126,26 @@ class AbsoluteMechanism:
         rows: list[Row] = []
         for name in self.joints:
             joint, motion = self.numbers.joints[name], self._driver(name, driven)
-            if isinstance(joint, Revolute):
-                rows += self._revolute(name, joint, q, v, motion)
-            elif isinstance(joint, Prismatic):
-                rows += self._prismatic(name, joint, q, v, motion)
-            else:
-                rows += self._fixed(name, joint, q, v)
+            (_, here), (_, there) = ends(joint)
+            first, second = self.marker(here, q, v), self.marker(there, q, v)
+            if isinstance(joint, Prismatic):
+                rows += _guided(name, first, second, self.axis(joint, first), joint.angle, motion)
+                continue
+            rows += self._coincidence(name, first, second)
+            if isinstance(joint, Fixed):
+                rows.append(_angle(name, first, second, joint.angle, 0.0))
+            elif motion is not None:
+                rows.append(_angle(name, first, second, *motion))
         return rows
 
-    def _coincidence(self, name: str, first: Marker, second: Marker, v: Scalars) -> list[Row]:
+    def _driver(self, name: str, driven: Mapping[str, Scalar]) -> tuple[Scalar, Scalar] | None:
+        """Return the prescribed position of a joint and its rate, if it is driven."""
+        driver = self.drivers.get(name)
+        if driver is None:
+            return None
+        return driven[driver], self.numbers.drivers[driver].speed
+
+    def _coincidence(self, name: str, first: Marker, second: Marker) -> list[Row]:
         """r_second - r_first - e = 0, e as the start says; it stays if no rate is given."""
         start = self.scene.start.joints.get(name, CONCENTRIC)
         offset, moving = start.eccentricity, start.rate or (0.0, 0.0)
@@ -144,11 +156,10 @@ class AbsoluteMechanism:
             for sign, marker in ((1.0, second), (-1.0, first)):
                 if marker.body < 0:
                     continue
-                spin = v[3 * marker.body + 2]
                 jacobian[3 * marker.body + axis] = sign
                 turn = -marker.arm[1] if axis == 0 else marker.arm[0]
                 jacobian[3 * marker.body + 2] = sign * turn
-                gamma = gamma + sign * (spin * spin) * marker.arm[axis]
+                gamma = gamma + sign * (marker.spin * marker.spin) * marker.arm[axis]
             rows.append(
                 Row(
                     name,
@@ -161,121 +172,106 @@ class AbsoluteMechanism:
             )
         return rows
 
-    def _angle(
-        self,
-        name: str,
-        bodies: tuple[int, int],
-        offset: Scalar,
-        speed: Scalar,
-        q: Scalars,
-        v: Scalars,
-    ) -> Row:
-        """θ_second - θ_first - offset = 0."""
-        jacobian: dict[int, Scalar] = {}
-        value: Scalar = -offset
-        rate: Scalar = -speed
-        for sign, body in ((1.0, bodies[1]), (-1.0, bodies[0])):
-            if body >= 0:
-                jacobian[3 * body + 2] = sign
-                value = value + sign * q[3 * body + 2]
-                rate = rate + sign * v[3 * body + 2]
-        return Row(name, "angle", value, jacobian, rate, 0.0)
+    def reactions(
+        self, rows: list[Row], multipliers: list[Scalar]
+    ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
+        """Return -Φ_qᵀ λ: the force on each joint's second body, N, each driver's effort, N m or N.
 
-    def _driver(self, name: str, driven: Mapping[str, Scalar]) -> tuple[Scalar, Scalar] | None:
-        driver = self.drivers.get(name)
-        if driver is None:
-            return None
-        return driven[driver], self.numbers.drivers[driver].speed
+        multipliers : λ of each row.
+        """
+        forces: dict[str, Pair] = {}
+        efforts: dict[str, Scalar] = {}
+        for row, multiplier in zip(rows, multipliers, strict=True):
+            joint = self.scene.joints[row.joint]
+            (_, first), (_, second) = ends(joint)
+            body, sign = second.split(".")[0], 1.0
+            if body == "ground":
+                body, sign = first.split(".")[0], -1.0
+            k = 3 * self.bodies.index(body)
+            x, y = forces.get(row.joint, (0.0, 0.0))
+            fx = row.jacobian.get(k, 0.0) * multiplier
+            fy = row.jacobian.get(k + 1, 0.0) * multiplier
+            forces[row.joint] = (x - sign * fx, y - sign * fy)
+            driver = self.drivers.get(row.joint)
+            if driver is not None and row.part == (
+                "angle" if joint.type == "revolute" else "along"
+            ):
+                efforts[driver] = -multiplier
+        return forces, efforts
 
-    def _revolute(
-        self,
-        name: str,
-        joint: Revolute,
-        q: Scalars,
-        v: Scalars,
-        motion: tuple[Scalar, Scalar] | None,
-    ) -> list[Row]:
-        first, second = self.marker(joint.bearing, q, v), self.marker(joint.journal, q, v)
-        rows = self._coincidence(name, first, second, v)
-        if motion is not None:
-            rows.append(self._angle(name, (first.body, second.body), *motion, q, v))
-        return rows
-
-    def _fixed(
-        self,
-        name: str,
-        joint: Fixed,
-        q: Scalars,
-        v: Scalars,
-    ) -> list[Row]:
-        first, second = self.marker(joint.base, q, v), self.marker(joint.part, q, v)
-        rows = self._coincidence(name, first, second, v)
-        rows.append(self._angle(name, (first.body, second.body), joint.angle, 0.0, q, v))
-        return rows
-
-    def _prismatic(
-        self,
-        name: str,
-        joint: Prismatic,
-        q: Scalars,
-        v: Scalars,
-        motion: tuple[Scalar, Scalar] | None,
-    ) -> list[Row]:
-        first, second = self.marker(joint.guide, q, v), self.marker(joint.slider, q, v)
-        axis = self.axis(joint, first.body, q)
-        normal = (-axis[1], axis[0])
-        rows = [self._projection(name, "normal", normal, 0.0, 0.0, first, second, v)]
-        rows.append(self._angle(name, (first.body, second.body), joint.angle, 0.0, q, v))
-        if motion is not None:
-            rows.append(self._projection(name, "along", axis, *motion, first, second, v))
-        return rows
-
-    def axis(self, joint: Prismatic, guide: int, q: Scalars) -> Pair:
+    def axis(self, joint: Prismatic, guide: Marker) -> Pair:
         """Return the guide's unit axis in world components."""
         x, y = unit(joint.axis)
-        if guide < 0:
+        if guide.body < 0:
             return x, y
-        sine, cosine = sine_cosine(q[3 * guide + 2])
+        sine, cosine = sine_cosine(guide.angle)
         return cosine * x - sine * y, sine * x + cosine * y
 
-    def _projection(
-        self,
-        name: str,
-        part: str,
-        direction: Pair,
-        offset: Scalar,
-        speed: Scalar,
-        first: Marker,
-        second: Marker,
-        v: Scalars,
-    ) -> Row:
-        """(r_second - r_first) · u - offset = 0, u fixed in the first body."""
-        (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
-        gap = (second.position[0] - first.position[0], second.position[1] - first.position[1])
-        gap_rate = (
-            second.velocity[0] - first.velocity[0],
-            second.velocity[1] - first.velocity[1],
-        )
-        jacobian: dict[int, Scalar] = {}
-        rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - speed
-        gamma: Scalar = 0.0
-        for sign, marker in ((1.0, second), (-1.0, first)):
-            if marker.body < 0:
-                continue
-            k, (ax, ay) = 3 * marker.body, marker.arm
-            spin = v[k + 2]
-            jacobian[k], jacobian[k + 1] = sign * ux, sign * uy
-            jacobian[k + 2] = sign * (uy * ax - ux * ay)
-            gamma = gamma + sign * (spin * spin) * (ux * ax + uy * ay)
-        if first.body >= 0:
-            k = 3 * first.body + 2
-            spin = v[k]
-            jacobian[k] = jacobian[k] + (tx * gap[0] + ty * gap[1])
-            rate = rate + spin * (tx * gap[0] + ty * gap[1])
-            gamma = gamma + (spin * spin) * (ux * gap[0] + uy * gap[1])
-            gamma = gamma - 2.0 * spin * (tx * gap_rate[0] + ty * gap_rate[1])
-        value = ux * gap[0] + uy * gap[1] - offset
-        return Row(name, part, value, jacobian, rate, gamma)
+
+def _angle(name: str, first: Marker, second: Marker, offset: Scalar, speed: Scalar) -> Row:
+    """θ_second - θ_first - offset = 0."""
+    jacobian: dict[int, Scalar] = {}
+    value: Scalar = -offset
+    rate: Scalar = -speed
+    for sign, marker in ((1.0, second), (-1.0, first)):
+        if marker.body >= 0:
+            jacobian[3 * marker.body + 2] = sign
+            value = value + sign * marker.angle
+            rate = rate + sign * marker.spin
+    return Row(name, "angle", value, jacobian, rate, 0.0)
+
+
+def _guided(
+    name: str,
+    first: Marker,
+    second: Marker,
+    axis: Pair,
+    angle: Scalar,
+    motion: tuple[Scalar, Scalar] | None,
+) -> list[Row]:
+    """Return the rows of a slider: it stays on the axis and at its angle, and moves as driven."""
+    normal = (-axis[1], axis[0])
+    rows = [_projection(name, "normal", normal, (0.0, 0.0), first, second)]
+    rows.append(_angle(name, first, second, angle, 0.0))
+    if motion is not None:
+        rows.append(_projection(name, "along", axis, motion, first, second))
+    return rows
+
+
+def _projection(
+    name: str,
+    part: str,
+    direction: Pair,
+    motion: tuple[Scalar, Scalar],
+    first: Marker,
+    second: Marker,
+) -> Row:
+    """(r_second - r_first) · u - offset = 0, u fixed in the first body."""
+    (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
+    offset, speed = motion
+    gap, gap_rate = _less(second.position, first.position), _less(second.velocity, first.velocity)
+    jacobian: dict[int, Scalar] = {}
+    rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - speed
+    gamma: Scalar = 0.0
+    for sign, marker in ((1.0, second), (-1.0, first)):
+        if marker.body < 0:
+            continue
+        k, (ax, ay) = 3 * marker.body, marker.arm
+        jacobian[k], jacobian[k + 1] = sign * ux, sign * uy
+        jacobian[k + 2] = sign * (uy * ax - ux * ay)
+        gamma = gamma + sign * (marker.spin * marker.spin) * (ux * ax + uy * ay)
+    if first.body >= 0:
+        k, spin = 3 * first.body + 2, first.spin
+        jacobian[k] = jacobian[k] + (tx * gap[0] + ty * gap[1])
+        rate = rate + spin * (tx * gap[0] + ty * gap[1])
+        gamma = gamma + (spin * spin) * (ux * gap[0] + uy * gap[1])
+        gamma = gamma - 2.0 * spin * (tx * gap_rate[0] + ty * gap_rate[1])
+    value = ux * gap[0] + uy * gap[1] - offset
+    return Row(name, part, value, jacobian, rate, gamma)
+
+
+def _less(first: Pair, second: Pair) -> Pair:
+    return first[0] - second[0], first[1] - second[1]
 
 
 def unit(axis: Sequence[Scalar]) -> Pair:

@@ -12,7 +12,6 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
-from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import has_play
@@ -67,7 +66,7 @@ class LagrangeMechanism:
             )
             for i, name in enumerate(self.constraints.bodies)
         }
-        joint_force, efforts = joint_reactions(self.scene, self.constraints, rows, multipliers)
+        joint_force, efforts = self.constraints.reactions(rows, multipliers)
         for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}

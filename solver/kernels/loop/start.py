@@ -44,17 +44,10 @@ def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[flo
     mechanism = AbsoluteMechanism(scene, numbers, close_play=False)
     joint = numbers.joints[spanning_tree(scene).branch(body).joint]
     assert isinstance(joint, Prismatic)  # noqa: S101  (narrows the type)
-    guide = mechanism.marker(joint.guide, pose, velocity)
-    slider = mechanism.marker(joint.slider, pose, velocity)
-    ux, uy = mechanism.axis(joint, guide.body, pose)
-    gap = (slider.position[0] - guide.position[0], slider.position[1] - guide.position[1])
-    rate = (slider.velocity[0] - guide.velocity[0], slider.velocity[1] - guide.velocity[1])
-    spin = 0.0 if guide.body < 0 else float(velocity[3 * guide.body + 2])
+    ux, uy = mechanism.axis(joint, mechanism.marker(joint.guide, pose, velocity))
+    gap, rate, (spin, _) = mechanism.ends((joint.guide, joint.slider), pose, velocity)
     turned = spin * (-uy * gap[0] + ux * gap[1])
-    return (
-        float(ux * gap[0] + uy * gap[1]),
-        float(ux * rate[0] + uy * rate[1] + turned),
-    )
+    return float(ux * gap[0] + uy * gap[1]), float(ux * rate[0] + uy * rate[1] + turned)
 
 
 def mechanism_size(scene: Scene, least: float) -> float:

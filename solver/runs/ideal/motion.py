@@ -16,7 +16,6 @@ from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.motion import BodyMotion, Motion, forces_between
-from jointplay.solver.mechanics.reactions import joint_reactions
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.quantities.extremes import Floats
 from jointplay.solver.scene.document import Scene
@@ -85,9 +84,7 @@ class IdealMotion:
             )
             for i, name in enumerate(self.mechanism.bodies)
         }
-        forces, efforts = joint_reactions(
-            self.scene, self.mechanism, rows, list(_columns(multipliers))
-        )
+        forces, efforts = self.mechanism.reactions(rows, _columns(multipliers))
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
         return Motion(list(_columns(a)), bodies, acting, forces, efforts, speeds)
 
