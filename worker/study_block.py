@@ -53,7 +53,7 @@ def layout_of(study: Study) -> StudyLayout:
             **({"meanings": own} if own else {}),
             **study.attributes(),
         },
-        meanings={name: Channel(name, *meaning) for name, meaning in (OUTPUTS | own).items()},
+        outputs={name: Channel(name, *output) for name, output in (OUTPUTS | own).items()},
     )
 
 

@@ -25,7 +25,7 @@ from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
-NO_MEANING = ("1", "")
+UNKNOWN = ("1", "")
 VERDICT = "verdict"
 _READ = 4_000_000
 
@@ -134,9 +134,9 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
 
 
 def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
-    meanings = {**OUTPUTS, **store.meanings}
+    outputs = {**OUTPUTS, **store.own_outputs}
     return {
-        name: Series.of(Channel(name, *meanings.get(name, NO_MEANING)), one[part])
+        name: Series.of(Channel(name, *outputs.get(name, UNKNOWN)), one[part])
         for name, one in columns.items()
         if name != VERDICT
     }

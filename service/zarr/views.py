@@ -20,7 +20,7 @@ from jointplay.storage.studies.live import LiveStudy
 
 _FRESH: Final = 0.5
 """Seconds for which the parts of a running study are not read again."""
-_OUTPUTS: Final = {name: Channel(name, *meaning) for name, meaning in OUTPUTS.items()}
+_OUTPUTS: Final = {name: Channel(name, *output) for name, output in OUTPUTS.items()}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
 

@@ -87,7 +87,7 @@ def _motion(seen: _Seen, body: str, quantity: str, checked: CheckedPoints) -> It
         elif not reach.low <= seen.at_source <= reach.high:
             place, sentence = PLACE, seen.refused(reach.low, reach.high)
         if sentence:
-            yield Problem(place, _at(point, checked) + sentence)
+            yield Problem(place, checked.beginning(point) + sentence)
             return
 
 
@@ -109,7 +109,7 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: CheckedPoints) -> Ite
         sentence = f"With a radial clearance of {clearance[point]:.6g} m " + seen.refused(
             float(low[point]), float(high[point])
         )
-        yield Problem(PLACE, _at(point, checked) + sentence)
+        yield Problem(PLACE, checked.beginning(point) + sentence)
 
 
 def _sample(checked: CheckedPoints) -> list[int]:
@@ -123,8 +123,3 @@ def _sample(checked: CheckedPoints) -> list[int]:
     if checked.scenes.leaves:
         chosen.append(checked.points.count - 1)
     return sorted(set(chosen))[:4]
-
-
-def _at(point: int, checked: CheckedPoints) -> str:
-    points = checked.points
-    return points.name(point, checked.declared) if points.axes else ""

@@ -30,6 +30,10 @@ class PlacedPoints:
     structure: NDArray[np.int64]
     """(points,) points of the same number have equations of the same form."""
 
+    def beginning(self, point: int) -> str:
+        """Return how a sentence about one point begins; empty where nothing varies."""
+        return self.points.name(point, self.declared) if self.points.axes else ""
+
     def channels(self, names: Iterable[str]) -> tuple[Channel, ...]:
         """Return the channels of these names."""
         known = {channel.name: channel for channel in offered(self.scenes.base)}

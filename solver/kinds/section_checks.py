@@ -41,7 +41,7 @@ def _turns(checked: CheckedPoints, units: Periods) -> list[Problem]:
     return [
         Problem(
             points.place(point) if points.axes else "/section",
-            (points.name(point, checked.declared) if points.axes else "")
+            checked.beginning(point)
             + note
             + " A section at onsets of contact or at a channel's crossing needs none.",
         )

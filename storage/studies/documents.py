@@ -64,8 +64,8 @@ def sealed(
     }
     for group, members in names.items():
         for name in members:
-            meaning = layout.meanings.get(name, Channel(name, "1", name.replace("_", " ")))
-            arrays[f"{group}/{name}"] = column(DOUBLE, meaning.attributes)
+            output = layout.outputs.get(name, Channel(name, "1", name.replace("_", " ")))
+            arrays[f"{group}/{name}"] = column(DOUBLE, output.attributes)
     if layout.channels:
         width = len(layout.channels)
         shape, cut = [layout.points, width], [point_chunk(layout, width), width]

@@ -45,7 +45,7 @@ class StudyLayout:
         (first, count) of the contiguous points that are computed together.
     attributes
         JSON document for the root group: the filled-in job, the scene, versions, code tables.
-    meanings
+    outputs
         Units and long names of statistics and indicators, by name, as far as they are known.
 
     Raises
@@ -62,7 +62,7 @@ class StudyLayout:
     channels: tuple[Channel, ...]
     blocks: tuple[tuple[int, int], ...]
     attributes: dict[str, Any] = field(default_factory=dict)
-    meanings: Mapping[str, Channel] = field(default_factory=dict)
+    outputs: Mapping[str, Channel] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or self.values.shape[1] != len(self.parameters):

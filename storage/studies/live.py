@@ -30,7 +30,7 @@ class LiveStudy:
     ----------
     files
         Of the store.
-    meanings
+    outputs
         Units and long names of statistics and indicators that any study may have.
 
     Raises
@@ -39,7 +39,7 @@ class LiveStudy:
         There is no store of a study.
     """
 
-    def __init__(self, files: Files, meanings: Mapping[str, Channel]) -> None:
+    def __init__(self, files: Files, outputs: Mapping[str, Channel]) -> None:
         self.files = files
         self._reader = reader = StudyReader(files)
         self._layout = StudyLayout(
@@ -49,9 +49,9 @@ class LiveStudy:
             record=reader.record,
             channels=reader.channels,
             blocks=tuple((int(first), int(count)) for first, count in reader.attributes["blocks"]),
-            meanings={
-                **meanings,
-                **{name: Channel(name, *meaning) for name, meaning in reader.meanings.items()},
+            outputs={
+                **outputs,
+                **{name: Channel(name, *output) for name, output in reader.own_outputs.items()},
             },
         )
         self._codes = sorted({failure.code for failure in reader.failures.values()})

@@ -106,7 +106,7 @@ class StudyReader:
         return self._numbers.indicators
 
     @property
-    def meanings(self) -> Mapping[str, tuple[str, str]]:
+    def own_outputs(self) -> Mapping[str, tuple[str, str]]:
         """Unit and long name of statistics that this study has and others need not, by name."""
         found: dict[str, list[str]] = self.attributes.get("meanings", {})
         return {name: (unit, long_name) for name, (unit, long_name) in found.items()}

@@ -22,7 +22,7 @@ def made_up_layout(points=20, record=7, blocks=None, observables=2, channels=3, 
         attributes={"job": {"kind": "bifurcation"}, "verdicts": ["undecided", "periodic"]}
         if attributes is None
         else attributes,
-        meanings={"energy_residual": Channel("energy_residual", "J", "what the ledger lacks")},
+        outputs={"energy_residual": Channel("energy_residual", "J", "what the ledger lacks")},
     )
 
 
