@@ -126,10 +126,10 @@ def main() -> None:
             f"{workers} worker{'s' if workers > 1 else ' '} over HTTP: {medians[workers]:6.2f} s"
             f" ({min(seconds):.2f}); in kernels {share:.0%}"
         )
-    octets = -(-VALUES // 8)
+    groups = -(-VALUES // 8)
     print(
-        f"two workers are {medians[1] / medians[2]:.2f} times as fast as one; {octets} octets allow"
-        f" {octets / -(-octets // 2):.2f}"
+        f"two workers are {medians[1] / medians[2]:.2f} times as fast as one; {groups} groups of"
+        f" eight points allow {groups / -(-groups // 2):.2f}"
     )
     one, two = (statistics.median(over_http(workers, 2 * VALUES)) for workers in (1, 2))
     print(f"with {2 * VALUES} values: {one:.2f} and {two:.2f} s, {one / two:.2f} times")

@@ -1,4 +1,4 @@
-"""What users import and type: client, figures, command line.
+"""The user's package: client, figures, command line.
 
 >>> import jointplay
 >>> job = jointplay.run("pendulum", duration=1.0)  # doctest: +SKIP

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 PARTIAL: Final = ".partial"
-"""How the name of a file ends that is still being written."""
+"""Suffix of a file that is still being written."""
 
 
 def write(path: Path, pieces: Iterable[bytes], *, lasting: bool = True) -> None:
@@ -25,7 +25,7 @@ def write(path: Path, pieces: Iterable[bytes], *, lasting: bool = True) -> None:
 
 
 def draft(path: Path, pieces: Iterable[bytes], *, lasting: bool = True) -> Path:
-    """Write a file's content beside its name and return the path; whoever calls names it.
+    """Write a file's content beside its name and return the path; the caller names it.
 
     Several processes may do so at once: each has a partial file of its own.
     """

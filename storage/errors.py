@@ -1,4 +1,4 @@
-"""What can go wrong with a results store."""
+"""Errors of results stores."""
 
 
 class ResultsError(Exception):

@@ -65,7 +65,7 @@ class Settings(BaseSettings):
         default=20.0,
         gt=0,
         le=3600,
-        description="A wake-up nobody acted on is sent again after this long.",
+        description="A wake-up without effect is sent again after this long.",
     )
     relay_outstanding: int = Field(
         default=256,

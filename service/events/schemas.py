@@ -24,7 +24,7 @@ class JobEvent(BaseModel):
 
 
 class JobProgress(BaseModel):
-    """How far a job is now; these events have no number, and only the newest matters."""
+    """Progress of a job now; these events have no number, and only the newest matters."""
 
     state: JobState
     activity: str | None

@@ -12,7 +12,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from jointplay.storage.catalogue import Catalogue, JobStatus
 
 _PERIOD = 0.01
-"""Seconds between two looks when somebody begins to wait; growing to ..."""
+"""Seconds between two looks when a wait begins; growing to ..."""
 _LONGEST_PERIOD = 0.1
 _GROWTH = 1.04  # so that this takes seconds: most jobs that are waited for are short, and what
 # looks often at one that is not takes a tenth of a core from those who compute it
@@ -21,7 +21,7 @@ _log = logging.getLogger(__name__)
 
 
 class Watch:
-    """What one client sees of one job; made by `Watcher.watching`."""
+    """One client's view of one job; made by `Watcher.watching`."""
 
     def __init__(self) -> None:
         self.latest: JobStatus | None = None
@@ -69,7 +69,7 @@ class Watcher:
                 del self._watches[job_id]
 
     async def finished(self, job_id: str, seconds: float) -> bool:
-        """Return as soon as a job is finished, or after so many seconds; tell whether it is."""
+        """Return as soon as a job is finished, or after `seconds`; the answer is whether it is."""
         try:
             async with asyncio.timeout(seconds):
                 with self.watching(job_id) as watch:
@@ -81,7 +81,7 @@ class Watcher:
         return False
 
     async def _look(self) -> None:
-        """Look until nobody watches; what a database that does not answer hides is seen later."""
+        """Look until no one watches; what a database that does not answer hides is seen later."""
         pause = _PERIOD
         while self._watches:
             self._woken.clear()

@@ -1,4 +1,4 @@
-"""What is served of a store: bytes of a file, or bytes that were made of a growing store."""
+"""Content served of a store: bytes of a file, or bytes that were made of a growing store."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

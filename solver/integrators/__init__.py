@@ -11,10 +11,10 @@ METHODS: dict[str, Method] = {
     method.name: method
     for method in (BOGACKI_SHAMPINE3, TSITOURAS5, DORMAND_PRINCE853, RODAS4, RUNGE_KUTTA4)
 }
-"""Every method; who adds one can ask for it by name in jobs and accuracy-studies."""
+"""Every method; one that is added here can be asked for by name in jobs and accuracy-studies."""
 
 AUTO, COARSE, STIFF = TSITOURAS5, DORMAND_PRINCE853, RODAS4
-"""What ``auto`` means: as a rule, at tolerances too large for that, where a run is stiff."""
+"""Methods of ``auto``: as a rule, at tolerances too large for that, where a run is stiff."""
 
 
 def method_for(method: str, tolerance: float | None) -> str:

@@ -1,4 +1,4 @@
-"""What every integration method says of itself, whatever its family."""
+"""Facts that every integration method states of itself, whatever its family."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Method:
         return len(self.nodes)
 
     def evaluations(self, states: int) -> int:
-        """Return the evaluations of the equations in a step of a problem with so many states."""
+        """Return the evaluations of the equations in a step of a problem with `states` states."""
         return self.stages - 1
 
     def evaluations_at(self, tolerance: float) -> float:

@@ -22,7 +22,7 @@ RANK_TOLERANCE = 1e-9
 """Singular values below this share of the largest count as zero (rows scaled by length)."""
 MOST_ITERATIONS = 200
 LARGEST_TURN = 0.5
-"""Of a body in one iteration, rad."""
+"""Largest turn of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
 GEOMETRY: Final[Any] = {

@@ -1,4 +1,4 @@
-"""What both formulations of the equations of motion share: forces between bodies, the motion."""
+"""Shared parts of both formulations: forces between bodies, the motion."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Forces:
-    """What acts between bodies beside constraints, by the name of the joint or the element."""
+    """Forces between bodies beside constraints, by the name of the joint or the element."""
 
     contacts: dict[str, Contact] = field(default_factory=dict)
     elements: dict[str, Element] = field(default_factory=dict)
@@ -72,7 +72,7 @@ class Motion:
 
     @property
     def contacts(self) -> dict[str, Contact]:
-        """What joints with play do, by name."""
+        """Actions of joints with play, by name."""
         return self.forces.contacts
 
 

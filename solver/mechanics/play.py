@@ -38,7 +38,7 @@ class Interaction:
 
 @dataclass(frozen=True)
 class Contact:
-    """What a joint with play does at one instant; SI units, world components."""
+    """Action of a joint with play at one instant; SI units, world components."""
 
     eccentricity: Pair
     eccentricity_rate: Pair
@@ -51,7 +51,7 @@ class Contact:
     friction_force: Scalar
     """F_t, on the journal along t, N."""
     slip_velocity: Scalar
-    """Of the material of the journal against the bearing's, m/s."""
+    """Velocity of the journal's material against the bearing's, m/s."""
     interaction: Interaction
     """At the centres of bearing (first) and journal (second)."""
     inner: Mapping[str, Scalar]

@@ -33,7 +33,7 @@ def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
 
 
 def select_positive(x: Scalar, if_positive: Scalar, otherwise: Scalar) -> Scalar:
-    """`if_positive` where x > 0, else `otherwise` (also where x is not a number)."""
+    """`if_positive` where x > 0, else `otherwise` (also where x is NaN)."""
     if isinstance(x, float | int):
         return if_positive if x > 0.0 else otherwise
     if isinstance(x, type_of_array):

@@ -1,4 +1,4 @@
-"""What `"auto"` runs with: the explicit method, unless its steps hardly bring a run on.
+"""Choice of `"auto"`: the explicit method, unless its steps hardly bring a run on.
 
 Stiffness is measured by what it costs. Where the explicit method makes `ATTEMPTS` within the first
 `SHARE` of a period, the implicit one is tried on the same stretch, and takes over from the start if

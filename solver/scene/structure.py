@@ -1,4 +1,4 @@
-"""What scenes of one structure share is found once: jobs differ mostly in their numbers."""
+"""Facts that scenes of one structure share, found once: jobs differ mostly in their numbers."""
 
 from __future__ import annotations
 

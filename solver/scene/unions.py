@@ -1,4 +1,4 @@
-"""Fields that may be written in several forms: the form is told first, then checked strictly.
+"""Fields that may be written in several forms: the form is recognised first, then checked strictly.
 
 Pydantic would try every form and complain about each; so only the form that was meant complains.
 """

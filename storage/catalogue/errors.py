@@ -1,4 +1,4 @@
-"""What can go wrong with a request to the catalogue; nothing here knows HTTP."""
+"""Errors of requests to the catalogue, independent of HTTP."""
 
 
 class CatalogueError(Exception):

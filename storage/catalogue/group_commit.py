@@ -23,7 +23,7 @@ class GroupCommit(Generic[Asked, Answer]):
         Returns the answers to several requests, in their order, or raises and has done nothing.
     common
         What it raises when it would fail with any request. After other errors each request is
-        tried alone, so that nobody's spoils another's.
+        tried alone, so that no request spoils another's.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class GroupCommit(Generic[Asked, Answer]):
     def _answer_all(self, group: Sequence[tuple[Asked, Future[Answer]]]) -> None:
         try:
             answers = self._answer([asked for asked, _ in group])
-        except Exception as error:  # noqa: BLE001 - whoever asked is told
+        except Exception as error:  # noqa: BLE001 - the caller gets it
             if len(group) > 1 and not isinstance(error, self._common):
                 for one in group:
                     self._answer_all([one])

@@ -1,4 +1,4 @@
-"""What a worker does with a block: claim it, keep it, record how far it is, give it back.
+"""Operations of a worker on a block: claim it, keep it, record its progress, give it back.
 
 Every statement that changes a held block names the attempt that holds it. A worker that was
 thought dead and comes back finds its attempt fenced: nothing it does counts any more.
@@ -203,7 +203,7 @@ def finish(
     if (outcome is BlockState.failed) != (error is not None):
         raise ValueError("a failed block, and no other, has an error")
     if outcome is BlockState.cancelled and job.state is JobState.running:
-        raise ValueError(f"nobody asked to cancel job {job_id}")
+        raise ValueError(f"job {job_id} was not asked to be cancelled")
     _end_attempt(unit, block_id, attempt, outcome.value)
     _sum_progress(unit, job_id)
     return _settle(unit, job_id, error)
@@ -240,7 +240,7 @@ def _queue_waiting(unit: Unit, job_id: str) -> None:
 
 
 def release(unit: Unit, block_id: str, attempt: int) -> None:
-    """Give a held block back unfinished, to be resumed by whoever is free; or Fenced.
+    """Give a held block back unfinished, to be resumed by a free worker; or Fenced.
 
     It is not a loss.
     """
@@ -300,7 +300,7 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
 
 
 def queue_again(unit: Unit, block_id: str) -> None:
-    """Have a worker told of a block, ahead of jobs that never started."""
+    """Have a worker woken for a block, ahead of jobs that never started."""
     unit.execute(
         insert(tables.outbox).values(
             block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=unit.now, tries=0

@@ -9,7 +9,7 @@ from jointplay.records.job import JobError
 
 
 class JobState(StrEnum):
-    """What a job is doing. Legal steps are listed in `LEGAL_STEPS`."""
+    """State of a job. Legal steps are listed in `LEGAL_STEPS`."""
 
     queued = "queued"
     running = "running"
@@ -36,7 +36,7 @@ LEGAL_STEPS: Mapping[JobState, frozenset[JobState]] = {
 
 
 class BlockState(StrEnum):
-    """What a block is doing; a lost or released one goes from running back to queued.
+    """State of a block; a lost or released one goes from running back to queued.
 
     The block that seals a study is waiting until all others are done.
     """
@@ -50,7 +50,7 @@ class BlockState(StrEnum):
 
 
 class Verdict(StrEnum):
-    """What a worker is told when it reports."""
+    """Answer to a worker that reports."""
 
     go_on = "continue"
     cancel = "cancel"
@@ -166,7 +166,7 @@ class SubmittedBatch:
 
 @dataclass(frozen=True)
 class Block:
-    """What is claimed, leased, fenced and resumed: values `first` .. `first + count - 1`."""
+    """Unit of claims, leases, fencing and resuming: values `first` .. `first + count - 1`."""
 
     id: str
     job: str
@@ -218,7 +218,7 @@ class Event:
 
 @dataclass(frozen=True)
 class JobStatus:
-    """What changes while a job is computed; `last_event` is the number of its newest event."""
+    """Changing facts of a job in progress; `last_event` is the number of its newest event."""
 
     job: str
     state: JobState
@@ -245,7 +245,7 @@ class JobFilter:
 
 @dataclass(frozen=True)
 class WakeUp:
-    """A queued block of which a worker has to be told, on which Celery queue."""
+    """A queued block for which a worker has to be woken, and on which Celery queue."""
 
     block: str
     queue: str
@@ -253,7 +253,7 @@ class WakeUp:
 
 @dataclass(frozen=True)
 class Reaped:
-    """What the reaper did: blocks queued again, and jobs it ended."""
+    """Result of reaping: blocks queued again, and jobs it ended."""
 
     requeued: tuple[str, ...]
     ended: tuple[str, ...]

@@ -271,12 +271,12 @@ def request_cancel(unit: Unit, job_id: str) -> Job:
 
 
 def drop_queued_blocks(unit: Unit, job_id: str, *, untouched: bool) -> None:
-    """Cancel a job's blocks that nobody holds, or that nobody ever held; forget their wake-ups."""
+    """Cancel a job's blocks that no worker holds, or ever held; forget their wake-ups."""
     drop_blocks(unit, tables.block.c.job == job_id, untouched=untouched)
 
 
 def drop_blocks(unit: Unit, of: ColumnElement[bool], *, untouched: bool) -> None:
-    """Cancel those blocks among some that nobody holds, or that nobody ever held."""
+    """Cancel those blocks among some that no worker holds, or ever held."""
     block, outbox = tables.block, tables.outbox
     dropped = and_(of, block.c.state.in_((BlockState.queued.value, BlockState.waiting.value)))
     if untouched:

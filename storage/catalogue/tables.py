@@ -116,7 +116,7 @@ event = Table(
     PrimaryKeyConstraint("job", "seq"),
 )
 
-# One row for each queued block, until it is claimed: what workers still have to be told.
+# One row for each queued block, until it is claimed: wake-ups that workers still have to get.
 outbox = Table(
     "outbox",
     metadata,

@@ -1,4 +1,4 @@
-"""What relay and reaper need: blocks nobody was told of, leases that ran out, who leads."""
+"""Queries of relay and reaper: unannounced blocks, expired leases, the leader."""
 
 from sqlalchemy import case, delete, func, insert, select, update
 
@@ -9,13 +9,13 @@ from jointplay.storage.catalogue.records import BlockState, Reaped, WakeUp
 from jointplay.storage.catalogue.submission import FRESH_QUEUE
 
 _REAP_AT_ONCE = 200
-_RAREST_REPEAT = 16  # a wake-up is repeated after at most so many times `republish_after`
+_RAREST_REPEAT = 16  # a wake-up is repeated after at most this many times `republish_after`
 
 
 def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
     """Return what to publish now: due wake-ups, those of recovered blocks first.
 
-    Only so many may be on their way at one time: what Redis holds stays small however many
+    At most `outstanding` may be on their way at one time: what Redis holds stays small however many
     blocks wait, and losing it costs little.
     """
     outbox = tables.outbox
@@ -35,7 +35,7 @@ def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
 
 
 def mark_published(unit: Unit, blocks: tuple[str, ...], republish_after: float) -> None:
-    """Remember that workers were told; a block still unclaimed later is due again."""
+    """Record that workers were woken; a block still unclaimed later is due again."""
     outbox = tables.outbox
     patience = case((outbox.c.tries < _RAREST_REPEAT, outbox.c.tries + 1), else_=_RAREST_REPEAT)
     unit.execute(
@@ -67,7 +67,7 @@ def reap(unit: Unit, max_attempts: int) -> Reaped:
 
 
 def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
-    """Take or keep the lead of a task for so many seconds; false while somebody else has it."""
+    """Take or keep the lead of a task for `seconds`; false while another process has it."""
     leader = tables.leader
     lead = {"holder": holder, "until": unit.now + seconds}
     free = (leader.c.holder == holder) | (leader.c.until <= unit.now)
@@ -75,7 +75,7 @@ def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
     if taken.rowcount == 1:
         return True
     if unit.execute(select(leader.c.name).where(leader.c.name == name)).one_or_none() is None:
-        unit.execute(insert(leader).values(name=name, **lead))  # nobody led before
+        unit.execute(insert(leader).values(name=name, **lead))  # there was no leader
         return True
     return False
 

@@ -1,1 +1,1 @@
-"""How the catalogue's schema came to be, one revision a file."""
+"""Migrations of the catalogue's schema, one revision a file."""

@@ -13,7 +13,7 @@ class Entry(NamedTuple):
 
 
 class Files(Protocol):
-    """What can be read of a store: sealed and packed, or being filled."""
+    """Readable files of a store: sealed and packed, or being filled."""
 
     def __iter__(self) -> Iterator[str]:
         """Yield the keys that can be listed: all once sealed, else those of the documents."""

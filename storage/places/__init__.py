@@ -19,7 +19,7 @@ class Place(Protocol):
     def put(self, key: str, pieces: Iterable[bytes]) -> None:
         """Store an object, given in pieces; it is there whole, and durable, on return.
 
-        Whoever reads or lists meanwhile, or after the writer was killed, does not see it.
+        Readers do not see it meanwhile, nor after the writer was killed.
 
         Raises
         ------

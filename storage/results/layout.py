@@ -1,4 +1,4 @@
-"""What a results store holds: named columns with units, and how many rows of each."""
+"""Layout of a results store: named columns with units, and how many rows of each."""
 
 import json
 from dataclasses import astuple, dataclass, field

@@ -1,4 +1,4 @@
-"""How the rows of a table are cut into chunks and shards."""
+"""Partition of a table's rows into chunks and shards."""
 
 from dataclasses import dataclass
 

@@ -101,7 +101,7 @@ def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int, fill: float) -> bytes
     """Encode a shard that is still growing.
 
     Chunks are not compressed and stand at offsets that do not depend on how full the shard is,
-    beyond any byte of the finished shard. So whoever has read the index of one version reads
+    beyond any byte of the finished shard. So a reader of the index of one version reads
     right from every later one, and asks the finished shard for bytes that it does not have.
 
     Parameters

@@ -1,4 +1,4 @@
-"""What is known of one block beside its finished chunks: one file, replaced as the block advances.
+"""Part of one block beside its finished chunks: one file, replaced as the block advances.
 
 It holds the status and the numbers of every point of the block, the sections whose chunk is not
 full yet, and the restart point of the computation, all of one moment. When a block is done its

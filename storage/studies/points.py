@@ -1,4 +1,4 @@
-"""What has one number a point, or one of each channel, put together from the parts of blocks."""
+"""Numbers of points, and of their channels, put together from the parts of blocks."""
 
 from bisect import bisect_right
 from collections.abc import Callable, Sequence

@@ -88,7 +88,7 @@ def seal(
     except (FileNotFoundError, FileExistsError, IncompleteStudy):
         if not target.exists():
             raise
-        # by somebody else in the meantime
+        # by another process in the meantime
 
 
 def _files(

@@ -1,4 +1,4 @@
-"""What every contact law offers."""
+"""Interface of contact laws."""
 
 from abc import abstractmethod
 from typing import ClassVar, Protocol
@@ -13,7 +13,7 @@ class Fit(Protocol):
 
     @property
     def bearing_radius(self) -> Scalar:
-        """Of the bearing, m."""
+        """Radius of the bearing, m."""
 
     @property
     def radial_clearance(self) -> Scalar:
@@ -29,7 +29,7 @@ class ContactLaw(Strict):
 
     law: str
     rules: ClassVar[tuple[Rule, ...]] = ()
-    """What the parameters must not be."""
+    """Rules that the parameters must keep."""
 
     @abstractmethod
     def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:

@@ -1,4 +1,4 @@
-"""What every force element offers."""
+"""Interface of force elements."""
 
 from abc import abstractmethod
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ from jointplay.solver.quantities.units import PointReference, Strict
 
 
 class Ends(NamedTuple):
-    """How the second point of an element lies and moves against the first, in world components."""
+    """Position and velocity of an element's second point against its first, world components."""
 
     gap: tuple[Scalar, Scalar]
     """Position of the second point less that of the first, m."""
@@ -21,7 +21,7 @@ class Ends(NamedTuple):
 
 
 class Effect(NamedTuple):
-    """What an element does at one instant. The power that goes into it is d(stored)/dt + loss."""
+    """Action of an element at one instant. The power that goes into it is d(stored)/dt + loss."""
 
     force: tuple[Scalar, Scalar]
     """On the second point, N; its opposite acts on the first."""
@@ -42,7 +42,7 @@ class ForceElement(Strict):
     first: PointReference
     second: PointReference
     rules: ClassVar[tuple[Rule, ...]] = ()
-    """What the parameters must not be."""
+    """Rules that the parameters must keep."""
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = ()
     """Name, unit and meaning of the channels that an element adds to a scene's."""
 

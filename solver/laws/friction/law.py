@@ -1,4 +1,4 @@
-"""What every friction law offers."""
+"""Interface of friction laws."""
 
 import math
 from abc import abstractmethod
@@ -19,7 +19,7 @@ class InnerState:
     unit: str
     long_name: str
     scale: float
-    """What the tolerance of a step's error is relative to."""
+    """Scale that the tolerance of a step's error is relative to."""
     start: float = 0.0
 
 
@@ -33,7 +33,7 @@ class FrictionLaw(Strict):
 
     law: str
     rules: ClassVar[tuple[Rule, ...]] = ()
-    """What the parameters must not be."""
+    """Rules that the parameters must keep."""
 
     @abstractmethod
     def friction_force(self, normal_force: Scalar, slip: Scalar, inner: Sequence[Scalar]) -> Scalar:

@@ -1,1 +1,1 @@
-"""How far a trajectory can be believed: what seven companions in its bundle say of it."""
+"""Certificates of trajectories: errors and horizons from seven companions in the bundle."""

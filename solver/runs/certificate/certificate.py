@@ -39,7 +39,7 @@ HARDLY = 1e-3
 
 @dataclass(frozen=True)
 class Certificate:
-    """How far a trajectory can be believed.
+    """Certificate of a trajectory: how far it can be believed.
 
     Attributes
     ----------

@@ -41,7 +41,7 @@ SHORT = 4.0
 LOUD, LOUD_IN_SHORT = (TIGHTEST, TIGHTER, *PERTURBED), (TIGHTEST, PERTURBED[0])
 """Lanes that seek extremes."""
 MOST_ATTEMPTS = 1.6
-"""Of the run's own: companions that need more are left behind where they are."""
+"""Multiple of the run's own attempts: companions that need more are left behind where they are."""
 
 
 @dataclass

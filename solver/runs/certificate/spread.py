@@ -1,4 +1,4 @@
-"""What differs between the lanes of a bundle: extremes, and the shares of time spent where.
+"""Spread over the lanes of a bundle: of extremes, and of shares of time.
 
 Beyond its horizon a trajectory is one of many that are as good; what they have in common is what
 can be said of the motion.

@@ -1,4 +1,4 @@
-"""How far the constraints of absolute coordinates are violated: by Baumgarte's drift alone."""
+"""Violation of the constraints of absolute coordinates: Baumgarte's drift alone."""
 
 from __future__ import annotations
 

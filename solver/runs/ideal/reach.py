@@ -22,7 +22,7 @@ SECOND_ORDER = 2.0
 
 @dataclass(frozen=True)
 class Reach:
-    """What a channel of a body does in a period.
+    """Range of a body's channel in a period.
 
     Attributes
     ----------

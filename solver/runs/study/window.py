@@ -19,7 +19,7 @@ SAME = 1e-5
 
 @dataclass(frozen=True)
 class Window:
-    """What comes after settling, and the samples in it: at whole multiples of the step.
+    """Time after settling, and the samples in it: at whole multiples of the step.
 
     The first may lie at the start; none lies at the end, which repeats the start of whole periods.
     """
