@@ -210,7 +210,7 @@ class CatalogueModel(RuleBasedStateMachine):
         if held.state is not BlockState.running:
             return
         if job.state is JobState.running:
-            with pytest.raises(ValueError, match="nobody asked"):
+            with pytest.raises(ValueError, match="was not asked"):
                 self.catalogue.finish(name, held.attempt, BlockState.cancelled)
             return
         self.catalogue.finish(name, held.attempt, BlockState.cancelled)
