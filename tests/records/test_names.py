@@ -7,6 +7,7 @@ import pytest
 import zarr
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
+from zarr.storage import ZipStore
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.names import GROUPS, RESERVED_OUTPUTS, STORED
@@ -14,7 +15,7 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene import presets
 from jointplay.storage.results import Appendix, Partition, ResultWriter, SmallArray, pyramid
 from jointplay.worker.execute import layout_of
-from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout, target
 
 
 def admitted(name: str) -> Admission:
@@ -57,8 +58,9 @@ def test_every_name_that_a_store_uses_is_reserved(tmp_path):
     writer = ResultWriter.create(tmp_path / "store", run.layout)
     run.append(writer, 0.0, 1.0)
     some = {"error": SmallArray(np.zeros(1), ("instant",), {})}
-    writer.seal(peaks=run.peaks, summary={}, certificate=Appendix({}, some))
-    root = zarr.open_group(tmp_path / "store", mode="r")
-    assert {*root.group_keys(), pyramid.FOLDER} == {*GROUPS}  # a pyramid is in no listing
+    there = target(tmp_path / "store")
+    writer.seal(there, peaks=run.peaks, summary={}, certificate=Appendix({}, some))
+    root = zarr.open_group(ZipStore(tmp_path / "store.zip", mode="r"), mode="r")
+    assert {*root.group_keys(), pyramid.GROUP} == {*GROUPS}
     channels = {channel.name for channel in run.layout.channels}
     assert {*root.array_keys()} - channels == STORED - {*GROUPS, "c"}
