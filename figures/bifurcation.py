@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import marks, page, study_facts
-from jointplay.figures.errors import NotDrawable
+from jointplay.figures.errors import NotDrawable, at_most
 from jointplay.figures.kind import Selection, StudyFigure
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
@@ -45,13 +45,8 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
         raise NotDrawable("A bifurcation diagram is drawn of a job of kind bifurcation.")
     study_facts.chosen_points(source, selection)
     names = study_facts.chosen_observables(source, selection)
-    if len(names) > _MOST_PANELS:
-        raise NotDrawable(
-            f"One figure shows at most {_MOST_PANELS} observables, not {len(names)}; choose fewer.",
-            "channels",
-        )
     if names:
-        return names
+        return at_most(_MOST_PANELS, names)
     positions = [position for position, _ in study_facts.observed_pairs(source)]
     return tuple(positions or [one.name for one in source.observables])[:_FIRST_PANELS]
 

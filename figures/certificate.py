@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import horizon, page, scene_facts
-from jointplay.figures.errors import NotDrawable
+from jointplay.figures.errors import NotDrawable, at_most
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import CertificateLike, Source
+from jointplay.records.run import CertificateLike, Source, inside
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,12 +36,7 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     stored = [channel.name for channel in source.channels]
     usual = [*scene_facts.outputs(source), *(name for name in centres if name in stored)]
     names = selection.channels or usual[:MOST_PANELS] or stored[:1]
-    if len(names) > MOST_PANELS:
-        raise NotDrawable(
-            f"One figure shows at most {MOST_PANELS} channels, not {len(names)}; choose fewer.",
-            "channels",
-        )
-    return scene_facts.stored(source, names)
+    return scene_facts.stored(source, at_most(MOST_PANELS, names))
 
 
 def _draw(source: Source, selection: Selection) -> Figure:
@@ -51,19 +46,17 @@ def _draw(source: Source, selection: Selection) -> Figure:
     end = float(_of(source).attributes["horizon"])
     arrays = _of(source).arrays
     time = arrays["time"].values
-    low = time[0] if selection.start is None else selection.start
-    high = time[-1] if selection.stop is None else selection.stop
-    inside = (low <= time) & (time <= high)
-    if not inside.any():
+    chosen = inside(time, selection.start, selection.stop)
+    if not chosen.any():
         raise NotDrawable("There are no samples in this window of time; widen it.", "start")
-    time = time[inside]
+    time = time[chosen]
     spans = horizon.gaps(source, float(time[0]), float(time[-1]))
     height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + page.LEGEND_HEIGHT
     figure, grid = page.panels(len(names), 1, height, share_x=True)
     seconds = scale("s", time)
     stored = [channel.name for channel in source.channels]
     for (axes,), name in zip(grid, names, strict=True):
-        errors = arrays["error"].values[inside, stored.index(name)]
+        errors = arrays["error"].values[chosen, stored.index(name)]
         finite = errors[np.isfinite(errors)]
         shown = scale(scene_facts.channel(source, name).unit, finite)
         floor = _SMALLEST * max(float(finite.max(initial=0.0)), np.finfo(np.float64).tiny)

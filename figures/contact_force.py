@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.figures import horizon, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats, Source
+from jointplay.records.run import Floats, Source, inside
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -79,9 +79,7 @@ def _between_samples(
     """Give onset [s] and peak force [N] of the contacts that samples cannot resolve."""
     rows = source.impacts()
     rows = rows[rows["joint"] == list(source.joints).index(joint)]
-    low = -np.inf if selection.start is None else selection.start
-    high = np.inf if selection.stop is None else selection.stop
-    rows = rows[(rows["onset"] >= low) & (rows["onset"] <= high)]
+    rows = rows[inside(rows["onset"], selection.start, selection.stop)]
     rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
     rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]
     return rows["onset"], rows["peak_force"]

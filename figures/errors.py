@@ -29,3 +29,11 @@ class NotDrawable(FigureError):
     def __init__(self, sentence: str, cause: str = "name") -> None:
         super().__init__(sentence)
         self.cause = cause
+
+
+def at_most(most: int, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the channels of a figure's panels; `NotDrawable` if there are too many."""
+    if len(names) > most:
+        sentence = f"One figure shows at most {most} channels, not {len(names)}; choose fewer."
+        raise NotDrawable(sentence, "channels")
+    return tuple(names)

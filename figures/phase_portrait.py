@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from jointplay.figures import page, sampling, scene_facts, smooth
 from jointplay.figures.errors import NotDrawable
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats, Source
+from jointplay.records.run import Floats, Source, inside
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,10 +114,8 @@ def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -
 def _sections(source: Source, names: tuple[str, str], selection: Selection) -> dict[str, Floats]:
     """Give the Poincare points inside the window of time."""
     time, points = source.sections(names)
-    low = -np.inf if selection.start is None else selection.start
-    high = np.inf if selection.stop is None else selection.stop
-    inside = (time >= low) & (time <= high)
-    return {name: points[name][inside] for name in names}
+    shown = inside(time, selection.start, selection.stop)
+    return {name: points[name][shown] for name in names}
 
 
 PHASE_PORTRAIT = RunFigure(

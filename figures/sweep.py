@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import page, study_facts
-from jointplay.figures.errors import NotDrawable
+from jointplay.figures.errors import NotDrawable, at_most
 from jointplay.figures.kind import Selection, StudyFigure
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, scale
@@ -52,14 +52,10 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
             "start",
         )
     most = _MOST_CURVES if len(varying) == 1 else _MOST_MAPS
-    names = study_facts.chosen_over_points(source, selection)
+    names = at_most(most, study_facts.chosen_over_points(source, selection))
     statistics = {one.name for one in study_facts.statistics(source)}
     if 0 < len(statistics.intersection(names)) < len(names):
         raise NotDrawable("One figure shows extremes or statistics; choose either.", "channels")
-    if len(names) > most:
-        raise NotDrawable(
-            f"One figure shows at most {most} channels, not {len(names)}; choose fewer.", "channels"
-        )
     return names or _first(source)
 
 

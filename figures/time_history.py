@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jointplay.figures import horizon, page, sampling, scene_facts
-from jointplay.figures.errors import NotDrawable
+from jointplay.figures.errors import NotDrawable, at_most
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.run import Floats, Source
@@ -25,13 +25,7 @@ _NOTICEABLE = 0.01
 def _chosen(source: Source, selection: Selection) -> tuple[str, ...]:
     if not selection.channels:
         raise NotDrawable("Say which channels to draw over time.", "channels")
-    if len(selection.channels) > MOST_PANELS:
-        raise NotDrawable(
-            f"One figure shows at most {MOST_PANELS} channels, not {len(selection.channels)}; "
-            "choose fewer.",
-            "channels",
-        )
-    return scene_facts.stored(source, selection.channels)
+    return scene_facts.stored(source, at_most(MOST_PANELS, selection.channels))
 
 
 def declared(source: Source, selection: Selection) -> tuple[str, ...]:

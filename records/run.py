@@ -79,3 +79,10 @@ class Source(Protocol):
 
     def certificate(self) -> CertificateLike | None:
         """Give the estimated errors; none before the run's end, or where none were asked for."""
+
+
+def inside(time: Floats, start: float | None, stop: float | None) -> NDArray[np.bool_]:
+    """Tell which times lie in start <= time <= stop [s]; None is unbounded."""
+    low = -np.inf if start is None else start
+    high = np.inf if stop is None else stop
+    return (time >= low) & (time <= high)

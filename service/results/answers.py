@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.channel import TIME, by_name
+from jointplay.records.run import inside
 from jointplay.service.results import schemas
 from jointplay.service.results.queries import (
     HistoryQuery,
@@ -42,13 +43,13 @@ def sections(store: ResultReader, selection: Selection) -> schemas.Poincare:
     """Return the Poincare sections in a window of time."""
     names = chosen_channels(selection.channels, list(by_name(store.channels)))
     time = store.sections([])[0]
-    inside = _inside(time, selection)
-    if inside.any():
-        check_size(int(inside.sum()), len(names) + 1, "sections", float(np.ptp(time[inside])))
-    columns = {name: column[inside] for name, column in store.sections(names)[1].items()}
+    shown = inside(time, *selection.checked())
+    if shown.any():
+        check_size(int(shown.sum()), len(names) + 1, "sections", float(np.ptp(time[shown])))
+    columns = {name: column[shown] for name, column in store.sections(names)[1].items()}
     return schemas.Poincare.model_construct(
         complete=store.complete,
-        time=schemas.Series.of(TIME, time[inside]),
+        time=schemas.Series.of(TIME, time[shown]),
         channels=_series(store, columns),
         note=str(store.attributes.get("section_note", "")),
     )
@@ -67,7 +68,7 @@ def peaks(store: ResultReader) -> schemas.Peaks:
 def impacts(store: ResultReader, window: Window) -> schemas.Impacts:
     """Return the contacts whose onset is in a window of time."""
     rows = store.impacts()
-    rows = rows[_inside(rows["onset"], window)]
+    rows = rows[inside(rows["onset"], *window.checked())]
     names = rows.dtype.names or ()
     if len(rows):
         check_size(len(rows), len(names), "impacts", float(np.ptp(rows["onset"])))
@@ -124,10 +125,3 @@ def _overview(
 def _series(store: ResultReader, columns: dict[str, Floats]) -> dict[str, schemas.Series]:
     described = by_name(store.channels)
     return {name: schemas.Series.of(described[name], column) for name, column in columns.items()}
-
-
-def _inside(time: Floats, window: Window) -> NDArray[np.bool_]:
-    start, stop = window.checked()
-    low = -np.inf if start is None else start
-    high = np.inf if stop is None else stop
-    return (time >= low) & (time <= high)
