@@ -27,7 +27,7 @@ from jointplay.solver.version import source_digest
 
 @cache
 def cache_folder() -> Path:
-    """Return the folder of code compiled by these sources for so many lanes, made on first use.
+    """Return the folder of code compiled by these sources for a number of lanes, made on first use.
 
     ``JOINTPLAY_CACHE`` chooses its parent; the default is the user's cache folder, or a private
     temporary one where that cannot be written.

@@ -50,7 +50,7 @@ Functions = namedtuple("Functions", SIGNATURES)  # type: ignore[misc]  # noqa: P
 """All of them, by name, inside compiled loops."""
 DTYPE = np.dtype([(name, np.int64) for name in SIGNATURES])
 ADDRESSES = from_dtype(DTYPE)[::1]
-"""How loops take the record: an array of one. First-class functions as arguments would cost 5 us
+"""Type of the record in loops: an array of one. First-class functions as arguments would cost 5 us
 each at every call from Python."""
 
 

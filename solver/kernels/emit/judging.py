@@ -1,4 +1,4 @@
-"""What follows from a step: how much the next one grows, and what contacts did in it."""
+"""Consequences of a step: how much the next one grows, and what contacts did in it."""
 
 from __future__ import annotations
 

@@ -41,12 +41,12 @@ class Kernel:
     layout: Layout
     row: DenseRow
     places: NDArray[np.void]
-    """What compiled loops take as `at`; see `solver.kernels.emit.places`."""
+    """Record that compiled loops take as `at`; see `solver.kernels.emit.places`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
     play: tuple[str, ...]
     rows: Rows
-    """What the ``channel`` block holds."""
+    """Channels of the ``channel`` block."""
     fixed: tuple[tuple[int, Expression], ...]
     """Slot and expression of what depends on the scene's numbers alone."""
     equations: Equations

@@ -20,7 +20,7 @@ Kinks = tuple[tuple[Expression, Expression], ...]
 """Piecewise linear functions, each with its argument."""
 
 MEMORY = 3
-"""Of a kink at the end of a step, for the next one: argument, value, slope."""
+"""Numbers kept of a kink at the end of a step, for the next one: argument, value, slope."""
 ROUNDING = 1e-9
 """Share of a value by which it may leave a straight line without having passed a kink."""
 

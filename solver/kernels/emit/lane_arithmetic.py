@@ -105,7 +105,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "power_of_two": _power_of_two,
     "quarter_turns": _quarter_turns,
 }
-"""What each operation of the recorder becomes."""
+"""Vector form of each operation of the recorder."""
 
 
 def positive(builder, x):

@@ -77,7 +77,7 @@ DTYPE = np.dtype([*((name, np.int64) for name in NAMES), ("row", ROW_DTYPE)])
 Places = Any
 """Type of `at` in loops: a record of `DTYPE`, ``work[at.mode + j, lane]``."""
 PLACES = from_dtype(DTYPE)[::1]
-"""How kernels take the record: an array of one, which costs Python least to pass."""
+"""Type of the record in kernels: an array of one, which costs Python least to pass."""
 
 
 def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArray[np.void]:

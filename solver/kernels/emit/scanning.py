@@ -2,7 +2,7 @@
 
 It looks at the values at step ends only to find candidates; the extremes themselves are then
 sought inside the steps on the dense output (`solver.kernels.loop.peaks`).
-Before the second step there is no change before: it is not a number, and no candidate.
+Before the second step there is no change before: it is NaN, and no candidate.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from jointplay.solver.quantities.scalars import minimum, select_positive
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 
 BYTES = 8 * min(WIDTHS.values())
-"""Marks in a slot, one byte for each row, whose bits are the lanes: so many at any width."""
+"""Marks in a slot, one byte for each row, whose bits are the lanes, at any width."""
 
 LOPSIDED, SPARE = 0.3, 0.02
-"""How far an extreme may lie beyond the step end between the changes r (before) and c (after).
+"""Reach of an extreme beyond the step end between the changes r (before) and c (after).
 
 A parabola reaches (r + c)² / (8 (|r| + |c|)) beyond, nothing where the changes are equal and
 opposite; a sine sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. LOPSIDED

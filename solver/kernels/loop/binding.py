@@ -23,12 +23,12 @@ STEPS_IN_A_PERIOD = 100
 RESTART = 1e-3
 """The first step in contact closes this share of the clearance at the impact rate."""
 SMALLEST_STEP = 1e-15
-"""Of a period: a step below it ends the run."""
+"""Share of a period: a step below it ends the run."""
 ACROSS = 6.0
 """Speeds are measured against at most this multiple of that which a journal has after falling
 through the smallest clearance: else impacts in a small one would be lost in the tolerance."""
 RESOLVED = 1.0
-"""Of the slip velocity at which friction is full: the error of a speed in a step stays below."""
+"""Share of the slip velocity at which friction is full that bounds a speed's error in a step."""
 STRICTEST = 1e-14
 """While nothing has moved as fast as the scene's scale of speed, the tolerance is smaller by as
 much, down to this: else what a run does that is nearly at rest would be lost in the tolerance."""

@@ -16,8 +16,8 @@ MOST_LANDINGS = 12
 MOST_APPROACHES = 30
 """Times that the step is shortened to a quarter for one onset."""
 CAUTIOUS = 0.3
-"""Of the size that the estimate asks for: a rejected step that starts where contact does. The force
-grows as a broken power of time there, and the estimate sees about a third of the error."""
+"""Share of the size that the estimate asks for, of a rejected step that starts where contact does.
+The force grows as a broken power of time there; the estimate sees about a third of the error."""
 LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
 
@@ -35,7 +35,7 @@ def land(
 
     1. Find the joint whose contact begins first inside the step, and when (`earliest_onset`).
     2. Redo the step so that it ends there. The redone step differs from the dense output that
-       told when, so its end misses the onset by a little: from here on the joint is the target.
+       gave the time, so its end misses the onset by a little: from here on the joint is the target.
     3. Take the step once the target's penetration at its end is as good as zero (`has_landed`);
        until then move the end by Newton's rule (`corrected_share`), unless another contact begins
        before: then that is the target.

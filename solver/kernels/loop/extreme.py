@@ -14,7 +14,7 @@ from jointplay.solver.kernels.layout import INSTANTS
 POINTS = INSTANTS + 1
 """Quarters of the step before and of this one, and its end."""
 ORDER = 4
-"""Of the polynomial that gives an extreme's value."""
+"""Order of the polynomial that gives an extreme's value."""
 STRIDE = 16
 """From a row of a table to the next."""
 TIMES, INVERSES, VALUES = 0, 0, (ORDER + 1) * STRIDE

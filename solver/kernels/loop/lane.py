@@ -46,7 +46,7 @@ class Lane:
 
     @property
     def status(self) -> Status:
-        """How the lane stands."""
+        """Status of the lane."""
         return Status(self.run["status"])
 
     @property

@@ -1,4 +1,4 @@
-"""What a lane is given to compute, and where it starts."""
+"""The problem of a lane, and its start."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class LaneStart:
 
 @dataclass(frozen=True)
 class LaneProblem:
-    """What one lane is to compute."""
+    """The problem that one lane computes."""
 
     scene: Scene
     duration: float
@@ -66,6 +66,6 @@ class LaneProblem:
     event: Event | None = None
     start: LaneStart | None = None
     step: float | None = None
-    """Of a method with a fixed step, s."""
+    """Step of a method with a fixed one, s."""
     first_sample: int = 0
     """Index of the first sample; sample i lies at i * output_step, the last one at the end."""

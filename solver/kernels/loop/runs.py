@@ -1,4 +1,4 @@
-"""What the driving loop keeps of each lane's run, beside the work array, and what it hands out."""
+"""Records of each lane's run, beside the work array, and buffers of what the loop hands out."""
 
 # mypy: disable-error-code="no-untyped-call"
 
@@ -16,7 +16,7 @@ from jointplay.solver.kernels.loop.extreme import SIZE as TABLE_SIZE
 
 
 class Status(IntEnum):
-    """How a lane stands."""
+    """Status of a lane."""
 
     RUNNING = 0
     DONE = 1
@@ -27,7 +27,7 @@ class Status(IntEnum):
 
 
 class SectionKind(IntEnum):
-    """What makes a Poincare section."""
+    """Kind of event that makes a Poincare section."""
 
     CRANK = 0
     ONSET = 1
@@ -103,14 +103,14 @@ DTYPE = np.dtype(
     ]
 )
 RUNS = from_dtype(DTYPE)[::1]
-"""How kernels take the records of all lanes."""
+"""Type of the records of all lanes in kernels."""
 
 GROWTH = np.dtype([("end", np.float64), ("logarithm", np.float64)])
 """Growth of a tangent: end of its time, s, and logarithm of the factor."""
 
 
 class Buffers(NamedTuple):
-    """What the loop writes for Python to read, by lane; and room for it to compute in."""
+    """Output of the loop for Python to read, by lane, and room for it to compute in."""
 
     rows: NDArray[np.float64]
     """Dense rows of samples and of sections, (2, lanes, capacity, width)."""
@@ -141,4 +141,4 @@ BUFFERS = types.NamedTuple(
     ],
     Buffers,
 )
-"""How kernels take them."""
+"""Their type in kernels."""

@@ -24,7 +24,7 @@ from jointplay.solver.scene.references import inner_states
 
 @dataclass(frozen=True)
 class Equations:
-    """What kernels evaluate, as expressions of the variables.
+    """Equations that kernels evaluate, as expressions of the variables.
 
     The variables are ``stage0…`` (coordinates, their speeds, inner states of friction laws in the
     order of joints), ``stage_time`` (s within the period), ``phase<k>`` (driver k's position at

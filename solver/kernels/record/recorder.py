@@ -31,7 +31,7 @@ class Recorder:
         self._nodes: dict[tuple[object, ...], Expression] = {}
         self.numbers: dict[str, float] = {}
         self.functions: dict[int, Function] = {}
-        """What is known of nodes that stand for a function of one expression."""
+        """Functions of one expression, by the node that stands for each."""
         self.held: dict[Expression, Expression] = {}
         """Inverses of variables that do not change within a step, by variable; see `hold`."""
         self.kinks: dict[Expression, Expression] = {}
@@ -242,7 +242,7 @@ class Expression:
 
 @dataclass(frozen=True)
 class Function:
-    """What a node stands for, though it is recorded as arithmetic: derivatives need not go there.
+    """Function that a node stands for, recorded as arithmetic: derivatives need not go there.
 
     `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power.
     """
