@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from jointplay.records.channel import Channel
 from jointplay.records.failure import LimitExceeded, Problem
 from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds import documents
@@ -89,18 +90,20 @@ class Simulate(Kind[SimulateJob]):
             output_step=job.output_step or job.duration / DEFAULT_SAMPLES,
             channels=[channel.name for channel in selected],
         )
-        admission = _admission(job, filled, scene)
+        admission = _admission(job, filled, scene, selected)
         _check_limits(admission, job.duration, endless=moves or admission.period is not None)
         return admission
 
     def plan(self, job: SimulateJob, filled: dict[str, Any]) -> Admission:
         """Return what `admit` returned; see `Kind.plan`."""
-        return _admission(job, filled, scene_of(job))
+        scene = scene_of(job)
+        channels = {channel.name: channel for channel in offered(scene)}
+        return _admission(job, filled, scene, tuple(channels[name] for name in filled["channels"]))
 
 
-def _admission(job: SimulateJob, filled: dict[str, Any], scene: Scene) -> Admission:
-    channels = {channel.name: channel for channel in offered(scene)}
-    selected = tuple(channels[name] for name in filled["channels"])
+def _admission(
+    job: SimulateJob, filled: dict[str, Any], scene: Scene, channels: tuple[Channel, ...]
+) -> Admission:
     period = common_period(scene)
     samples = sample_count(job.duration, filled["output_step"])
     sections = section_count(scene, period, job)
@@ -108,13 +111,13 @@ def _admission(job: SimulateJob, filled: dict[str, Any], scene: Scene) -> Admiss
         job=filled,
         scene=scene,
         digest=documents.digest(filled),
-        channels=selected,
+        channels=channels,
         samples=samples,
         sections=sections,
         period=period.seconds,
         section_note=period.note,
         joints=tuple(name for name, joint in scene.joints.items() if has_play(joint)),
-        stored_bytes=int(BYTES_PER_VALUE * (len(selected) + 1) * (samples + sections)),
+        stored_bytes=int(BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
     )
 
 

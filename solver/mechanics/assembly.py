@@ -98,14 +98,16 @@ def link_lengths(scene: Scene) -> list[float]:
 
 def directionless(scene: Scene, pose: Floats) -> list[str]:
     """Return the force elements that need a direction and whose points start in one place."""
+    directed = {name: one for name, one in scene.forces.items() if one.needs_direction}
+    if not directed:
+        return []
     mechanism = AbsoluteMechanism(scene, view(scene), close_play=False)
     near = ASSEMBLED * shortest_link(scene)
     still = np.zeros_like(pose)
     return [
         name
-        for name, element in scene.forces.items()
-        if element.needs_direction
-        and math.hypot(*mechanism.ends((element.first, element.second), pose, still).gap) <= near
+        for name, element in directed.items()
+        if math.hypot(*mechanism.ends((element.first, element.second), pose, still).gap) <= near
     ]
 
 
