@@ -1,8 +1,8 @@
 """JSON as RFC 8259 has it: no NaN, no infinity, no duplicate keys, bounded nesting.
 
 Python's parser is more generous: of two equal keys the last one wins silently, and ``1e400`` is
-read as infinity.  Service and command
-line read every document through `parse`, so that a job means the same wherever it is given.
+read as infinity; pydantic-core's says nothing of equal keys either.  Service and command line read
+every document through `parse`, so that a job means the same wherever it is given.
 """
 
 import json
