@@ -5,7 +5,6 @@ all columns at one place, such as ``history-3.zip``, which is written once, when
 """
 
 import os
-import shutil
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
@@ -68,12 +67,9 @@ class Running:
         source, path = lost._path(key), self._path(key)
         try:
             os.link(source, path)
-        except FileNotFoundError:
-            raise
-        except OSError:  # another file system, or one that cannot link
-            durable.write(path, [source.read_bytes()])
-        else:
             durable.sync(path.parent)
+        except OSError:  # another file system, or one that cannot link; or the source is gone
+            durable.write(path, [source.read_bytes()])
 
     def has(self, key: str) -> bool:
         """Whether the chunks at the place of a key were written, and the folder is there."""
@@ -128,10 +124,6 @@ class Running:
         """Write a file that is no part of the sealed store; durable on return."""
         self._sync_folders()
         durable.write(self.folder / path, pieces)
-
-    def remove(self) -> None:
-        """Delete the folder: the store is sealed."""
-        shutil.rmtree(self.folder, ignore_errors=True)
 
     def _ask(self, key: str, question: Callable[[Packed], Found]) -> Found:
         """Ask the packed file that holds a key."""

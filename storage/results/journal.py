@@ -15,10 +15,11 @@ import os
 import struct
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
+from jointplay.records.checkpoint import ForeignCheckpoint, UnusableCheckpoint, decode, encode
 from jointplay.storage.durable import sync
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS
@@ -27,7 +28,7 @@ from jointplay.storage.results.growing_table import GrowingTable
 FOLDER: Final = PARTS
 _KEPT_GENERATIONS: Final = 3
 ROWS: Final = struct.Struct("<Q")
-_FORMAT: Final = 2
+_KIND: Final = "growing results"
 
 
 class Journal:
@@ -81,14 +82,12 @@ class Journal:
         self._hash.update(frame)
         self._journalled = [table.rows for table in tables]
         token = {
-            "format": _FORMAT,
-            "layout": self._layout_digest,
             "generation": self._generation,
             "size": self._size,
             "sha256": self._hash.hexdigest(),
             "durable": durable,
         }
-        return json.dumps(token).encode()
+        return encode(_KIND, self._layout_digest, token, {})
 
     def _begin(self, durable: list[int]) -> None:
         self._generation += 1
@@ -113,18 +112,17 @@ class Checkpoint:
 
     def __init__(self, content: bytes, layout_digest: str) -> None:
         try:
-            token: dict[str, Any] = json.loads(content)
-            known = token["format"] == _FORMAT
-            self.generation = int(token["generation"])
-            self.durable = [int(rows) for rows in token["durable"]]
-            self._size = int(token["size"])
-            self._sha256 = str(token["sha256"])
-        except (ValueError, KeyError, TypeError) as error:
-            raise CheckpointMismatch("these bytes are no checkpoint of a results store") from error
-        if not known or token["layout"] != layout_digest:
+            token, _ = decode(content, _KIND, layout_digest)
+        except ForeignCheckpoint as error:
             raise CheckpointMismatch(
                 "the checkpoint belongs to a store with other channels, counts or joints"
-            )
+            ) from error
+        except UnusableCheckpoint as error:
+            raise CheckpointMismatch("these bytes are no checkpoint of a results store") from error
+        self.generation: int = token["generation"]
+        self.durable: list[int] = token["durable"]
+        self._size: int = token["size"]
+        self._sha256: str = token["sha256"]
 
     def replay(self, root: Path, tables: Sequence[GrowingTable]) -> None:
         """Append the rows that waited at the checkpoint, from the journal below `root`.

@@ -4,7 +4,6 @@ The documents on the disk announce all rows to come; here their shapes end where
 committed. The last shard, which is not full yet, is made of the rows that wait for it.
 """
 
-import copy
 import json
 from typing import Any, Final
 
@@ -16,7 +15,7 @@ from jointplay.storage.errors import NotAStore
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import SCHEMA_VERSION
-from jointplay.storage.results.metadata import FILE, Document, serialise
+from jointplay.storage.results.metadata import FILE, Document, group, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
 
 _DOUBLE: Final = np.dtype("<f8")
@@ -59,17 +58,7 @@ class LiveStore:
         if path:
             below = {k: one for k, one in below.items() if f"{path}/{k}" in shown}
         attributes = self._attributes if node is None else node["attributes"]
-        document: Document = {
-            "zarr_format": 3,
-            "node_type": "group",
-            "attributes": attributes,
-            "consolidated_metadata": {
-                "kind": "inline",
-                "must_understand": False,
-                "metadata": below,
-            },
-        }
-        return serialise(document)
+        return serialise(group(attributes, below))
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk that is not on the disk yet, or None if it has no row.
@@ -78,11 +67,11 @@ class LiveStore:
         has read the index of an earlier one reads right.
         """
         path, _, place = key.rpartition("/c/")
-        group, _, name = path.rpartition("/")
-        names = self._columns.get(group, ())
+        table, _, name = path.rpartition("/")
+        names = self._columns.get(table, ())
         if path not in self._members or name not in names or not place.isdecimal():
             return None
-        waiting = self._waiting[group]
+        waiting = self._waiting[table]
         array = self._members[path]
         shard_rows, chunk_rows = shape_of(array)
         if int(place) != waiting.durable // shard_rows or waiting.rows == waiting.durable:
@@ -96,10 +85,9 @@ class LiveStore:
 
     def _shown(self, name: str) -> Document:
         document = self._members[name]
-        group, _, column = name.rpartition("/")
-        if document["node_type"] == "array" and column in self._columns.get(group, ()):
-            document = copy.copy(document)
-            document["shape"] = [self._waiting[group].rows]
+        path, _, column = name.rpartition("/")
+        if document["node_type"] == "array" and column in self._columns.get(path, ()):
+            return document | {"shape": [self._waiting[path].rows]}
         return document
 
 
@@ -150,9 +138,9 @@ def root_of(files: Files) -> Document:
     return root
 
 
-def rows_in_shards(files: Running, root: Document, group: str) -> int:
+def rows_in_shards(files: Running, root: Document, table: str) -> int:
     """Count the rows of a growing table whose shards are on the disk."""
-    key = f"{group}/{columns_of(root['attributes'])[group][-1]}".lstrip("/")
+    key = f"{table}/{columns_of(root['attributes'])[table][-1]}".lstrip("/")
     array = root["consolidated_metadata"]["metadata"][key]
     shards_there = files.shards(f"{key}/c/{{}}")
     return min(shards_there * shape_of(array)[0], int(array["shape"][0]))
@@ -169,8 +157,8 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
     found = waiting_rows(files.folder, samples, dtypes)
     if found is not None:
         return dict(zip(columns, found, strict=True))
-    in_shards = {group: rows_in_shards(files, root, group) for group in columns}
+    in_shards = {table: rows_in_shards(files, root, table) for table in columns}
     return {
-        group: Waiting(rows if group else min(rows, samples), ())
-        for group, rows in in_shards.items()
+        table: Waiting(rows if table else min(rows, samples), ())
+        for table, rows in in_shards.items()
     }

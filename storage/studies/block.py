@@ -5,6 +5,7 @@ the results alone, and a worker that was given up and comes back late writes the
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Self
 
@@ -207,18 +208,7 @@ class StudyBlock:
 
     def _write_part(self, name: str, chunks: dict[tuple[int, int], Floats], carried: bytes) -> None:
         """Write a part; the chunks that it builds on are on the disk."""
-        known = self._part
-        shown = Part(
-            known.index,
-            known.status,
-            known.counts,
-            known.peaks,
-            known.failures,
-            known.statistics,
-            known.indicators,
-            chunks,
-            carried,
-        )
+        shown = replace(self._part, open=chunks, carried=carried)
         self._files.write_other(f"{part.FOLDER}/{name}", [shown.encode(self._layout)])
 
     def _new_chunk(self) -> Floats:

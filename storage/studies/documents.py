@@ -26,7 +26,7 @@ _STATUS: Final = {
 
 
 def point_chunk(layout: StudyLayout, width: int = 1) -> int:
-    """Points in one chunk of an array with so many numbers a point."""
+    """Points in one chunk of an array with `width` numbers a point."""
     return max(min(layout.points, CHUNK_VALUES // max(width, 1)), 1)
 
 

@@ -14,6 +14,7 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
 from jointplay.worker import block_run, work
 from jointplay.worker.block_run import BlockRun
+from jointplay.worker.execute import Answer
 from tests.stores import sealed_run
 
 JOB = {
@@ -255,3 +256,25 @@ def test_what_takes_long_before_anything_advances_is_said_to_compile(
     (event,) = [event for event in catalogue.events(study) if event.type == "compiling"]
     assert event.data == {"block": f"{study}-1", "attempt": 1}
     assert catalogue.get(study).activity is None  # it advanced
+
+
+def test_what_a_worker_sealed_before_it_was_lost_is_adopted(
+    catalogue: Catalogue, settings: Settings, block: str
+) -> None:
+    """Killed between sealing and saying so: the next attempt has nothing left to compute."""
+    lost = catalogue.claim_block(block, "killed", lease=0.0)
+    assert lost is not None
+    work.work_of(lost, settings).execute(lambda *_: Answer.go_on, lambda: None)
+    sealed = settings.sealed_run(lost.job.id, 1)
+    content = sealed.read(0, sealed.size())
+    while not catalogue.reap(3).requeued:
+        pass
+    state, ended = run(catalogue, settings, block)
+    assert (state, ended.attempt) == (JobState.succeeded, 2)
+    job = catalogue.get(lost.job.id)
+    assert (job.progress_time, job.progress_fraction) == (20.0, 1.0)
+    assert job.steps == sealed_run(settings, job).attributes["summary"]["steps"]
+    adopted = settings.sealed_run(job.id, 2)
+    assert adopted.read(0, adopted.size()) == content  # with the seconds that the first one took
+    assert not sealed.exists()
+    assert not settings.running_folder(job.id).exists()
