@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, get_origin
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean
@@ -63,18 +64,16 @@ SENTENCES: dict[str, Sentence] = {
 
 def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
     """Return one problem for each wrong place; `root` is the model that was validated."""
-    known, units = vocabulary(root)
     found: dict[str, str] = {}
     for item in error.errors(include_url=False, include_input=False):
         location = [str(part) for part in item["loc"]]
         place = _place(location)
         pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
-        unit = f" {units[field]}" if units.get(field, "1") != "1" else ""
         if item["type"] == "extra_forbidden":
-            sentence = _no_such_field(field, known)
+            sentence = _no_such_field(field, root)
         elif item["type"] in SENTENCES:
-            sentence = SENTENCES[item["type"]](field, unit, item.get("ctx", {}))
+            sentence = SENTENCES[item["type"]](field, _unit(place, root), item.get("ctx", {}))
         else:
             sentence = f"{item['msg']}."
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
@@ -93,43 +92,51 @@ def _place(location: list[str]) -> list[str]:
     return place
 
 
-def _no_such_field(field: str, known: frozenset[str]) -> str:
+def _no_such_field(field: str, root: type[BaseModel]) -> str:
+    known = {name for model in _models([root], {}) for name, _ in _fields(model)}
     meant = did_you_mean(field, known - {field})
     return f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
 
 
-def vocabulary(root: type[BaseModel]) -> tuple[frozenset[str], dict[str, str]]:
-    """Return all field names below a model, and the unit of those that have one."""
-    units: dict[str, str] = {}
-    names: set[str] = set()
-    for model in _models(root):
-        for name, field in model.model_fields.items():
-            name = field.alias or name
-            names.add(name)
-            for extra in (field.json_schema_extra, *(_extras(field.metadata))):
-                if isinstance(extra, dict) and isinstance(extra.get("unit"), str):
-                    units[name] = str(extra["unit"])
-    return frozenset(names), units
+def _unit(place: list[str], root: type[BaseModel]) -> str:
+    """Return the unit of the field at a place, with a space before; empty where there is none."""
+    models, unit, is_key = [root], "1", False
+    for part in place:
+        fields = [f for model in models for name, f in _fields(model) if name == part]
+        if is_key or not fields:  # a key of an object, an index
+            is_key = False
+            continue
+        extras = [extra for f in fields if isinstance(extra := f.json_schema_extra, dict)]
+        units = {str(extra.get("unit", "1")) for extra in extras}
+        unit = units.pop() if len(units) == 1 else "1"
+        is_key = any(get_origin(f.annotation) is dict for f in fields)
+        models = list(_directly([part for f in fields for part in (f.annotation, *f.metadata)]))
+    return "" if unit == "1" else f" {unit}"
 
 
-def _extras(metadata: list[Any]) -> Iterator[Any]:
-    for item in metadata:
-        yield getattr(item, "json_schema_extra", None)
+def _fields(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
+    """Yield the fields of a model by the names that they have in documents."""
+    for name, field in model.model_fields.items():
+        yield field.alias or name, field
 
 
-def _models(root: type[BaseModel]) -> Iterator[type[BaseModel]]:
-    waiting: list[Any] = [root]
-    seen: set[type[BaseModel]] = set()
-    while waiting:
-        item = waiting.pop()
+def _directly(annotations: list[Any]) -> Iterator[type[BaseModel]]:
+    """Yield the models that annotations name, without those in their fields."""
+    for item in annotations:
         if isinstance(item, type) and issubclass(item, BaseModel):
-            if item in seen:
-                continue
-            seen.add(item)
             yield item
-            for field in item.model_fields.values():
-                waiting.extend([field.annotation, *field.metadata])
         elif isinstance(item, MemberOf):
-            waiting.extend(item.roster.values())
+            yield from item.roster.values()
         else:
-            waiting.extend([*getattr(item, "__args__", ()), *getattr(item, "__metadata__", ())])
+            inside = [*getattr(item, "__args__", ()), *getattr(item, "__metadata__", ())]
+            yield from _directly(inside)
+
+
+def _models(annotations: list[Any], seen: dict[type[BaseModel], None]) -> Iterable[type[BaseModel]]:
+    """Return the models that annotations name and all below them, in `seen`."""
+    for model in _directly(annotations):
+        if model not in seen:
+            seen[model] = None
+            for _, field in _fields(model):
+                _models([field.annotation, *field.metadata], seen)
+    return seen

@@ -165,7 +165,7 @@ def test_the_driver_of_an_ideal_mechanism_works_against_a_spring() -> None:
         ({"second": "mass.nose"}, "/second", "point of 'mass'"),
         ({"second": "mas.eye"}, "/second", "'mass'"),
         ({"second": "ground.guide"}, "", "a force acts between two bodies"),
-        ({"stiffness": -1.0}, "/stiffness", "at least 0 N/m"),
+        ({"stiffness": -1.0}, "/stiffness", "'stiffness' must be at least 0 N/m."),
         ({"stiffness": 0.0}, "/stiffness", "no force"),
         ({"elasticity": 1.0}, "/elasticity", "no field"),
         ({"first": "ground.guide"}, "", "start in one place"),
