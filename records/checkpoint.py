@@ -1,4 +1,4 @@
-"""What continues a computation from where it was: facts and arrays as bytes, and back.
+"""Checkpoint of a computation, to continue it: facts and arrays as bytes, and back.
 
 A checkpoint begins with a line that names the format and one with the SHA-256 of all that follows:
 a line of JSON (kind, version, facts, names and sizes of the arrays), then the arrays in NumPy's
@@ -26,7 +26,7 @@ class ForeignCheckpoint(UnusableCheckpoint):
 
 
 class Checkpoint(NamedTuple):
-    """What `encode` was given."""
+    """Facts and arrays, as they were given to `encode`."""
 
     facts: dict[str, Any]
     arrays: dict[str, NDArray[Any]]

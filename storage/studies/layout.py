@@ -1,4 +1,4 @@
-"""What a study's store holds: many points, and for each its sections, peaks and numbers."""
+"""Layout of a study's store: many points, and for each its sections, peaks and numbers."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -97,7 +97,7 @@ class StudyLayout:
         """Points and sections in one chunk of the arrays of sections, which is one file.
 
         Its points divide most of the numbers at which blocks begin, so that few chunks belong to
-        two blocks; those are written when the study is sealed. Chunks of less than an octet are
+        two blocks; those are written when the study is sealed. Chunks of less than eight points are
         not worth that: then many are. A chunk holds several points only with all their sections;
         otherwise each would wait for the slowest of them.
         """

@@ -24,7 +24,7 @@ _NUMBERS: Final = ("statistics", "indicators")
 
 
 class LiveStudy:
-    """What is known of a study at one moment.
+    """A study at one moment.
 
     Parameters
     ----------

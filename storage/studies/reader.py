@@ -246,7 +246,7 @@ class StudyReader:
 
     @cached_property
     def _numbers(self) -> Points:
-        """What has one number a point."""
+        """Arrays with one number a point."""
         parts = self._parts
         if not self.sealed:
             blocks = [(int(first), int(count)) for first, count in self.attributes["blocks"]]
