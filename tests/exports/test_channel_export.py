@@ -17,6 +17,7 @@ from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.impact import IMPACT
 from jointplay.records.run_in_memory import Dataset
 from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
+from tests.stores import target
 
 CHANNELS = (Channel("slider7.x", "m", "position"), Channel("A.normal_force", "N", "normal force"))
 
@@ -83,12 +84,12 @@ def test_unknown_channels_are_refused_before_any_text(writer):
 def test_a_long_history_is_exported_in_bounded_memory(tmp_path):
     rows = 200_000
     layout = ResultLayout((Channel("x", "m", "position"),), rows, 0, ())
-    writer = ResultWriter.create(tmp_path, layout)
+    writer = ResultWriter.create(tmp_path / "store", layout)
     none = np.empty(0), np.empty((0, 1)), np.empty(0, IMPACT)
     values = np.random.default_rng(0).normal(size=(rows, 1))
     writer.append(0, np.arange(float(rows)), values, 0, *none)
-    writer.seal(peaks={}, summary={})
-    reader = ResultReader(tmp_path)
+    writer.seal(target(tmp_path / "store"), peaks={}, summary={})
+    reader = ResultReader(tmp_path / "store.zip")
     tracemalloc.start()
     try:
         lines = sum(piece.count("\n") for piece in csv_lines(reader))
@@ -105,11 +106,11 @@ def test_a_long_history_is_exported_in_bounded_memory(tmp_path):
 def test_the_store_and_memory_export_alike(tmp_path):
     values = np.random.default_rng(0).normal(size=(7, 2))
     specs = CHANNELS
-    writer = ResultWriter.create(tmp_path, ResultLayout(specs, 7, 0, ()))
+    writer = ResultWriter.create(tmp_path / "store", ResultLayout(specs, 7, 0, ()))
     none = np.empty(0), np.empty((0, 2)), np.empty(0, IMPACT)
     in_memory = dataset(values)
     writer.append(0, in_memory.time, values, 0, *none)
-    writer.seal(peaks={}, summary={})
-    stored = ResultReader(tmp_path)
+    writer.seal(target(tmp_path / "store"), peaks={}, summary={})
+    stored = ResultReader(tmp_path / "store.zip")
     assert list(csv_lines(stored)) == list(csv_lines(in_memory))
     assert "".join(json_pieces(stored)) == "".join(json_pieces(in_memory))

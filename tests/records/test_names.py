@@ -15,7 +15,8 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene import presets
 from jointplay.storage.results import Appendix, Partition, ResultWriter, SmallArray, pyramid
 from jointplay.worker.execute import layout_of
-from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout, target
+from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
+from tests.stores import target
 
 
 def admitted(name: str) -> Admission:
