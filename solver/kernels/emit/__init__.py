@@ -1,1 +1,1 @@
-"""From the mechanics on abstract scalars to kernels that run eight parameter sets at once."""
+"""From recorded equations to kernels that advance several parameter sets at once."""

@@ -1,7 +1,7 @@
-"""Writes recorded expressions as tapes: straight lines of arithmetic over eight lanes.
+"""Writes recorded expressions as tapes: straight lines of arithmetic over all lanes.
 
-What makes them fast was measured: no library call, no branch but selects, and one flat array with
-constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
+Measurements say what makes them fast: no library call, no branch but selects, and one work array
+with constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class Tape:
     fixed
         Collects what depends on the scene's numbers alone; None: there is no such expression.
     known
-        What need not be computed again.
+        Expressions that need not be computed again.
     fetch
         How a slot is read, by its name; None: all its lanes.
     """

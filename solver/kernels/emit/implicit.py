@@ -10,7 +10,7 @@ import math
 
 from jointplay.solver.integrators.rosenbrock import Rosenbrock
 from jointplay.solver.kernels.emit.emit import DECORATOR, FixedNodes, Known, lane_function
-from jointplay.solver.kernels.emit.stepping import SMALLEST_ERROR, StepRecorder
+from jointplay.solver.kernels.emit.stepping import StepRecorder
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
@@ -32,6 +32,8 @@ def allocate(layout: Layout, states: int) -> None:
 
 class RosenbrockRecorder(StepRecorder):
     """Records the functions of a Rosenbrock method's step."""
+
+    unweighed = 1
 
     def __init__(
         self,
@@ -197,16 +199,6 @@ def solve(W):
 
     def _ledger_weights(self) -> tuple[float, ...]:
         return LOBATTO
-
-    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
-        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
-        for i in range(self.states):
-            error: Expression = self.recorder.constant(0.0)
-            for s, weight in enumerate(weights, start=1):
-                error = error + weight * self.variable(f"k{s + 1}_{i}")
-            scaled = error * self._weighed(i)
-            squared = squared + scaled * scaled
-        return squared
 
     def _calls(self) -> list[str]:
         place = self.layout["slope0"] - self.layout["k1_0"]

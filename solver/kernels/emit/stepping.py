@@ -1,8 +1,7 @@
 """Records one step of an embedded Runge-Kutta method: stages, error, control, commit, dense output.
 
-The functions work on the slots of one work array (`allocate` names them). They decide nothing
-that needs a branch: flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want
-attention.
+The functions work on the slots of one work array (`allocate` names them). They take no branch:
+flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want attention.
 """
 
 from __future__ import annotations
@@ -59,6 +58,9 @@ def before(name: str) -> str:
 class StepRecorder:
     """Records the functions of one method for the equations of a scene."""
 
+    unweighed = 0
+    """Slopes kept before those that the error weighs."""
+
     def __init__(
         self,
         tableau: Method,
@@ -84,9 +86,8 @@ class StepRecorder:
 
         `energies` : what gravity and contacts store, at the stage.
         """
-        parts = [*self._steps(), self._judge(), self._attempt()]
-        parts += [self._remember(), self._take(energies, fixed)]
-        return "\n\n".join(parts)
+        parts = [*self._steps(), self._judge(), self._attempt(), self._remember()]
+        return "\n\n".join([*parts, self._take(energies, fixed)])
 
     def _function(self, name: str, outputs: Outputs) -> str:
         return lane_function(name, outputs, self.layout)
@@ -188,12 +189,11 @@ class StepRecorder:
 
     def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
         """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
-        v = self.variable
         squared: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
             error: Expression = self.recorder.constant(0.0)
             for s, weight in enumerate(weights, start=1):
-                error = error + weight * v(self._slope(s, i))
+                error = error + weight * self.variable(self._slope(s + self.unweighed, i))
             scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
         return squared

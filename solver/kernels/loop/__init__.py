@@ -1,1 +1,1 @@
-"""Eight runs side by side: the driving loop around generated kernels, and all it keeps."""
+"""The driving loop around generated kernels: runs side by side, and all it keeps of them."""

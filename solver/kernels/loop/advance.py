@@ -204,7 +204,7 @@ def advance(
     runs : (LANES,)
         Record of each lane's run.
     buffers
-        What is handed out.
+        Rows that are handed out.
     watch
         Whether the extremes of channels are sought; sections at crossings need it, too.
 
