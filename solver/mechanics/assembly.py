@@ -101,12 +101,14 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
     directed = {name: one for name, one in scene.forces.items() if one.needs_direction}
     if not directed:
         return []
+    elements = {name: e for name, e in scene.forces.items() if e.needs_direction}
+    if not elements:
+        return []
     mechanism = AbsoluteMechanism(scene, view(scene), close_play=False)
-    near = ASSEMBLED * shortest_link(scene)
-    still = np.zeros_like(pose)
+    near, still = ASSEMBLED * shortest_link(scene), np.zeros_like(pose)
     return [
         name
-        for name, element in directed.items()
+        for name, element in elements.items()
         if math.hypot(*mechanism.ends((element.first, element.second), pose, still).gap) <= near
     ]
 
