@@ -10,7 +10,7 @@ import pytest
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit
 from jointplay.solver.statistics import STATISTICS
-from tests.solver.study.jobs_of_studies import (
+from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
     ENSEMBLE,

@@ -11,7 +11,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.ideal.reach import MotionReach
 from tests.solver.completed_runs import CASE_3, run
-from tests.solver.study.jobs_of_studies import BIFURCATION, POINCARE, study
+from tests.solver.runs.study.jobs_of_studies import BIFURCATION, POINCARE, study
 
 NEVER: dict[str, tuple[dict[str, Any], str, str]] = {
     "far beyond the slider's stroke": (

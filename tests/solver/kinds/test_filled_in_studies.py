@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from tests.solver.study.jobs_of_studies import (
+from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
     ENSEMBLE,

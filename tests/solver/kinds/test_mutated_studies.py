@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.study.plan import Study
-from tests.solver.study.jobs_of_studies import (
+from tests.solver.runs.study.jobs_of_studies import (
     ACCURACY_STUDY,
     BIFURCATION,
     ENSEMBLE,

@@ -10,7 +10,7 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
-from tests.solver.study.jobs_of_studies import BIFURCATION, SWEEP, study
+from tests.solver.runs.study.jobs_of_studies import BIFURCATION, SWEEP, study
 
 COORDINATES = [
     *("link2.theta", "link2.omega", "link3.theta", "link3.omega"),

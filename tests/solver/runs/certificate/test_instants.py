@@ -9,7 +9,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.certificate.companions import LADDER, RUN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
-from tests.solver.test_determinism import PROBLEMS, bundle_of
+from tests.solver.runs.test_determinism import PROBLEMS, bundle_of
 
 
 @pytest.mark.parametrize(("duration", "unit", "octaves"), [(1.0, 2.0, 0), (8.0, 1.0, 3), (9, 1, 4)])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from tests.solver.completed_runs import run
-from tests.solver.independent_program import IndependentProgram
 from tests.solver.readable_mechanics import preset
+from tests.solver.runs.independent_program import IndependentProgram
 
 PARAMETERS = {
     "clearance_A": 2e-4,

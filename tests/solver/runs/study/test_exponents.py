@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from tests.solver.completed_runs import CASE_3
-from tests.solver.study.test_run import Computed
+from tests.solver.runs.study.test_run import Computed
 
 DIAGRAM: dict[str, Any] = {
     "kind": "bifurcation",

@@ -19,9 +19,9 @@ from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities import scalars
+from tests.solver.kernels.test_recorder import evaluate, variables
 from tests.solver.random_mechanisms import instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, preset
-from tests.solver.test_recorder import evaluate, variables
 
 STEP = 1e-5
 """Of a central difference: its error is about STEP² f''' / 6 + 1e-16 f / STEP, 1e-10 where f and

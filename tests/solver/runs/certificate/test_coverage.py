@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from tests.solver.certificate.known_truth import CASES, coverage
+from tests.solver.runs.certificate.known_truth import CASES, coverage
 
 SAMPLE = random.Random(3).sample(sorted(CASES), 8)
 

@@ -9,7 +9,7 @@ from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import record, slopes
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene.document import Scene
-from tests.solver.study.jobs_of_studies import PRESS, SWEEP, study
+from tests.solver.runs.study.jobs_of_studies import PRESS, SWEEP, study
 
 
 def right_hand_side(scene: Scene) -> str:

@@ -15,7 +15,7 @@ from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS
 from tests.solver.completed_runs import CASE_3
-from tests.solver.study.test_run import Computed
+from tests.solver.runs.study.test_run import Computed
 
 EVERY = [*OF_CHANNELS, *OF_CONTACTS]
 # it bounces in its joints at twice the speed: contacts begin and end

@@ -18,7 +18,7 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import set_parameters
-from tests.solver.study.jobs_of_studies import BIFURCATION, PRESS, STUDIES, study
+from tests.solver.runs.study.jobs_of_studies import BIFURCATION, PRESS, STUDIES, study
 
 SCENES = {name: Scene.model_validate(presets.document(name)) for name in presets.names()}
 

@@ -12,7 +12,7 @@ from jointplay.solver.runs.study.blocks import (
     independent_blocks,
     segments,
 )
-from tests.solver.study.jobs_of_studies import BIFURCATION, study
+from tests.solver.runs.study.jobs_of_studies import BIFURCATION, study
 
 DIRECTIONS = st.sampled_from(["forward", "backward", "both"])
 

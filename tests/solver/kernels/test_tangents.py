@@ -18,11 +18,11 @@ from jointplay.solver.kernels.loop.bundle import Bundle, LaneProblem
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from tests.solver.companion import companion_growth
 from tests.solver.completed_runs import CASE_3
+from tests.solver.kernels.companion import companion_growth
+from tests.solver.kernels.shaken_disc import PERIOD, Point, shaken_disc
 from tests.solver.readable_mechanics import preset, scene_of
-from tests.solver.shaken_disc import PERIOD, Point, shaken_disc
-from tests.solver.test_determinism import PROBLEMS, finish
+from tests.solver.runs.test_determinism import PROBLEMS, finish
 
 Floats = NDArray[np.float64]
 

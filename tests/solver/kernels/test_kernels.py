@@ -204,7 +204,7 @@ print(json.dumps({
 def cache_statistics() -> dict[str, Any]:
     done = subprocess.run(
         [sys.executable, "-c", CACHE_STATISTICS],
-        cwd=Path(__file__).parents[2],
+        cwd=Path(__file__).parents[3],
         capture_output=True,
         text=True,
         check=True,
