@@ -33,6 +33,7 @@ LEDGER = (
     "gravity_work",
     "contact_loss",
     "friction_loss",
+    "element_loss",
     "kinetic_change",
     "stored_change",
     "gross_work",

@@ -122,11 +122,7 @@ class EnergyLedger(BaseModel):
     gravity_work: float = in_unit("J", "Work of gravity.")
     contact_loss: float = in_unit("J", "Lost to the damping of contacts.")
     friction_loss: float = in_unit("J", "Lost to friction.")
-    element_loss: float | None = Field(
-        default=None,
-        description="Lost in force elements; null: there are none.",
-        json_schema_extra={"unit": "J"},
-    )
+    element_loss: float = in_unit("J", "Lost in force elements.")
     kinetic_change: float = in_unit("J", "Kinetic energy at the end less that at the start.")
     stored_change: float = in_unit("J", "Elastic energy of contacts at the end less at the start.")
     gross_work: float = in_unit(

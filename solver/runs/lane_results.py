@@ -52,17 +52,18 @@ def ledger_of(bundle: Bundle, lane: int) -> dict[str, float]:
     kinetic, potential, stored = (
         float(x) for x in bundle.energy(lane) - bundle.first_energy[:, lane]
     )
-    ledger = {
+    element_loss = sum(elements, 0.0)
+    return {
         "driver_work": driver,
         "gravity_work": -potential,
         "contact_loss": contact,
         "friction_loss": friction,
+        "element_loss": element_loss,
         "kinetic_change": kinetic,
         "stored_change": stored,
         "gross_work": gross,
-        "residual": kinetic + stored - driver + potential + contact + friction + sum(elements),
+        "residual": kinetic + stored - driver + potential + contact + friction + element_loss,
     }
-    return ledger | ({"element_loss": sum(elements)} if elements else {})
 
 
 def out_of_time(seconds: float, at: float) -> SimulationFailed:

@@ -89,7 +89,7 @@ class TimedRun:
         """Return what it cost, and the energy that it lost track of."""
         found = statistics_of(self.bundle, 0)
         energy = found["energy"]
-        taken = energy["contact_loss"] + energy["friction_loss"]
+        taken = energy["contact_loss"] + energy["friction_loss"] + energy["element_loss"]
         return {
             "steps": float(found["steps"]),
             "evaluations": float(self.evaluations),
