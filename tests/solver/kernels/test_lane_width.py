@@ -80,7 +80,7 @@ def run(lanes: str, checkpoint: Path) -> dict[str, Any]:
     """Run the program in a process of that many lanes."""
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(checkpoint)],
-        cwd=Path(__file__).parents[2],
+        cwd=Path(__file__).parents[3],
         env=os.environ | {"JOINTPLAY_LANES": lanes},
         capture_output=True,
         text=True,
