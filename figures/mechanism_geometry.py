@@ -1,7 +1,5 @@
 """Bodies, points and joints of a scene in world coordinates."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The same channels of several runs over one another."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

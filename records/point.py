@@ -1,7 +1,5 @@
 """Points of a study: their states, and what becomes known of them while they are computed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum

@@ -1,7 +1,5 @@
 """Waiting in tests for other processes: as long as something moves, however slow the machine."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable

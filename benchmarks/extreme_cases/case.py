@@ -1,7 +1,5 @@
 """A case at an end of a range, and what becomes of it."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field

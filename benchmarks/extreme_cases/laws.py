@@ -1,7 +1,5 @@
 """Ends of the ranges of a joint's numbers: its clearance, its contact, its friction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

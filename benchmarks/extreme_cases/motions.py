@@ -1,7 +1,5 @@
 """Ends of the ranges of what moves a mechanism, and of how long and how finely it is followed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

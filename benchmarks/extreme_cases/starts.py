@@ -1,7 +1,5 @@
 """Starts at and beyond the wall of a bearing, contacts that hardly are, and that do not end."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

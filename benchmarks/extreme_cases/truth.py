@@ -1,7 +1,5 @@
 """Share of a run's true error that its certificate covers, where finer runs give that error."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """Displacement, velocity and acceleration of the output, with clearance and without."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Final
 

@@ -1,7 +1,5 @@
 """The whole of a calibration: search, spread, and a close look at the best."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -3,8 +3,6 @@
 Lanes do not touch each other, so what a candidate gives depends on nothing but the candidate.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The scene with what was found as its defaults, each marked as inferred, with its spread."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

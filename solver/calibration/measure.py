@@ -1,7 +1,5 @@
 """Measured values of candidates in all cases."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Outcome of a calibration: the best candidate, the spread around it, and every target's value."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

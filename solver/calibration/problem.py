@@ -1,7 +1,5 @@
 """A calibration document checked whole, before anything is computed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any

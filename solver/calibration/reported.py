@@ -1,7 +1,5 @@
 """Targets from the numbers that a scene's source printed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from jointplay.solver.kinds.mechanism import with_parameters

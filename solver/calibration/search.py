@@ -5,8 +5,6 @@ costs and takes no derivatives: where impacts follow one another, the cost of ne
 by more than a derivative could say.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Where parameters may move: bounds, and coordinates from 0 to 1 in which all count alike."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product

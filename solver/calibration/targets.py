@@ -1,7 +1,5 @@
 """Misses of the targets, in units of each target's tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

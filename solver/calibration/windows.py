@@ -4,8 +4,6 @@ Extremes are sought inside the steps, and a lane can forget them; so a run stops
 begins or ends, and the extreme over a window is that over its legs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

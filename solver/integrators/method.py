@@ -1,7 +1,5 @@
 """Facts that every integration method states of itself, whatever its family."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -5,8 +5,6 @@ the whole cache lives under a digest of all sources of this package: compiled co
 outside of it, and a generated module is named by its text. Wiping it is always safe.
 """
 
-from __future__ import annotations
-
 import gc
 import hashlib
 import importlib.util

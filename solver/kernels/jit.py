@@ -1,7 +1,5 @@
 """The decorators of hand-written kernels: cached on disk, IEEE division, no fast mathematics."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any

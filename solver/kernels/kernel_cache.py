@@ -4,8 +4,6 @@ It is the same for every scene; on a machine that has never computed, a second p
 while the first compiles the scene's own kernel.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -6,8 +6,6 @@ bundle has eight lanes at any width, and instants inside a step are looked at by
 
 # mypy: disable-error-code="no-untyped-call"
 
-from __future__ import annotations
-
 import os
 from typing import Final
 

@@ -4,8 +4,6 @@ A job document is checked whole and filled in before anything is queued (`admit`
 the same plan of the stored, filled-in document (`parse`) without checking it again.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Union
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """The kind ``accuracy-study``: what every method and tolerance costs and buys."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The kind ``bifurcation``: Poincare sections over the values of one parameter."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field

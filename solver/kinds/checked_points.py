@@ -5,8 +5,6 @@ freedom once for each distinct structure and geometry. A point that fails is the
 by what checks a single job, so that it is refused in the same words.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

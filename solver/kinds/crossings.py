@@ -1,7 +1,5 @@
 """Sections at a value that a channel cannot cross are refused: they would never be taken."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

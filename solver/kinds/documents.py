@@ -1,7 +1,5 @@
 """From a client's document to a parsed job, and from that to the filled-in document."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Mapping

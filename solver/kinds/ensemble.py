@@ -1,7 +1,5 @@
 """The kind ``ensemble``: one set of parameters from many perturbed starts."""
 
-from __future__ import annotations
-
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field

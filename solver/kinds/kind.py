@@ -1,7 +1,5 @@
 """One kind of job: its document, its admission, what it plans and what can be asked of it."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar, Generic, TypeVar, get_args
 

@@ -1,7 +1,5 @@
 """Checks of the mechanism that every kind of job shares: its parameters, references, assembly."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any

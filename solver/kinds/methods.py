@@ -1,7 +1,5 @@
 """The method and tolerance that a job asks for, if the one can give what the other promises."""
 
-from __future__ import annotations
-
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.integrators import AUTO, METHODS, method_for
 from jointplay.solver.kinds.job import ACCURACIES, Job

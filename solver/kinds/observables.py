@@ -1,7 +1,5 @@
 """Channels of a study: what every point offers, what is kept unless the job says otherwise."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 

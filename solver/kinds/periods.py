@@ -1,7 +1,5 @@
 """The unit of time of each point of a study: the period of its drivers."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

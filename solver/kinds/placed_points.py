@@ -1,7 +1,5 @@
 """A study's points in their scene: which numbers each has, and which share their equations."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

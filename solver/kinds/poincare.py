@@ -1,7 +1,5 @@
 """The kind ``poincare``: one trajectory over many periods, sections only."""
 
-from __future__ import annotations
-
 from typing import ClassVar, Literal
 
 from jointplay.solver.kinds.points import Points, one_point

@@ -1,7 +1,5 @@
 """The points of a study as they are written: which parameters, which values, where they stand."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

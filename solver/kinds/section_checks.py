@@ -1,7 +1,5 @@
 """Sections of a study that would never be taken are refused before anything is queued."""
 
-from __future__ import annotations
-
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.kinds.checked_points import CheckedPoints

@@ -1,7 +1,5 @@
 """The kinds whose points are looked at section by section: document, admission and plan."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from typing import Annotated, Any, Literal, TypeVar, get_args
 

@@ -1,7 +1,5 @@
 """The kind ``simulate``: one trajectory from the scene's start."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """Statistics that a sweep asks for: whether they can be had, and how many they are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from typing import Annotated
 

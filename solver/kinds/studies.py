@@ -1,7 +1,5 @@
 """From points to a study: chains, blocks, and what is said of each point."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

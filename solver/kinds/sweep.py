@@ -1,7 +1,5 @@
 """The kind ``sweep``: peaks and statistics over any number of parameters."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar, Literal
 

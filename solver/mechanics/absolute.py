@@ -4,8 +4,6 @@ Every body has x, y (centre of mass, m) and theta (rad) in the world frame; join
 give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded expressions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple

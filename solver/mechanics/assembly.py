@@ -1,7 +1,5 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Solves symmetric positive definite systems written out in scalars, keeping zeros out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from jointplay.solver.quantities.scalars import Scalar

@@ -5,8 +5,6 @@ from the same walk: the velocity of a point is Σ partial_i u_i over the speeds 
 coordinates and of the drivers, its acceleration Σ partial_i u̇_i + bias.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

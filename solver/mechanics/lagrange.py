@@ -4,8 +4,6 @@ An independent formulation of the same mechanics, for cross-checks: 3 coordinate
 constraints of ideal joints and drivers, Baumgarte's stabilisation (eq. 26).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends

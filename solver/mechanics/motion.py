@@ -1,7 +1,5 @@
 """Shared parts of both formulations: forces between bodies, the motion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType

@@ -1,7 +1,5 @@
 """From a mechanism in motion to the values of its channels and the terms of its energy ledger."""
 
-from __future__ import annotations
-
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene

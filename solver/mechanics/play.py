@@ -7,8 +7,6 @@ are a penetration apart, so a free pair carries the small moment F_t δ; with it
 forces is exactly that of the slip and of the penetration, and the energy ledger closes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Pure structure: no number of the scene is used but whether a clearance is zero.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

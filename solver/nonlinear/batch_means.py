@@ -4,8 +4,6 @@ Sources: Flyvbjerg and Petersen 1989, J. Chem. Phys. 91:461 (batches); Wolff 200
 Commun. 156:143 and Lee et al. 2011, Phys. Rev. E 83:066706 (their length).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

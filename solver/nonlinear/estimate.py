@@ -1,7 +1,5 @@
 """An estimated number with its standard error."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

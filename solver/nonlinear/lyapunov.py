@@ -7,8 +7,6 @@ Chaos Solitons Fractals 5:1671 (jumps); Balcerzak et al. 2020, Mech. Syst. Signa
 141:106734 (companions).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

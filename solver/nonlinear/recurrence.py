@@ -1,7 +1,5 @@
 """The period of a motion, seen on its section."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -4,8 +4,6 @@ Sources: Das, Saiki, Sander and Yorke 2017, Nonlinearity 30:4111 (weighted Birkh
 lift by continuity).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """When a motion has forgotten how it started: decided on its section, as it is computed."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

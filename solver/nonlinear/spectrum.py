@@ -1,7 +1,5 @@
 """The power spectrum of a series: lines for regular motion, a continuum for chaos."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Whether the statistics of consecutive windows of a motion have stopped changing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Periodic, quasi-periodic, chaotic, or undecided: what the indicators say together."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

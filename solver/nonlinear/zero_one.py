@@ -4,8 +4,6 @@ Source: Gottwald and Melbourne 2009, SIAM J. Appl. Dyn. Syst. 8:129 (arXiv 0906.
 mean square displacement with the correlation method.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

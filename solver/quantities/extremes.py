@@ -1,7 +1,5 @@
 """Extremes of a function that can be evaluated at any instant: sampled, then refined."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

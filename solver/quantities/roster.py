@@ -4,8 +4,6 @@ A roster is a mutable mapping: who adds a member to it, from whatever file, has 
 and described in JSON Schemas, without a change anywhere else.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, cast
 

@@ -1,7 +1,5 @@
 """An admitted trajectory: a simulation's job filled in, with what it will produce."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

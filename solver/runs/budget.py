@@ -1,7 +1,5 @@
 """Attempted steps that kernels make between two returns to Python."""
 
-from __future__ import annotations
-
 SLICE_SECONDS = 0.1
 """Aimed-at time in kernels between returns to Python; the limit is a quarter of a second."""
 FIRST = 2000

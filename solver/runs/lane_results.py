@@ -1,7 +1,5 @@
 """Results of a lane: its extremes, what it cost, its energy ledger, and how it failed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Extremes of channels that drivers prescribe: functions of time alone, sought afterwards."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Results of a simulation: slices while it runs, a summary at any time."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Runs an admitted job, in slices that each return to Python within a quarter of a second."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Perturbed starts of an ensemble: the same member starts the same wherever it is computed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -8,8 +8,6 @@ and Wanner 1996, IV.2) would not do: where friction chatters, steps are short fo
 within stability.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Channels: the named signals that a scene offers, with their units."""
 
-from __future__ import annotations
-
 from fnmatch import fnmatchcase
 
 from jointplay.records.channel import Channel

@@ -1,7 +1,5 @@
 """Periods of a scene's drivers: what a revolution is, and whether there is one."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Schema errors as sentences: which field, and what would be right, with its unit."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, get_origin
 

@@ -1,7 +1,5 @@
 """Numbers of a scene that must fit each other: for one scene, or for columns of numbers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any

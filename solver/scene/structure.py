@@ -1,7 +1,5 @@
 """Facts that scenes of one structure share, found once: jobs differ mostly in their numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from functools import wraps
 from typing import TypeVar

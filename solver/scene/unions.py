@@ -3,8 +3,6 @@
 Pydantic would try every form and complain about each; so only the form that was meant complains.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

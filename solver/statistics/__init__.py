@@ -5,8 +5,6 @@ contacts of joints with clearance. A member takes what became known a few rows a
 result has the same bits however the rows were cut.
 """
 
-from __future__ import annotations
-
 from collections import ChainMap
 
 from jointplay.records.channel import Channel

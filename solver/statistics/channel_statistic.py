@@ -1,7 +1,5 @@
 """Statistics of channels on a uniform grid of time: what every member provides, and shares."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """The share of the time in contact."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.contact_statistic import Contacts, Floats

@@ -1,7 +1,5 @@
 """Statistics of the contacts of joints with clearance: what every member provides."""
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

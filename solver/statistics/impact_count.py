@@ -1,7 +1,5 @@
 """Count of contacts that began."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.contact_statistic import Contacts, Floats

@@ -1,7 +1,5 @@
 """The largest normal force of an impact: of a contact that began in the stretch, not before."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.contact_statistic import Contacts, Floats

@@ -1,7 +1,5 @@
 """The mean: the first sample, and the mean of what the others differ from it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order

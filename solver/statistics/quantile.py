@@ -1,7 +1,5 @@
 """Quantiles: of all samples while there are few, else of every nth, evenly over the time."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

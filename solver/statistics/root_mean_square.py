@@ -1,7 +1,5 @@
 """The root of the mean square: about zero, not about the mean."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order

@@ -4,8 +4,6 @@ Sums are of the differences from the first sample, which lies within the channel
 mean costs no digits (Chan, Golub and LeVeque 1983, "shifted data").
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order

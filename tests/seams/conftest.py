@@ -1,7 +1,5 @@
 """A whole service in this process: a client asks over HTTP, and a worker is called by hand."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from typing import Any

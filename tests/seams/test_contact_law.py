@@ -1,7 +1,5 @@
 """A contact law from outside: Hertz's, which loses nothing, latches nothing and has no floor."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 

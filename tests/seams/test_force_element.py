@@ -1,7 +1,5 @@
 """A force element from outside: a winch that pulls two points together with a constant force."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal

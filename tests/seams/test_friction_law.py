@@ -1,7 +1,5 @@
 """A friction law with a state of its own, from outside: Dahl's bristle."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal

@@ -1,7 +1,5 @@
 """A kind of job from outside: Poincare sections along a line between two sets of values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 

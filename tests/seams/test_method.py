@@ -1,7 +1,5 @@
 """An explicit method from outside: the pair of Heun and Euler, one object and one roster line."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A place for results from outside: one SQLite file, one class and one roster line."""
 
-from __future__ import annotations
-
 import sqlite3
 from collections.abc import Iterable, Iterator
 from contextlib import closing

@@ -1,7 +1,5 @@
 """A statistic from outside: the largest magnitude among the samples of a channel."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

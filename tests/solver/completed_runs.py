@@ -1,7 +1,5 @@
 """Runs of a job to its end, kept, so that tests of different things share one computation."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """The same mechanism elsewhere: translated, turned, mirrored, or listed in another order."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Mechanisms of any size: random trees of bodies, random instants of scenes, long chains."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

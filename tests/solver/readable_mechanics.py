@@ -1,7 +1,5 @@
 """The mechanics on plain floats: a scene at one instant, in either formulation."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

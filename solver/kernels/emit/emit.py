@@ -4,8 +4,6 @@ Measurements say what makes them fast: no library call, no branch but selects, a
 with constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from types import MappingProxyType

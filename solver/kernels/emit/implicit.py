@@ -4,8 +4,6 @@ The Jacobian's columns are derivatives of the recorded equations along one state
 which nothing feeds back on, is integrated by Lobatto's formula on the dense output.
 """
 
-from __future__ import annotations
-
 import math
 
 from jointplay.solver.integrators.rosenbrock import Rosenbrock

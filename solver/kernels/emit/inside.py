@@ -4,8 +4,6 @@ They read one lane of W, where it is the same for all instants, and write S. `th
 where in the step the instants are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape

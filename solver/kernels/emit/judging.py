@@ -1,7 +1,5 @@
 """Consequences of a step: how much the next one grows, and what contacts did in it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """A kernel: a scene's compiled equations, one method's step, and the layout they share."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

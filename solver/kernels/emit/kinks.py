@@ -8,8 +8,6 @@ jump (equal limit velocities), if its argument goes on through the jump; where f
 slip at the jump, the mean slope grows beyond bounds and no tangent can be carried.
 """
 
-from __future__ import annotations
-
 from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothing
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative

@@ -5,8 +5,6 @@ sought inside the steps on the dense output (`solver.kernels.loop.peaks`).
 Before the second step there is no change before: it is NaN, and no candidate.
 """
 
-from __future__ import annotations
-
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.lanes import WIDTHS
 from jointplay.solver.kernels.layout import Layout

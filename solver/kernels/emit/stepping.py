@@ -4,8 +4,6 @@ The functions work on the slots of one work array (`allocate` names them). They 
 flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want attention.
 """
 
-from __future__ import annotations
-
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit.emit import (
     RETURNING,

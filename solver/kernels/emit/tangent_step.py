@@ -12,8 +12,6 @@ Source: Ralston 1962, Mathematics of Computation 16:431 (minimum error bound of 
 coefficients satisfy the order conditions, the paper is not yet checked).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from jointplay.solver.kernels.emit.emit import DECORATOR, lane_function

@@ -9,8 +9,6 @@ The functions live in a module of their own, over a layout that begins with all 
 kernel's.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from types import ModuleType

@@ -6,8 +6,6 @@ end of a period or of the run. Rules that make a run's bits independent of every
 counters are per lane, and only onsets, openings and the end of the run ever shorten a step.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

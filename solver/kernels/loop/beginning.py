@@ -1,7 +1,5 @@
 """Evaluates a lane's start: first slopes, contacts that begin closed, first records, tangent."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sets a lane's numbers: those of its scene, its error scales, its clock and its counters."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Contacts of a lane: landing on an onset, latching the impact rate, the end of a contact."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED

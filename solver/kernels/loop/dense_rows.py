@@ -1,7 +1,5 @@
 """Rows of dense state: written for samples and sections, and read again to evaluate channels."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import float64, int64, void
 

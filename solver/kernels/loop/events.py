@@ -1,7 +1,5 @@
 """Poincare sections at events: the onset of a contact, or a channel that crosses a value."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places

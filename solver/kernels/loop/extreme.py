@@ -4,8 +4,6 @@ A table has a row for the instants, rows for the inverses of their differences, 
 of a step share, a row for the values of one channel and rows for its divided differences.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.kernels.jit import kernel

@@ -1,7 +1,5 @@
 """One lane of a work array, seen by the names of its slots."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Finds where inside a step a gap closes, on the dense output."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where inside a step a gap opens, and how the step is made to end there."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED

@@ -1,7 +1,5 @@
 """Extremes of channels, sought inside the steps: never read off step ends or output samples."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places

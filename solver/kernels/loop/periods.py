@@ -1,7 +1,5 @@
 """Periods, what is due next, and the end of a lane's run."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

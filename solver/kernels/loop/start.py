@@ -1,7 +1,5 @@
 """The start of a run: the states of the assembled mechanism."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Tangent vectors of lanes: their start, their jump where a contact begins, their growth."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

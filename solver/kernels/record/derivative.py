@@ -9,8 +9,6 @@ chosen value, a floor and the powers of two none at all. A square root at zero c
 so that the depth of a contact, x sqrt(x), has derivative 0 at its onset and not 0 / 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from jointplay.solver.kernels.record.recorder import Expression

@@ -1,7 +1,5 @@
 """Records a scene's equations of motion: once, from the readable mechanics."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import islice
 

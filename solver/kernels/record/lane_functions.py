@@ -8,8 +8,6 @@ waits for them, and no step size is known to five digits. Their pairs of terms a
 by side, in a quarter of the time of the others.
 """
 
-from __future__ import annotations
-
 import math
 import operator
 from collections.abc import Callable

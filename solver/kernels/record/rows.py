@@ -4,8 +4,6 @@ A constant, a function of time alone (a driven crank) or a multiple of another c
 of the watch: its extremes follow afterwards. What is watched costs memory traffic at every step.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from jointplay.solver.kernels.record.equations import Equations

@@ -7,8 +7,6 @@ REACH instants to either side counts. SAFETY makes it cover the true error (docs
 how often it does).
 """
 
-from __future__ import annotations
-
 import warnings
 from itertools import combinations
 

@@ -5,8 +5,6 @@ own that begins at an eighth of the run, show in a twentieth of the steps how sm
 grow, and how unevenly they do.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

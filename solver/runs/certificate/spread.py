@@ -4,8 +4,6 @@ Beyond its horizon a trajectory is one of many that are as good; what they have 
 can be said of the motion.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Looks after what a certificate needs while a trajectory is computed, and then makes it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

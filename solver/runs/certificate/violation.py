@@ -1,7 +1,5 @@
 """Violation of the constraints of absolute coordinates: Baumgarte's drift alone."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

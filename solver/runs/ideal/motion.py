@@ -4,8 +4,6 @@ The same constraint rows as everywhere, on arrays of instants. Newton's iteratio
 neighbouring instant; the mechanism repeats after a period.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

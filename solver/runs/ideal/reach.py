@@ -1,7 +1,5 @@
 """Which values the motion of a driven mechanism can reach, with its play and before it is run."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

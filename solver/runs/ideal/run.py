@@ -1,7 +1,5 @@
 """Runs a scene whose drivers leave no freedom: no integration, only exact motion at instants."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Iterator

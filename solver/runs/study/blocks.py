@@ -3,8 +3,6 @@
 Nothing here depends on the workers: the same study always has the same chains and blocks.
 """
 
-from __future__ import annotations
-
 from itertools import accumulate, pairwise
 
 from jointplay.solver.kernels.layout import BUNDLE

@@ -4,8 +4,6 @@ Validating the whole scene of each point would take half a millisecond a point, 
 study of ten thousand: only the field that a number goes to is validated, once for each value.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any

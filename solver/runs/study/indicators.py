@@ -1,7 +1,5 @@
 """Indicators of one point, from the states of the whole system at its sections."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The lanes that compute points of one structure, side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import astuple
 from typing import Any

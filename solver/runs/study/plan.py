@@ -1,7 +1,5 @@
 """A study: a job of many points, filled in, with what each point is and how they are cut up."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

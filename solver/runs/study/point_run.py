@@ -1,7 +1,5 @@
 """A point of a study while it is computed, or waits for a lane."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

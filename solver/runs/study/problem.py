@@ -1,7 +1,5 @@
 """The problem that a lane gets of a point: all of it, or the time until the point settles."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

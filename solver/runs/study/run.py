@@ -5,8 +5,6 @@ nothing but the length of slices. Points of another structure need another kerne
 the lanes of this one are done.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """The stretch of time of a point that its statistics are about, and their tallies."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

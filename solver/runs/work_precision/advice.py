@@ -1,7 +1,5 @@
 """A sentence that recommends a method and a tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from jointplay.solver.runs.work_precision.plan import DEFAULT

@@ -1,7 +1,5 @@
 """The runs of an accuracy-study: two references, then every method at every tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any

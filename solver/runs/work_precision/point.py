@@ -1,7 +1,5 @@
 """One run of an accuracy-study as it ended."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

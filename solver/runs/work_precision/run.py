@@ -1,7 +1,5 @@
 """Every run of an accuracy-study, one after the other, each compared with the reference."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One run of an accuracy-study: what it costs, and the states that it passes."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small calibrations that the tests share."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Calibrations that are refused before anything is computed: where, and what would be right."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

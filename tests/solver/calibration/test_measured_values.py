@@ -1,7 +1,5 @@
 """What candidates give: extremes over windows and on grids, as whole runs have them."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Parameters found again from what they gave, and the spread that the targets leave."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

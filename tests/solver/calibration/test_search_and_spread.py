@@ -1,7 +1,5 @@
 """Search and spread on costs whose valleys are known, without any mechanism."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

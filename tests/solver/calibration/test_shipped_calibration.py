@@ -1,7 +1,5 @@
 """The press with fitted contact parameters, and the calibration that found them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

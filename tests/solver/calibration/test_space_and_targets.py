@@ -1,7 +1,5 @@
 """Coordinates of parameters, and how far numbers are from their targets."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Every integration method as lanes run it: its order on the press, and what ends its runs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

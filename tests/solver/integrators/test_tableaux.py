@@ -1,7 +1,5 @@
 """Every Runge-Kutta method: its order, its error estimate and its dense output."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import cache

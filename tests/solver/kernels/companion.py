@@ -5,8 +5,6 @@ derivative, no jump of a latched rate. Between the run's steps it has none of it
 that end on its onsets.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

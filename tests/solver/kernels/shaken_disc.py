@@ -5,8 +5,6 @@ throws it. Without friction only the disc's centre matters: a point in a round p
 chosen it is thrown two or three times a turn, and its motion is chaotic.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

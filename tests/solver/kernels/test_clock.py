@@ -1,7 +1,5 @@
 """Time as whole periods plus local time: the last period is as sharp as the first."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

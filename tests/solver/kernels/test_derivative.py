@@ -1,7 +1,5 @@
 """Derivatives of recorded expressions: against differences, and where no difference would do."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

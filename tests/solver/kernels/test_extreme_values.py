@@ -1,7 +1,5 @@
 """The extreme of nine sampled values: between samples, where a function is smooth or bends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Compiled kernels against the readable reference, their selection, and their cache on disk."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Kinks inside steps: when a step passes one, and what slope a tangent takes then."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sine, cosine, logarithm, exponential and power of our own, against the C library."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

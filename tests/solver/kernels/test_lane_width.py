@@ -1,7 +1,5 @@
 """A run has the same bits on four lanes as on eight, and goes on at one width from the other."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Openings of gaps: where a cubic falls to zero, and what a step sees of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

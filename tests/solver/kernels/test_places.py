@@ -1,7 +1,5 @@
 """What loops find by name: slots, functions and columns of dense rows."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any, cast
 

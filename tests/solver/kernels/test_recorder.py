@@ -1,7 +1,5 @@
 """Recorded expressions are the mechanics: they evaluate to what the same code gives on floats."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Tapes: every statement and operation over eight lanes, against the same on floats."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tangent vectors of runs: against neighbours, closed forms, and programs without derivatives."""
 
-from __future__ import annotations
-
 import math
 from itertools import cycle
 

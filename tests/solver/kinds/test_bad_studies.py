@@ -1,7 +1,5 @@
 """Studies that are refused before anything is queued: at which field, and what would be right."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

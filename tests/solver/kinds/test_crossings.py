@@ -1,7 +1,5 @@
 """A section that a channel never crosses is refused; one that it does cross is not."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The schemas of documents: every number says its unit, every field its default."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

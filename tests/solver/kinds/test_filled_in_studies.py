@@ -1,7 +1,5 @@
 """What admission makes of a sound study: every default, times, points, and one digest."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Jobs and scenes that are refused: each with the field that is wrong and what would be right."""
 
-from __future__ import annotations
-
 import copy
 import math
 from collections.abc import Callable

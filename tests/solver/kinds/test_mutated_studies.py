@@ -1,7 +1,5 @@
 """Whatever a document says, it is admitted or refused with a place: nothing else happens."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

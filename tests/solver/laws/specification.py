@@ -3,8 +3,6 @@
 A family's specification is a class: a law passes it by a subclass that draws the law.
 """
 
-from __future__ import annotations
-
 import inspect
 import math
 import re

@@ -1,7 +1,5 @@
 """Free impacts of the bouncing journal: what the law delivers, in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Force elements: power, oscillations in closed form, the energy ledger, what is refused."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

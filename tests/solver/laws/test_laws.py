@@ -1,7 +1,5 @@
 """Every law in the rosters: the specification of its family, and what it alone promises."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

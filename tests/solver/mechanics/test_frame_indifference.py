@@ -1,7 +1,5 @@
 """Nothing depends on where the frame stands, how it is turned, or what is listed first."""
 
-from __future__ import annotations
-
 import json
 import math
 import random

@@ -1,7 +1,5 @@
 """Laws of nature that the equations of motion keep at any instant, in both formulations."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Largest exponents of maps and flows given as plain functions, and agreement of estimates."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -4,8 +4,6 @@ Sources: Müller 1995, Chaos Solitons Fractals 5:1671; Leine and Nijmeijer 2004,
 Bifurcations of Non-Smooth Mechanical Systems, ch. 7; Kong et al. 2023, arXiv 2306.06862, eq. (3).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Errors of means: as large as the scatter of the means of many records."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

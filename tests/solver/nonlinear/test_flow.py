@@ -1,7 +1,5 @@
 """Flows with events: what passes through them, and what happens to small differences."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

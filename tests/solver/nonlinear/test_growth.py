@@ -1,7 +1,5 @@
 """Exponents from growth factors alone: what is left out, what the error is, what is refused."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

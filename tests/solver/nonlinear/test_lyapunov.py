@@ -1,7 +1,5 @@
 """Exponents of systems whose exponents are known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

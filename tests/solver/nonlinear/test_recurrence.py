@@ -1,7 +1,5 @@
 """Periods, by recurrence of the section."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rotation numbers of curves whose rotation is known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Settling: when it is said, why, and that it is said in time."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

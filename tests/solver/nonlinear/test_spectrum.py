@@ -1,7 +1,5 @@
 """Power spectra: the power is all there, lines stand where they should."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Verdicts: from made-up evidence, and on systems whose motion is known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

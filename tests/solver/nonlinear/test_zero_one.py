@@ -1,7 +1,5 @@
 """The 0-1 test on series that are regular or chaotic beyond doubt."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Systems whose exponents are known: exactly, or from the literature."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

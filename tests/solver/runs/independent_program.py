@@ -5,8 +5,6 @@ and nothing of what makes a run: no recorder, no kernel, no step control, no den
 no search for onsets. Onsets are located by SciPy's events; every contact is a restart.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

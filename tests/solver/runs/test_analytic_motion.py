@@ -1,7 +1,5 @@
 """Motions with a closed form: pendulum, slider-crank."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The bits of a run depend on its job alone: not on company, slices, interruptions or outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from itertools import cycle
 from typing import Any

@@ -1,7 +1,5 @@
 """The energy ledger closes: what drivers and gravity put in is kept, or lost in contacts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

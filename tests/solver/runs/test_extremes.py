@@ -1,7 +1,5 @@
 """At the ends of the ranges a run is finite and its energy closes, or it says what to change."""
 
-from __future__ import annotations
-
 import math
 import random
 from pathlib import Path

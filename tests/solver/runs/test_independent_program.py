@@ -1,7 +1,5 @@
 """The solver against a program that shares nothing with it but the readable mechanics."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tests.solver.completed_runs import run

@@ -1,7 +1,5 @@
 """Journals start where a scene says, in contact if that is beyond the clearance."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

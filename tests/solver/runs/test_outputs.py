@@ -1,7 +1,5 @@
 """Samples, sections, impacts and peaks: complete, at their times, and consistent."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """The paper's press: the numbers that the requirement states, on both formulations."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

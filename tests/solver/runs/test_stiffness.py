@@ -1,7 +1,5 @@
 """What `"auto"` runs with: explicit, unless its steps hardly bring the run on."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

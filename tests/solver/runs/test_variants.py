@@ -1,7 +1,5 @@
 """Runs of the press and the others with every kind of parameter: they end, and end alike."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The accuracy-study: errors against a reference, costs, and the sentence that recommends."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """What every statistic of channels promises, and what each of them is."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

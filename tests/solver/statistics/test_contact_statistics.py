@@ -1,7 +1,5 @@
 """What every statistic of contacts promises, and what each of them is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cases whose true error a run at a far smaller tolerance tells, and how much of it is covered."""
 
-from __future__ import annotations
-
 import sys
 from typing import Any, NamedTuple
 

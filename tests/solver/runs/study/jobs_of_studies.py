@@ -1,7 +1,5 @@
 """Job documents of studies for tests: small ones of the press, one of each kind."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from jointplay.solver.kinds import admit

@@ -1,7 +1,5 @@
 """Chains and blocks: every point once, lanes filled, and never a look at the workers."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

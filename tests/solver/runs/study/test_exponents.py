@@ -1,7 +1,5 @@
 """Exponents of a study's points: what tangent vectors give, and what they leave alone."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

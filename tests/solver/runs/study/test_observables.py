@@ -1,7 +1,5 @@
 """What a study keeps unless it is told otherwise."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

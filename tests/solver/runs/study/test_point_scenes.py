@@ -1,7 +1,5 @@
 """The scene of a point is what reading the whole document with its values would give."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 import time

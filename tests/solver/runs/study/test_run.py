@@ -1,7 +1,5 @@
 """Blocks of studies: the same bits as single runs, whatever shares the lanes or interrupts them."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from typing import Any
 

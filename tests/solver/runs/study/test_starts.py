@@ -1,7 +1,5 @@
 """Perturbed starts: reproducible, independent, and as wide as asked."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Statistics of a sweep's points: of known motions, of stored samples, undisturbed and resumed."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Points of one structure have the same kernel, those of different structures do not."""
 
-from __future__ import annotations
-
 from itertools import product
 
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function
