@@ -1,7 +1,7 @@
 """Refusals and failures of the solver; HTTP and storage are unknown here."""
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 
 class Problem(NamedTuple):
@@ -19,6 +19,11 @@ class InvalidInput(Exception):
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems = tuple(problems)
         super().__init__("; ".join(f"{p.pointer}: {p.detail}" for p in self.problems))
+
+    @classmethod
+    def at(cls, pointer: str, detail: str) -> Self:
+        """Return the refusal of one place; see `Problem`."""
+        return cls([Problem(pointer, detail)])
 
 
 class LimitExceeded(InvalidInput):

@@ -6,10 +6,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats as Floats
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
 
-Floats = NDArray[np.float64]
 Columns = tuple[Floats, dict[str, Floats]]
 """(k,) times [s], and by channel (k,) values in its unit."""
 

@@ -98,9 +98,9 @@ def admit_calibration(document: object) -> Calibration:
 
 def _parse(document: object) -> CalibrationJob:
     if not isinstance(document, Mapping):
-        raise InvalidInput([Problem("", "A calibration is a JSON object with a kind and a scene.")])
+        raise InvalidInput.at("", "A calibration is a JSON object with a kind and a scene.")
     if document.get("kind") != "calibration":
-        raise InvalidInput([Problem("/kind", "'kind' must be 'calibration'.")])
+        raise InvalidInput.at("/kind", "'kind' must be 'calibration'.")
     try:
         return CalibrationJob.model_validate(dict(document))
     except ValidationError as error:
@@ -185,7 +185,7 @@ def _scene_of(job: CalibrationJob, index: int) -> dict[str, Any]:
     for name, value in case.parameters.items():
         if name not in known:
             place = f"/cases/{index}/parameters/{name}"
-            raise InvalidInput([Problem(place, unknown("parameter", name, known))])
+            raise InvalidInput.at(place, unknown("parameter", name, known))
         known[name]["default"] = value
     return document
 
@@ -217,15 +217,11 @@ def _check_size(job: CalibrationJob, cases: tuple[CheckedCase, ...]) -> None:
         float((case.study.duration / case.study.period).max()) for case in cases
     )
     if runs > MOST_RUNS or periods > MOST_PERIODS:
-        raise LimitExceeded(
-            [
-                Problem(
-                    "/search/generations",
-                    f"{candidates} candidates in {len(cases)} cases are {runs:.3g} runs of"
-                    f" {periods:.3g} periods; the limits are {MOST_RUNS:g} and {MOST_PERIODS:g}."
-                    " Ask for fewer generations, or a smaller population.",
-                )
-            ]
+        raise LimitExceeded.at(
+            "/search/generations",
+            f"{candidates} candidates in {len(cases)} cases are {runs:.3g} runs of"
+            f" {periods:.3g} periods; the limits are {MOST_RUNS:g} and {MOST_PERIODS:g}."
+            " Ask for fewer generations, or a smaller population.",
         )
 
 

@@ -3,11 +3,11 @@
 Source: Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
 """
 
-from jointplay.solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.method import Method, cubic_dense
 
 _WEIGHTS = (2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0)
 
-BOGACKI_SHAMPINE3 = Tableau(
+BOGACKI_SHAMPINE3 = Method(
     name="bogacki-shampine",
     order=3,
     error_order=3,

@@ -13,7 +13,7 @@ Source of the coefficients but for `_INSIDE`: DOP853, Hairer, Norsett and Wanner
 Ordinary Differential Equations I.
 """
 
-from jointplay.solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.method import Method, cubic_dense
 
 # fmt: off
 # (tables stay in rows)
@@ -55,7 +55,7 @@ def _dense() -> tuple[tuple[float, ...], ...]:
     return tuple(rows)
 
 
-DORMAND_PRINCE853 = Tableau(
+DORMAND_PRINCE853 = Method(
     name="dormand-prince-853",
     order=8,
     error_order=8,

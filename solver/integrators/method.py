@@ -1,11 +1,15 @@
-"""Facts that every integration method states of itself, whatever its family."""
+"""An integration method is data: coefficients, and facts that it states of itself."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
 class Method:
-    """A method as data: its coefficients, its orders, what it may be asked for, what it costs.
+    """A Runge-Kutta method: its coefficients, its orders, what it may be asked for, what it costs.
+
+    The last stage of an explicit method is the first of the next step (FSAL) and counts among the
+    stages; the last row of its `matrix` is the solution's weights b.
 
     Attributes
     ----------
@@ -57,3 +61,45 @@ class Method:
         """Return about how many evaluations a period of the press takes, with error control."""
         root = self.cost_order or self.order
         return self.usual_evaluations * float(max(1e-6 / tolerance, 0.1) ** (1.0 / root))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rosenbrock(Method):
+    """A Rosenbrock method in the variables V = U / h of Hairer and Wanner 1996, IV.7.
+
+    Stage i solves (I - h γ J) V_i = γ (f(t + α_i h, y + h Σ a_ij V_j) + Σ c_ij V_j + γ_i h f_t).
+
+    Attributes
+    ----------
+    drifts : (stages,) γ_i
+    couplings : row i holds the i coefficients c of stage i
+    weights : (stages,) of V in the step's increment over h
+    error : (stages,) weights of V in the error estimate over h
+    dense : (1 + stages, degree); the first row, of the slope at the start, is empty
+    """
+
+    gamma: float
+    drifts: tuple[float, ...]
+    couplings: tuple[tuple[float, ...], ...]
+    weights: tuple[float, ...]
+
+    @property
+    def stages(self) -> int:
+        """Number of vectors that a step keeps: the slope at its start, then the stages."""
+        return 1 + len(self.nodes)
+
+    def evaluations(self, states: int) -> int:
+        """Return the evaluations in a step: stages, ledger and end, and a derivative each way."""
+        return len(self.nodes) + 2 + states + 1
+
+
+def cubic_dense(weights: Sequence[float]) -> tuple[tuple[float, ...], ...]:
+    """Return the dense output of order three: the cubic through both ends and their slopes.
+
+    weights : (stages - 1,) b of a method whose last stage is its FSAL one.
+    """
+    rows = [[0.0, 3.0 * b, -2.0 * b] for b in (*weights, 0.0)]
+    for row, slope in ((rows[0], (1.0, -2.0, 1.0)), (rows[-1], (0.0, -1.0, 1.0))):
+        for k, coefficient in enumerate(slope):
+            row[k] += coefficient
+    return tuple(tuple(row) for row in rows)

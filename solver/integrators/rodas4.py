@@ -3,7 +3,7 @@
 Source: Hairer and Wanner 1996, Solving Ordinary Differential Equations II, IV.7 and IV.10.
 """
 
-from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.integrators.method import Rosenbrock
 
 # fmt: off
 # (tables stay in rows)

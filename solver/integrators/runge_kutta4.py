@@ -5,11 +5,11 @@ Its fifth stage is the slope where the step ends, for the dense output of order 
 Source: Kutta 1901, Zeitschrift für Mathematik und Physik 46:435.
 """
 
-from jointplay.solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.method import Method, cubic_dense
 
 _WEIGHTS = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
 
-RUNGE_KUTTA4 = Tableau(
+RUNGE_KUTTA4 = Method(
     name="rk4",
     order=4,
     error_order=0,

@@ -3,11 +3,11 @@
 Source: Tsitouras 2011, Computers and Mathematics with Applications 62:770.
 """
 
-from jointplay.solver.integrators.tableau import Tableau
+from jointplay.solver.integrators.method import Method
 
 # fmt: off
 # (tables stay in rows)
-TSITOURAS5 = Tableau(
+TSITOURAS5 = Method(
     name="tsitouras",
     order=5,
     error_order=5,

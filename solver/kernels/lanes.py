@@ -13,7 +13,7 @@ import numba
 from llvmlite import binding
 from numba.core.codegen import get_host_cpu_features
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 
 WIDTHS: Final = {"4": 4, "8": 8}
 """For vectors of 256 and of 512 bits."""
@@ -38,14 +38,10 @@ def chosen_lanes() -> int:
     if not chosen:
         return 8 if has_long_vectors() else 4
     if chosen not in WIDTHS:
-        raise InvalidInput(
-            [
-                Problem(
-                    "JOINTPLAY_LANES",
-                    f"It is '{chosen}'; it must be 4 (vectors of 256 bits) or 8 (512 bits). Unset"
-                    " it to have the width of the processor.",
-                )
-            ]
+        raise InvalidInput.at(
+            "JOINTPLAY_LANES",
+            f"It is '{chosen}'; it must be 4 (vectors of 256 bits) or 8 (512 bits). Unset"
+            " it to have the width of the processor.",
         )
     return WIDTHS[chosen]
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.records.failure import LimitExceeded
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.checked_points import check_points
@@ -13,9 +13,8 @@ from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.limits import LONGEST_ACCURACY_STUDY
 from jointplay.solver.kinds.periods import Periods, periods
-from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
 from jointplay.solver.kinds.points import one_point
-from jointplay.solver.kinds.studies import make_study
+from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.quantities.roster import NameIn
 from jointplay.solver.runs.work_precision.plan import (
     WITHOUT_PERIOD,
@@ -84,7 +83,7 @@ class AccuracyStudy(Kind[AccuracyStudyJob]):
                 f" accuracy-study is {LONGEST_ACCURACY_STUDY} ({LONGEST_ACCURACY_STUDY * unit:.3g}"
                 " s). Errors are compared only as long as the reference is known; ask for less."
             )
-            raise LimitExceeded([Problem("/duration", sentence)])
+            raise LimitExceeded.at("/duration", sentence)
         found = {"duration": duration, **chosen}
         filled = documents.filled(job, checked.document, checked.echo, **found)
         return _study(filled, checked, units)

@@ -10,16 +10,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Integers
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
-from jointplay.solver.kinds.mechanism import Echo, check, declared, offered, with_parameters
-from jointplay.solver.kinds.placed_points import PlacedPoints, structure_of
+from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
 from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
+from jointplay.solver.kinds.studies import PlacedPoints, structure_of
 from jointplay.solver.mechanics.assembly import Assembly
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.runs.study.fields import (
@@ -29,6 +29,7 @@ from jointplay.solver.runs.study.fields import (
     structure_columns,
 )
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
+from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import PLACE, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
@@ -106,7 +107,7 @@ class _One:
             raise InvalidInput(failed[0])
         raise InvalidInput(self.at_values(failed, len(failed)))
 
-    def refuse(self, suspects: NDArray[np.bool_]) -> None:
+    def refuse(self, suspects: Flags) -> None:
         """Check the suspects one by one; refuse those that fail."""
         failed: dict[int, list[Problem]] = {}
         count = int(suspects.sum())
@@ -165,7 +166,7 @@ def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo)
 
 
 def _mechanisms(
-    job: MechanismJob, one: _One, scenes: PointScenes, structure: NDArray[np.int64]
+    job: MechanismJob, one: _One, scenes: PointScenes, structure: Integers
 ) -> tuple[Mechanism, ...]:
     """Check each distinct structure and geometry; return the first of each structure."""
     count = len(scenes.values)
@@ -198,30 +199,22 @@ def _mechanism(job: MechanismJob, one: _One, point: int, *, new: bool) -> Mechan
     scene = one.scene(point)
     tree, assembly = check(scene)
     if assembly.freedom_with_play == 0:
-        raise InvalidInput(
-            [
-                Problem(
-                    "/scene",
-                    "No joint has clearance and the drivers leave no freedom, so there is no motion"
-                    " to integrate. Give a joint a positive clearance; a job of kind 'simulate'"
-                    " runs the ideal mechanism.",
-                )
-            ]
+        raise InvalidInput.at(
+            "/scene",
+            "No joint has clearance and the drivers leave no freedom, so there is no motion"
+            " to integrate. Give a joint a positive clearance; a job of kind 'simulate'"
+            " runs the ideal mechanism.",
         )
     if new:
         check_length(scene, tree, job.formulation)
-    return Mechanism(point, scene, tree, assembly, offered(scene))
+    return Mechanism(point, scene, tree, assembly, channels(scene))
 
 
 def _check_geometries(points: Points, count: int) -> None:
     if count > MOST_GEOMETRIES:
-        raise LimitExceeded(
-            [
-                Problem(
-                    points.axes[0].name_place,
-                    f"The {points.count} points have {count} geometries, each of which is put"
-                    f" together when the job is checked; the limit is {MOST_GEOMETRIES}. Ask for"
-                    " fewer values, or divide them among several jobs.",
-                )
-            ]
+        raise LimitExceeded.at(
+            points.axes[0].name_place,
+            f"The {points.count} points have {count} geometries, each of which is put"
+            f" together when the job is checked; the limit is {MOST_GEOMETRIES}. Ask for"
+            " fewer values, or divide them among several jobs.",
         )

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 from jointplay.records.suggestions import did_you_mean
 from jointplay.solver.kinds.job import Job, MechanismJob, PresetScene
 from jointplay.solver.kinds.kind import J, Kind
@@ -26,16 +26,16 @@ def kind_of(document: object, kinds: Mapping[str, Kind[Any]]) -> Kind[Any]:
         It names none.
     """
     if not isinstance(document, Mapping):
-        raise InvalidInput([Problem("", "A job is a JSON object with a kind and a scene.")])
+        raise InvalidInput.at("", "A job is a JSON object with a kind and a scene.")
     names = ", ".join(f"'{name}'" for name in kinds)
     if "kind" not in document:
-        raise InvalidInput([Problem("/kind", f"The field 'kind' is required: one of {names}.")])
+        raise InvalidInput.at("/kind", f"The field 'kind' is required: one of {names}.")
     name = document["kind"]
     if isinstance(name, str) and name in kinds:
         return kinds[name]
     meant = did_you_mean(name, kinds) if isinstance(name, str) else ""
     sentence = f"'kind' must be one of {names}" + (f"; {meant}" if meant else ".")
-    raise InvalidInput([Problem("/kind", sentence)])
+    raise InvalidInput.at("/kind", sentence)
 
 
 def job_of(document: Any, kind: Kind[J]) -> J:

@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.limits import check_count
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
@@ -55,7 +55,7 @@ class Ensemble(SectionStudy[EnsembleJob]):
                 "The starts of an ensemble differ in joint coordinates, which only the"
                 " formulation 'reduced' has; choose that."
             )
-            raise InvalidInput([Problem("/formulation", sentence)])
+            raise InvalidInput.at("/formulation", sentence)
         return one_point(job.members)
 
     def perturbation(self, job: EnsembleJob) -> Perturbation:

@@ -41,14 +41,10 @@ def check_count(count: int, pointer: str) -> None:
         With the number.
     """
     if count > MOST_POINTS:
-        raise LimitExceeded(
-            [
-                Problem(
-                    pointer,
-                    f"These are {count:.6g} points; the limit of a study is {MOST_POINTS}. Ask for"
-                    " fewer, or divide them among several jobs.",
-                )
-            ]
+        raise LimitExceeded.at(
+            pointer,
+            f"These are {count:.6g} points; the limit of a study is {MOST_POINTS}. Ask for"
+            " fewer, or divide them among several jobs.",
         )
 
 

@@ -6,7 +6,6 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
 from jointplay.solver.mechanics.assembly import (
@@ -18,7 +17,6 @@ from jointplay.solver.mechanics.assembly import (
 )
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
-from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
@@ -26,7 +24,6 @@ from jointplay.solver.scene.sentences import schema_problems
 
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""
-
 
 Written = tuple[dict[str, Any], Scene, Mapping[str, float | str | None]]
 """A scene as a job writes it: document, parsed, and the parameters that are given."""
@@ -67,20 +64,8 @@ def _preset(name: str) -> tuple[dict[str, Any], Scene]:
 
 
 def resolve(job: MechanismJob) -> tuple[Scene, dict[str, Any], Echo]:
-    """Return a job's scene with parameters set, its document, and every parameter's value.
-
-    Raises
-    ------
-    InvalidInput
-        Unknown preset or parameter, values that do not fit the scene.
-    """
+    """Return what `with_parameters` does of a job's scene; raises what `declared` does, too."""
     return with_parameters(*declared(job))
-
-
-def scene_of(job: MechanismJob) -> Scene:
-    """Return the scene of a job that was admitted before, with its parameters set."""
-    document, scene, values = written(job)
-    return Scene.model_validate(set_parameters(document, scene, values)[0])
 
 
 def with_parameters(
@@ -115,14 +100,10 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
     tree, assembly = spanning_tree(scene), assemble(scene)
     coordinates = 3 * len(scene.bodies)
     if assembly.constraints > coordinates:
-        raise InvalidInput(
-            [
-                Problem(
-                    "/scene/joints",
-                    f"The mechanism is over-constrained: {assembly.constraints} constraint"
-                    f" equations hold {coordinates} coordinates; remove a joint or a driver.",
-                )
-            ]
+        raise InvalidInput.at(
+            "/scene/joints",
+            f"The mechanism is over-constrained: {assembly.constraints} constraint"
+            f" equations hold {coordinates} coordinates; remove a joint or a driver.",
         )
     if not _closes(scene):
         raise InvalidInput(_open(scene))
@@ -131,7 +112,7 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
             f"The points of '{name}' start in one place, where its force has no direction; start"
             " them apart, or give no free length."
         )
-        raise InvalidInput([Problem(f"/scene/forces/{name}", sentence)])
+        raise InvalidInput.at(f"/scene/forces/{name}", sentence)
     pairs = [(force.first, force.second) for force in scene.forces.values()]
     pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in tree.play)]
     held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
@@ -148,26 +129,18 @@ def check(scene: Scene) -> tuple[Tree, Assembly]:
         )
     if assembly.redundant_with_play or assembly.redundant:
         count = max(assembly.redundant, assembly.redundant_with_play)
-        raise InvalidInput(
-            [
-                Problem(
-                    "/scene/joints",
-                    f"The mechanism is over-constrained: {count} of {assembly.constraints}"
-                    " constraint equations are redundant; remove a joint or driver, or give one"
-                    " joint clearance.",
-                )
-            ]
+        raise InvalidInput.at(
+            "/scene/joints",
+            f"The mechanism is over-constrained: {count} of {assembly.constraints}"
+            " constraint equations are redundant; remove a joint or driver, or give one"
+            " joint clearance.",
         )
     if tree.closing and assembly.freedom_with_play:
-        raise InvalidInput(
-            [
-                Problem(
-                    "/scene/joints",
-                    f"Ideal joints close a loop (at {', '.join(tree.closing)}) that can still move;"
-                    " such scenes are not supported yet. Give a joint of each loop a positive"
-                    " clearance, or drive the mechanism fully with every clearance zero.",
-                )
-            ]
+        raise InvalidInput.at(
+            "/scene/joints",
+            f"Ideal joints close a loop (at {', '.join(tree.closing)}) that can still move;"
+            " such scenes are not supported yet. Give a joint of each loop a positive"
+            " clearance, or drive the mechanism fully with every clearance zero.",
         )
     return tree, assembly
 
@@ -196,22 +169,6 @@ def _open(scene: Scene) -> list[Problem]:
             " nearer to the assembly you mean.",
         )
     ]
-
-
-def offered(scene: Scene) -> tuple[Channel, ...]:
-    """Return a scene's channels.
-
-    Raises
-    ------
-    InvalidInput
-        A declared output of an unknown channel.
-    """
-    try:
-        return channels(scene)
-    except InvalidInput as error:
-        raise InvalidInput(
-            Problem(f"/scene{p.pointer}", p.detail) for p in error.problems
-        ) from None
 
 
 def _located(

@@ -1,6 +1,6 @@
 """The method and tolerance that a job asks for, if the one can give what the other promises."""
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 from jointplay.solver.integrators import AUTO, METHODS, method_for
 from jointplay.solver.kinds.job import ACCURACIES, Job
 from jointplay.solver.quantities.roster import quoted
@@ -17,22 +17,20 @@ def chosen(job: Job) -> tuple[str, float | None]:
     if job.accuracy is not None:
         for field, given in (("tolerance", job.tolerance), ("method", job.method != "auto")):
             if given:
-                raise InvalidInput(
-                    [Problem("/accuracy", f"Give a {field} or a named accuracy, not both.")]
-                )
+                raise InvalidInput.at("/accuracy", f"Give a {field} or a named accuracy, not both.")
     if job.method != "auto" and METHODS[job.method].fixed_step:
         _check_fixed_step(job)
         return job.method, None
     if job.step is not None:
         able = quoted([name for name, each in METHODS.items() if each.fixed_step])
         sentence = f"Only the method {able} has a fixed step; drop it, or choose {able}."
-        raise InvalidInput([Problem("/step", sentence)])
+        raise InvalidInput.at("/step", sentence)
     method, tolerance = ACCURACIES[job.accuracy or "standard"]
     method = method if job.accuracy else job.method
     tolerance = job.tolerance if job.tolerance is not None else tolerance
     limit = METHODS[method_for(method, tolerance)].largest_tolerance
     if tolerance > limit:
-        raise InvalidInput([Problem("/tolerance", _too_large(method, tolerance, limit))])
+        raise InvalidInput.at("/tolerance", _too_large(method, tolerance, limit))
     return method, tolerance
 
 
@@ -58,19 +56,19 @@ def check_study(job: Job, *, tangents: bool) -> None:
         )
     else:
         return
-    raise InvalidInput([Problem(where, sentence)])
+    raise InvalidInput.at(where, sentence)
 
 
 def _check_fixed_step(job: Job) -> None:
     if job.step is None:
         sentence = f"The method '{job.method}' needs its fixed 'step', s."
-        raise InvalidInput([Problem("/step", sentence)])
+        raise InvalidInput.at("/step", sentence)
     if job.tolerance is not None:
         sentence = (
             f"The method '{job.method}' does not control its error; drop the tolerance, or choose"
             " another method."
         )
-        raise InvalidInput([Problem("/tolerance", sentence)])
+        raise InvalidInput.at("/tolerance", sentence)
 
 
 def _too_large(method: str, tolerance: float, limit: float) -> str:

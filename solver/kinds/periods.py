@@ -4,15 +4,14 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.periods import characteristic_time, common_period
 
-Floats = NDArray[np.float64]
 _SPEED = re.compile(r"/drivers/[^/]+/speed")
 _GRAVITY = re.compile(r"/gravity/\d")
 
@@ -65,7 +64,7 @@ def periods(scenes: PointScenes) -> Periods:
     return Periods(seconds, notes, speed)
 
 
-def _members(group: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+def _members(group: Integers) -> list[Integers]:
     """Return the points of each group, in order."""
     order = np.argsort(group, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)

@@ -1,9 +1,14 @@
 """Sections of a study that would never be taken are refused before anything is queued."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.kinds.checked_points import CheckedPoints
-from jointplay.solver.kinds.crossings import crossing_problems
 from jointplay.solver.kinds.observables import shared_channels
 from jointplay.solver.kinds.periods import Periods
 from jointplay.solver.kinds.section import (
@@ -11,6 +16,7 @@ from jointplay.solver.kinds.section import (
     CrankSection,
     OnsetSection,
 )
+from jointplay.solver.runs.ideal.reach import motion_reach
 
 
 def check_section(
@@ -72,3 +78,115 @@ def _onset(section: OnsetSection, checked: CheckedPoints) -> list[Problem]:
                 )
             ]
     return []
+
+
+FARTHEST = 2.0
+"""Clearances from the bearing's centre that no journal leaves: it would be as deep in the wall."""
+PLACE = "/section/value"
+
+
+def crossing_problems(
+    section: ChannelSection, channel: Channel, checked: CheckedPoints
+) -> Iterator[Problem]:
+    """Yield why a channel does not cross a section's value, if that can be known beforehand."""
+    output = next((o for o in checked.declared.outputs if o.name == channel.name), None)
+    seen = _Seen(channel, section.value)
+    if output is not None:
+        if output.factor == 0.0:
+            sentence = f"'{channel.name}' is always {output.offset:g}; take another channel."
+            yield Problem("/section/channel", sentence)
+            return
+        seen = _Seen(channel, section.value, output.channel, output.factor, output.offset)
+    owner, _, quantity = seen.source.partition(".")
+    if owner in checked.declared.joints:
+        yield from _play(seen, owner, quantity, checked)
+    elif owner in checked.declared.bodies:
+        yield from _motion(seen, owner, quantity, checked)
+    elif seen.source == "energy.kinetic" and seen.at_source <= 0.0:
+        yield Problem(PLACE, "The kinetic energy is never below zero; give a value above.")
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A section's channel, and the channel that it is a multiple of: factor * source + offset."""
+
+    channel: Channel
+    value: float
+    own_source: str = ""
+    factor: float = 1.0
+    offset: float = 0.0
+
+    @property
+    def source(self) -> str:
+        return self.own_source or self.channel.name
+
+    @property
+    def at_source(self) -> float:
+        """The section's value as the source has it."""
+        return (self.value - self.offset) / self.factor
+
+    def refused(self, low: float, high: float) -> str:
+        """Return the sentence about a value outside the bounds of the source."""
+        ends = sorted((self.factor * low + self.offset, self.factor * high + self.offset))
+        unit = "" if self.channel.unit == "1" else f" {self.channel.unit}"
+        return (
+            f"'{self.channel.name}' never crosses {self.value:g}{unit}: it stays between"
+            f" {ends[0]:.6g} and {ends[1]:.6g}{unit}."
+        )
+
+
+def _motion(seen: _Seen, body: str, quantity: str, checked: CheckedPoints) -> Iterator[Problem]:
+    """Yield what the ideal mechanism and its play rule out, at the first point where they do."""
+    for point in _sample(checked):
+        found = motion_reach(checked.scenes.scene(point))
+        reach = None if found is None else found.of(body, quantity)
+        if reach is None:
+            continue
+        name = seen.channel.name
+        place, sentence = "/section/channel", ""
+        if reach.turns:
+            sentence = (
+                f"The angle '{name}' gains whole turns, so it crosses a value once and not once a"
+                " turn; take a section at a crank angle."
+            )
+        elif reach.low == reach.high:
+            sentence = f"'{name}' does not change in this mechanism; take another channel."
+        elif not reach.low <= seen.at_source <= reach.high:
+            place, sentence = PLACE, seen.refused(reach.low, reach.high)
+        if sentence:
+            yield Problem(place, checked.beginning(point) + sentence)
+            return
+
+
+def _play(seen: _Seen, joint: str, quantity: str, checked: CheckedPoints) -> Iterator[Problem]:
+    """Yield what a joint's clearance rules out, at the first point where it does."""
+    value = seen.at_source
+    if quantity == "normal_force" and value <= 0.0:
+        yield Problem(PLACE, "A normal force is never below zero; give a value above.")
+    if quantity not in ("eccentricity_x", "eccentricity_y", "penetration"):
+        return
+    clearance = checked.scenes.numbers(f"/joints/{joint}/clearance/radial_clearance")
+    farthest = FARTHEST * clearance
+    low, high = (
+        (-clearance, farthest - clearance) if quantity == "penetration" else (-farthest, farthest)
+    )
+    beyond = np.flatnonzero(~((low < value) & (value < high)))
+    if len(beyond):
+        point = int(beyond[0])
+        sentence = f"With a radial clearance of {clearance[point]:.6g} m " + seen.refused(
+            float(low[point]), float(high[point])
+        )
+        yield Problem(PLACE, checked.beginning(point) + sentence)
+
+
+def _sample(checked: CheckedPoints) -> list[int]:
+    """Return some points at which to follow the ideal mechanism: it takes a tenth of a second.
+
+    None where it moves freely, for then everything is in reach.
+    """
+    if any(mechanism.assembly.freedom for mechanism in checked.mechanisms):
+        return []
+    chosen = [mechanism.point for mechanism in checked.mechanisms]
+    if checked.scenes.leaves:
+        chosen.append(checked.points.count - 1)
+    return sorted(set(chosen))[:4]

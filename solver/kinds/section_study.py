@@ -14,11 +14,10 @@ from jointplay.solver.kinds.limits import EVENT_PATIENCE, LONGEST_SETTLING, chec
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen, coordinate_channels
 from jointplay.solver.kinds.periods import Periods, crank_offsets, periods
-from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.section import CrankSection, Section
 from jointplay.solver.kinds.section_checks import check_section
-from jointplay.solver.kinds.studies import make_study
+from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.unions import form, told_by

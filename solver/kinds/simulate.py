@@ -19,13 +19,14 @@ from jointplay.solver.kinds.limits import (
     MOST_BYTES,
     MOST_SAMPLES,
 )
-from jointplay.solver.kinds.mechanism import check, offered, resolve, scene_of
+from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.admission import Admission
-from jointplay.solver.scene.channels import select
+from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.scene.periods import (
     Period,
     characteristic_time,
@@ -79,7 +80,7 @@ class Simulate(Kind[SimulateJob]):
         moves = assembly.freedom_with_play > 0
         if moves:
             check_length(scene, tree, job.formulation)
-        selected = select(offered(scene), list(job.channels), "/channels")
+        selected = select(channels(scene), list(job.channels), "/channels")
         chosen(job)
         filled = documents.filled(
             job,
@@ -94,9 +95,9 @@ class Simulate(Kind[SimulateJob]):
 
     def plan(self, job: SimulateJob, filled: dict[str, Any]) -> Admission:
         """Return what `admit` returned; see `Kind.plan`."""
-        scene = scene_of(job)
-        channels = {channel.name: channel for channel in offered(scene)}
-        return _admission(job, filled, scene, tuple(channels[name] for name in filled["channels"]))
+        scene = Scene.model_validate(set_parameters(*written(job))[0])
+        known = {channel.name: channel for channel in channels(scene)}
+        return _admission(job, filled, scene, tuple(known[name] for name in filled["channels"]))
 
 
 def _admission(

@@ -38,7 +38,7 @@ def check_statistics(names: Sequence[str], joints: Collection[str], channels: in
             f" {len(joints)} joints are {count} numbers a point; the limit is {MOST_STATISTICS}."
             " Choose fewer statistics, or fewer 'channels'."
         )
-        raise LimitExceeded([Problem("/statistics", sentence)])
+        raise LimitExceeded.at("/statistics", sentence)
 
 
 def check_samples(study: Study, per_period: int) -> None:
@@ -61,14 +61,14 @@ def check_samples(study: Study, per_period: int) -> None:
             f"At point {point} only {left[point]:g} s are left after settling,"
             f" less than two samples; statistics need {least:.3g} s, or more samples a period."
         )
-        raise InvalidInput([Problem(place, sentence)])
+        raise InvalidInput.at(place, sentence)
     total = float(samples.sum())
     if total > MOST_SAMPLES_OF_STATISTICS:
         sentence = (
             f"{per_period} samples a period are {total:.3g} samples of all points; the"
             f" limit is {MOST_SAMPLES_OF_STATISTICS:g}. Ask for fewer, or for fewer periods."
         )
-        raise LimitExceeded([Problem(place, sentence)])
+        raise LimitExceeded.at(place, sentence)
 
 
 def _problems(names: Sequence[str], joints: Collection[str]) -> Iterator[Problem]:

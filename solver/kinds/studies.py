@@ -1,19 +1,69 @@
-"""From points to a study: chains, blocks, and what is said of each point."""
+"""Studies: points in their scene, cut into chains and blocks, with what is said of each."""
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.kinds import documents
+from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import stored_bytes
-from jointplay.solver.kinds.placed_points import PlacedPoints
+from jointplay.solver.kinds.mechanism import written
+from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
+from jointplay.solver.runs.study.fields import distinct, structure_columns
 from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
+from jointplay.solver.scene.channels import channels
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import set_parameters
+from jointplay.solver.scene.references import has_play
 
-Floats = NDArray[np.float64]
+
+@dataclass(frozen=True, eq=False)
+class PlacedPoints:
+    """Every point's scene, by the values that were put into it."""
+
+    points: Points
+    declared: Scene
+    """As the job writes it, before parameters are set."""
+    scenes: PointScenes
+    structure: Integers
+    """(points,) points of the same number have equations of the same form."""
+
+    def beginning(self, point: int) -> str:
+        """Return how a sentence about one point begins; empty where nothing varies."""
+        return self.points.name(point, self.declared) if self.points.axes else ""
+
+    def channels(self, names: Iterable[str]) -> tuple[Channel, ...]:
+        """Return the channels of these names."""
+        known = {channel.name: channel for channel in channels(self.scenes.base)}
+        return tuple(known[name] for name in names)
+
+    def joints_with_play(self) -> set[str]:
+        """Return the joints with clearance at any point."""
+        firsts = np.unique(self.structure, return_index=True)[1]
+        scenes = (self.scenes.scene(int(point)) for point in firsts)
+        return {name for scene in scenes for name, joint in scene.joints.items() if has_play(joint)}
+
+
+def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
+    """Return the points of a job that was admitted before."""
+    document, declared, given = written(job)
+    _, echo = set_parameters(document, declared, given)
+    first, _ = set_parameters(document, declared, {**given, **points.at(0)})
+    leaves = leaves_of(declared, points.parameters, echo)
+    scenes = PointScenes(Scene.model_validate(first), leaves, points.values())
+    return PlacedPoints(points, declared, scenes, structure_of(scenes))
+
+
+def structure_of(scenes: PointScenes) -> Integers:
+    """Return (points,) the number of each point's structure, by first appearance."""
+    return distinct(list(structure_columns(scenes)), len(scenes.values))
 
 
 def make_study(

@@ -15,7 +15,6 @@ from jointplay.solver.kinds.limits import check_count, check_size
 from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen, coordinate_channels, peak_channels
 from jointplay.solver.kinds.periods import Periods, periods
-from jointplay.solver.kinds.placed_points import PlacedPoints, place_points
 from jointplay.solver.kinds.points import Axis, Points, product
 from jointplay.solver.kinds.statistics import (
     StatisticName,
@@ -23,7 +22,7 @@ from jointplay.solver.kinds.statistics import (
     check_statistics,
     statistic_count,
 )
-from jointplay.solver.kinds.studies import make_study
+from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.kinds.values import UNIT, Values, axis, count
 from jointplay.solver.quantities.units import Name
 from jointplay.solver.runs.study.plan import Study
@@ -168,14 +167,14 @@ def _check_length(job: SweepJob) -> None:
     given = [length for length in (job.duration, job.periods) if length is not None]
     if len(given) != 1:
         sentence = "Give one of 'duration' (s) and 'periods'" + (", not both." if given else ".")
-        raise InvalidInput([Problem("/duration", sentence)])
+        raise InvalidInput.at("/duration", sentence)
     if job.settle >= given[0]:
         unit = "s" if job.periods is None else "periods"
         sentence = (
             f"Settling for {job.settle:g} {unit} leaves nothing of {given[0]:g} {unit} to look at;"
             " it must be shorter."
         )
-        raise InvalidInput([Problem("/settle", sentence)])
+        raise InvalidInput.at("/settle", sentence)
 
 
 def _points(job: SweepJob) -> Points:
@@ -188,7 +187,7 @@ def _points(job: SweepJob) -> Points:
         return product(axes, "/grid")
     if job.points is None or job.grid is not None:
         both = ", not both." if job.grid is not None else "."
-        raise InvalidInput([Problem("/grid", f"Give one of 'grid' and 'points'{both}")])
+        raise InvalidInput.at("/grid", f"Give one of 'grid' and 'points'{both}")
     check_count(len(job.points), "/points")
     return _listed(job.points)
 
@@ -209,7 +208,7 @@ def _listed(points: list[dict[str, float]]) -> Points:
                 if found
             )
             sentence = f"Point {index} {difference}; give every point the parameters of the first."
-            raise InvalidInput([Problem(f"/points/{index}", sentence)])
+            raise InvalidInput.at(f"/points/{index}", sentence)
     written = np.arange(len(points), dtype=np.int64)
     return Points(
         tuple(

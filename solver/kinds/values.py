@@ -6,9 +6,9 @@ A list or a range that a job writes becomes an axis of points.
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.points import Axis
 from jointplay.solver.quantities.units import Strict
@@ -54,7 +54,7 @@ def count(values: Range | list[float]) -> int:
     return values.count if isinstance(values, Range) else len(values)
 
 
-def numbers(values: Range | list[float]) -> NDArray[np.float64]:
+def numbers(values: Range | list[float]) -> Floats:
     """Return the values, (count,); a range hits both its ends exactly."""
     if not isinstance(values, Range):
         return np.array(values, np.float64)

@@ -6,15 +6,13 @@ from itertools import combinations
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
 from jointplay.solver.scene.references import ends, has_play
-
-Floats = NDArray[np.float64]
 
 RANK_TOLERANCE = 1e-9
 """Singular values below this share of the largest count as zero (rows scaled by length)."""
@@ -96,9 +94,6 @@ def link_lengths(scene: Scene) -> list[float]:
 
 def directionless(scene: Scene, pose: Floats) -> list[str]:
     """Return the force elements that need a direction and whose points start in one place."""
-    directed = {name: one for name, one in scene.forces.items() if one.needs_direction}
-    if not directed:
-        return []
     elements = {name: e for name, e in scene.forces.items() if e.needs_direction}
     if not elements:
         return []
@@ -236,7 +231,7 @@ def _admissible(
     velocity: Floats,
     driven: dict[str, float],
     scale: Floats,
-    columns: NDArray[np.bool_],
+    columns: Flags,
 ) -> None:
     """Change some of the velocities, as little as possible, so that the constraints hold."""
     rows = mechanism.rows(pose, velocity, driven)

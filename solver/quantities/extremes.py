@@ -3,9 +3,8 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.arrays import Floats
 
 REFINEMENTS = 3
 """Each parabola's vertex is evaluated and becomes the middle of one ten times narrower; the

@@ -1,10 +1,12 @@
-"""Numbers of a scene: their units and bounds, once, for schemas, checks and documentation.
+"""Numbers of a scene: units, bounds and rules, once, for schemas, checks and documentation.
 
 ``structural`` lists the values that change the equations themselves (friction switched off, the
 Hertz exponent): the compiler writes these into a kernel. Every other number is run-time data.
 """
 
-from typing import Annotated
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -13,6 +15,19 @@ class Strict(BaseModel):
     """A frozen part of a document: unknown fields, wrong types, NaN and infinity are refused."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A relation that must not hold, at the field that would be mended.
+
+    `broken` takes the part, whose numbers are floats or columns (one row a point of a study), and
+    returns a truth value or an array of them; `sentence` takes a part with the floats of one scene.
+    """
+
+    field: str
+    broken: Callable[[Any], Any]
+    sentence: Callable[[Any], str]
 
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}$")]

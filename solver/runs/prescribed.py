@@ -5,10 +5,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.places import TIME
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.quantities.extremes import Floats, refine_extreme
+from jointplay.solver.quantities.extremes import refine_extreme
 
 INSTANTS_A_PERIOD = 720
 MOST_INSTANTS = 200_000

@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -18,7 +19,7 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
-from jointplay.solver.runs.results import Floats, Slice, Summary
+from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.stiff_method import (
     IMPLICIT,
     attempts_left,

@@ -5,14 +5,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import clearances, inner_states
-
-Floats = NDArray[np.float64]
 
 
 class Perturbation(NamedTuple):

@@ -44,7 +44,7 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
     Raises
     ------
     InvalidInput
-        A declared output of an unknown channel.
+        A declared output of an unknown channel; pointers begin at the job.
     """
     rows: list[Channel] = []
 
@@ -77,7 +77,7 @@ def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
     for index, output in enumerate(scene.outputs):
         if output.channel not in units:
             sentence = unknown("channel", output.channel, units)
-            problems.append(Problem(f"/outputs/{index}/channel", sentence))
+            problems.append(Problem(f"/scene/outputs/{index}/channel", sentence))
             continue
         text = output.help or f"{output.factor:g} * {output.channel} + {output.offset:g}"
         rows.append(Channel(output.name, units[output.channel], text))

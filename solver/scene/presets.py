@@ -6,7 +6,7 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.failure import InvalidInput
 from jointplay.records.suggestions import unknown
 
 
@@ -31,7 +31,7 @@ def document(name: str, pointer: str = "/scene/preset") -> dict[str, Any]:
         There is no preset of that name.
     """
     if name not in _documents():
-        raise InvalidInput([Problem(pointer, unknown("preset", name, names()))])
+        raise InvalidInput.at(pointer, unknown("preset", name, names()))
     loaded: dict[str, Any] = json.loads(_documents()[name])
     return loaded
 

@@ -5,11 +5,11 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
-from jointplay.solver.quantities.rule import Rule
+from jointplay.solver.quantities.units import Rule
 from jointplay.solver.scene.document import Prismatic, Revolute, Scene
 
 CLEARANCE = (
@@ -58,9 +58,7 @@ def size_problems(scene: Scene) -> Iterator[Problem]:
                 yield Problem(f"{place}/{rule.field}", rule.sentence(part))
 
 
-def ill_sized(
-    scene: Scene, columns: Mapping[str, NDArray[np.float64]], points: int
-) -> NDArray[np.bool_]:
+def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags:
     """Return (points,) at which points something does not fit.
 
     Parameters
@@ -101,7 +99,7 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
         yield f"/forces/{name}", element.rules, element
 
 
-def _seen(node: Any, path: str, columns: Mapping[str, NDArray[np.float64]]) -> Any:
+def _seen(node: Any, path: str, columns: Mapping[str, Floats]) -> Any:
     if path in columns:
         return columns[path]
     if isinstance(node, BaseModel):

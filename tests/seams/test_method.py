@@ -8,13 +8,13 @@ import pytest
 from jointplay.client import Refused
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.integrators import METHODS
-from jointplay.solver.integrators.tableau import Tableau, cubic_dense
+from jointplay.solver.integrators.method import Method, cubic_dense
 from jointplay.solver.kinds import admit
 from tests.seams.conftest import Platform
 from tests.solver.integrators import test_tableaux as specification
 
 HALVES = (0.5, 0.5)
-HEUN_EULER = Tableau(
+HEUN_EULER = Method(
     name="heun-euler",
     order=2,
     error_order=2,

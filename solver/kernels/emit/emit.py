@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from types import MappingProxyType
 
-from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
@@ -186,7 +185,7 @@ class Tape:
 
     def _define(self, node: Expression, text: str) -> None:
         if len(self.lines) >= LONGEST:
-            raise LimitExceeded([too_many(len(self.lines))])
+            raise too_many(len(self.lines))
         self.values[node] = f"v{len(self.lines)}"
         self.lines.append(f"{self.values[node]} = {text}")
 

@@ -6,7 +6,7 @@ which nothing feeds back on, is integrated by Lobatto's formula on the dense out
 
 import math
 
-from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.emit.emit import DECORATOR, FixedNodes, Known, lane_function
 from jointplay.solver.kernels.emit.stepping import StepRecorder
 from jointplay.solver.kernels.lanes import LANES

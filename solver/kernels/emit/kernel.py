@@ -8,8 +8,9 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import Method
-from jointplay.solver.integrators.rosenbrock import Rosenbrock
+from jointplay.solver.integrators.method import Rosenbrock
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
@@ -65,7 +66,7 @@ class Kernel:
         """The compiled functions, by name; see `solver.kernels.emit.functions`."""
         return addresses_of(self.module)
 
-    def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
+    def fixed_values(self, scene: Scene) -> Floats:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`.
 
         The scene must have the structure that this kernel was compiled for.
@@ -161,7 +162,7 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     return tape.function_of_one_row("slopes")
 
 
-def values_of(nodes: Sequence[Expression], scene: Scene) -> NDArray[np.float64]:
+def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:
     """Evaluate expressions of a scene's numbers alone."""
     numbers: dict[str, float] = {}
     view(scene, lambda path, value: numbers.setdefault(path, value))

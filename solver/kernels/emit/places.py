@@ -10,6 +10,7 @@ import numpy as np
 from numba import from_dtype
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.layout import Layout
 
 PERIOD, TIME = 0, 1
@@ -40,11 +41,11 @@ class DenseRow:
         ends = np.cumsum([TIME + 1, drivers, drivers, states, joints, joints])
         return cls(*map(int, ends))
 
-    def times(self, rows: NDArray[np.float64], period: float) -> NDArray[np.float64]:
+    def times(self, rows: Floats, period: float) -> Floats:
         """Return the simulated times (...,) of rows (..., width), s."""
         return rows[..., PERIOD] * period + rows[..., TIME]
 
-    def states(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    def states(self, rows: Floats) -> Floats:
         """Return the states (..., states) of rows (..., width)."""
         return rows[..., self.state : self.mode]
 

@@ -16,6 +16,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks, tangent_step
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
@@ -53,7 +54,7 @@ class Tangents:
     kinks: int
     addresses: NDArray[np.void]
 
-    def fixed_values(self, scene: Scene) -> NDArray[np.float64]:
+    def fixed_values(self, scene: Scene) -> Floats:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`."""
         return values_of([node for _, node in self.fixed], scene)
 

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from itertools import islice
 
-from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
     Expression,
@@ -188,4 +187,4 @@ def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
     for expressions in ([e for _, e in slopes(equations)], equations.channels.values()):
         count = len(reachable(expressions))
         if count > MOST_STATEMENTS:
-            raise LimitExceeded([too_many(count)])
+            raise too_many(count)

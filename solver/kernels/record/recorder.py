@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable
 from dataclasses import dataclass, field
 
-from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.record import lane_functions
 
 MOST_STATEMENTS = 10_000
@@ -73,7 +73,7 @@ class Recorder:
         found = self._nodes.get(key)
         if found is None:
             if len(self._nodes) >= 4 * MOST_STATEMENTS:
-                raise LimitExceeded([too_many(len(self._nodes))])
+                raise too_many(len(self._nodes))
             found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
             self._nodes[key] = found
         return found
@@ -85,9 +85,9 @@ class Recorder:
         return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
 
 
-def too_many(count: int) -> Problem:
-    """Say that a scene's equations are too long to compile."""
-    return Problem(
+def too_many(count: int) -> LimitExceeded:
+    """Return the refusal of a scene whose equations are too long to compile."""
+    return LimitExceeded.at(
         "/scene",
         f"The equations of this scene take {count} recorded statements or more; the limit is"
         f" {MOST_STATEMENTS}. Use fewer bodies.",

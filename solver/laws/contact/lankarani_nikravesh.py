@@ -5,8 +5,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.solver.laws.contact.law import ContactLaw, Fit
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power, sqrt
+from jointplay.solver.quantities.units import Rule
 
 
 class LankaraniNikravesh(ContactLaw):

@@ -3,9 +3,8 @@
 from abc import abstractmethod
 from typing import ClassVar, Protocol
 
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import Strict
+from jointplay.solver.quantities.units import Rule, Strict
 
 
 class Fit(Protocol):

@@ -4,9 +4,8 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar, NamedTuple
 
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import PointReference, Strict
+from jointplay.solver.quantities.units import PointReference, Rule, Strict
 
 
 class Ends(NamedTuple):

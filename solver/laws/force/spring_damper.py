@@ -5,8 +5,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import sqrt
+from jointplay.solver.quantities.units import Rule
 
 COINCIDENT = 1e-300
 """Added to the square of the length (m^2), so that points in one place divide by no zero."""

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import Strict
+from jointplay.solver.quantities.units import Rule, Strict
 
 
 @dataclass(frozen=True)

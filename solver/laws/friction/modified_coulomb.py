@@ -6,7 +6,6 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.solver.laws.friction.law import FrictionLaw
-from jointplay.solver.quantities.rule import Rule
 from jointplay.solver.quantities.scalars import (
     Scalar,
     absolute,
@@ -15,6 +14,7 @@ from jointplay.solver.quantities.scalars import (
     minimum,
     sign,
 )
+from jointplay.solver.quantities.units import Rule
 
 STEEPEST_RAMP = 1e300
 """Slope (s/m) that stands for the step at equal limit velocities; finite, so 0 * slope is 0."""

@@ -7,28 +7,27 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.channel import Channel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.certificate.companions import LADDER, PERTURBED, RUN, Companions
 from jointplay.solver.runs.certificate.estimate import (
+    BINS,
     CONVERGED,
     SAFETY,
     estimated_error,
+    histogram,
     spans,
     until,
     within,
 )
 from jointplay.solver.runs.certificate.growth import Exponent
-from jointplay.solver.runs.certificate.spread import BINS, histogram
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import clearances, tangent_obstacle
-
-Floats = NDArray[np.float64]
 
 JOURNAL = ("eccentricity_x", "eccentricity_y", "penetration")
 """Channels of a joint with play whose scale is the clearance from side to side, not their range."""

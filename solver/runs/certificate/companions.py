@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.lane import Lane
@@ -23,8 +24,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SAMPLES, Status
 from jointplay.solver.runs.certificate.instants import Instants
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
-
-Floats = NDArray[np.float64]
 
 RUN = 0
 """Lane of the trajectory itself."""
@@ -161,7 +160,7 @@ class Companions:
         width = self.bundle.kernel.row.width
         return np.concatenate([np.zeros((0, width)), *self.rows[lane]])
 
-    def values(self, columns: NDArray[np.int64]) -> Floats:
+    def values(self, columns: Integers) -> Floats:
         """Return channels of lanes 1 to 7, (7, instants, columns); NaN: not reached."""
         found = np.full((BUNDLE - 1, len(self.instants.index), len(columns)), np.nan)
         for lane in range(1, BUNDLE):

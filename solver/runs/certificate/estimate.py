@@ -5,14 +5,17 @@ that have tighter ones, between the latter, and of looser ones from the tightest
 they are. An error changes sign, and a force is wrong where an impact is late: so the largest within
 REACH instants to either side counts. SAFETY makes it cover the true error (docs/certificate.md has
 how often it does).
+
+Beyond its horizon a trajectory is one of many that are as good; what they have in common, shares of
+time, is what can be said of the motion.
 """
 
 import warnings
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.runs.certificate.companions import (
     LADDER,
     LOOSER,
@@ -20,8 +23,6 @@ from jointplay.solver.runs.certificate.companions import (
     TIGHTER,
     TIGHTEST,
 )
-
-Floats = NDArray[np.float64]
 
 SAFETY = 3.0
 REACH = 2
@@ -60,7 +61,7 @@ def around(apart: Floats) -> Floats:
     return largest
 
 
-def within(error: Floats, scales: Floats) -> NDArray[np.bool_]:
+def within(error: Floats, scales: Floats) -> Flags:
     """Return where errors are small, (instants, channels).
 
     error : (instants, channels). scales : (channels,) sizes that errors are compared with.
@@ -68,13 +69,13 @@ def within(error: Floats, scales: Floats) -> NDArray[np.bool_]:
     return np.asarray(error <= CONVERGED * scales)
 
 
-def until(small: NDArray[np.bool_], time: Floats) -> Floats:
+def until(small: Flags, time: Floats) -> Floats:
     """Return the time, s, until which each channel's error stays small from the start on."""
     count = np.where(small.all(axis=0), len(small), (~small).argmax(axis=0))
     return np.asarray(time[np.maximum(count - 1, 0)])
 
 
-def spans(small: NDArray[np.bool_], time: Floats) -> list[list[float]]:
+def spans(small: Flags, time: Floats) -> list[list[float]]:
     """Return first and last times, s, of the spans in which the motion is converged.
 
     small : (instants, channels). The first span begins with the run and ends at the horizon; it
@@ -87,3 +88,38 @@ def spans(small: NDArray[np.bool_], time: Floats) -> list[list[float]]:
     later = [(a, b) for a, b in pairs if a > 0 and b - a >= LASTING]
     first = [(a, b) for a, b in pairs if a == 0] or [(0, 1)]
     return [[float(time[a]), float(time[b - 1])] for a, b in first + later]
+
+
+BINS = 16
+
+
+def histogram(values: Floats, time: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return bins' edges and shares of time in them with their standard deviation over lanes.
+
+    Parameters
+    ----------
+    values : (lanes, instants, channels)
+        Not a number where a lane was left behind: that lane does not count.
+    time : (instants,)
+        s; an instant stands for half the time to its neighbours.
+
+    Returns
+    -------
+    (BINS + 1, channels), (BINS, channels), (BINS, channels)
+    """
+    whole = values[~np.isnan(values).any(axis=(1, 2))]
+    lanes, _, channels = whole.shape
+    if not lanes:
+        nothing = np.full((BINS, channels), np.nan)
+        return np.full((BINS + 1, channels), np.nan), nothing, nothing
+    weights = np.gradient(time)
+    weights[[0, -1]] *= 0.5
+    low, high = whole.min(axis=(0, 1)), whole.max(axis=(0, 1))
+    width = np.where(high > low, high - low, 1.0)
+    bins = np.minimum((BINS * (whole - low) / width).astype(np.int64), BINS - 1)
+    places = bins * channels + np.arange(channels)
+    each = np.broadcast_to(weights[:, None], places.shape[1:]).ravel()
+    counts = [np.bincount(at.ravel(), each, BINS * channels) for at in places]
+    shares = np.array(counts).reshape(lanes, BINS, channels) / weights.sum()
+    edges = low + (high - low) * np.linspace(0.0, 1.0, BINS + 1)[:, None]
+    return edges, shares.mean(axis=0), shares.std(axis=0, ddof=1 if lanes > 1 else 0)

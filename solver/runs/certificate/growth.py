@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -20,8 +21,6 @@ from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.kernels.loop.tangent import tangent_length
 from jointplay.solver.runs.certificate.companions import RUN, TIGHTEST, Companions
-
-Floats = NDArray[np.float64]
 
 SHARE, FEWEST, MOST = 0.05, 200, 1_000_000
 """Steps of a window: a share of the run's, within bounds."""

@@ -11,9 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.arrays import Floats, Integers
 
 FIRST = 128
 """Instants of the first octaves; all later ones are a 64th to a 128th of their time apart."""
@@ -59,7 +58,7 @@ class Instants:
         return stride
 
     @property
-    def index(self) -> NDArray[np.int64]:
+    def index(self) -> Integers:
         """All instants, (count,), in finest steps."""
         pieces = [np.arange(FIRST + 1, dtype=np.int64)]
         half = np.arange(FIRST // 2 + 1, FIRST + 1, dtype=np.int64)

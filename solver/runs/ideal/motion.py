@@ -9,13 +9,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.motion import BodyMotion, Motion, forces_between
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.quantities.extremes import Floats
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import characteristic_time
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.solver.quantities.extremes import Floats
+from jointplay.records.arrays import Floats
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.scene.periods import common_period

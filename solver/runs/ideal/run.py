@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.solver.mechanics.observe import channel_values
-from jointplay.solver.quantities.extremes import Floats, refine_extreme
+from jointplay.solver.quantities.extremes import refine_extreme
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.ideal.motion import IdealMotion

@@ -12,12 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
+from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
 from jointplay.solver.runs.study.scenes import PointScenes, replaced, value_at
 from jointplay.solver.scene.document import Revolute, Scene
-
-Floats = NDArray[np.float64]
 
 _CONFIG = ConfigDict(
     strict=Strict.model_config["strict"],
@@ -32,7 +31,7 @@ HARMLESS = re.compile(
 `structure_columns` has of them. Everything else counts as geometry."""
 
 
-def inadmissible(scenes: PointScenes) -> NDArray[np.bool_]:
+def inadmissible(scenes: PointScenes) -> Flags:
     """Return (points,) at which a number is not one that its field takes.
 
     Each value is put into the field that it goes to, which is validated as in a whole document.
@@ -52,7 +51,7 @@ def inadmissible(scenes: PointScenes) -> NDArray[np.bool_]:
     return bad
 
 
-def structure_columns(scenes: PointScenes) -> Iterator[NDArray[np.int64]]:
+def structure_columns(scenes: PointScenes) -> Iterator[Integers]:
     """Yield (points,) numbers that tell which points have equations of the same form."""
     for leaf in scenes.leaves:
         column = scenes.column(leaf)
@@ -76,7 +75,7 @@ def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
             yield scenes.column(leaf)
 
 
-def distinct(columns: Sequence[NDArray[Any]], count: int) -> NDArray[np.int64]:
+def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
     """Return (points,) the number of each point's combination, by first appearance."""
     if not columns:
         return np.zeros(count, np.int64)

@@ -3,16 +3,14 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.estimate import UNKNOWN
 from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import decide
 from jointplay.solver.nonlinear.zero_one import zero_one_test
-
-Floats = NDArray[np.float64]
 
 RECURS = 1e-3
 """Sections closer than this share of the clearance are the same: far above the solver's error."""
@@ -27,7 +25,7 @@ def indicators_of(
     chosen: Sequence[str],
     states: Floats,
     scales: Floats,
-    angles: NDArray[np.bool_],
+    angles: Flags,
     log_growth: Floats,
     period: float,
 ) -> dict[str, float]:
@@ -94,7 +92,7 @@ def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:
     return grown
 
 
-def unwound(states: Floats, angles: NDArray[np.bool_]) -> Floats:
+def unwound(states: Floats, angles: Flags) -> Floats:
     """Return states without the whole turns that angles have made since the first."""
     if not len(states):
         return states

@@ -16,7 +16,12 @@ from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
 from jointplay.solver.runs.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.point_run import PointRun
+from jointplay.solver.runs.study.point_run import (
+    PointRun,
+    statistics_in,
+    take_contacts,
+    take_samples,
+)
 from jointplay.solver.runs.study.problem import (
     ENDLESS,
     WINDOW,
@@ -24,7 +29,6 @@ from jointplay.solver.runs.study.problem import (
     problem_of,
     scales_of,
 )
-from jointplay.solver.runs.study.window import statistics_in, take_contacts, take_samples
 
 Collected = tuple[list[SectionRows], list[PointEnd], list[PointRun]]
 """Sections, points that ended, and those that may follow them."""

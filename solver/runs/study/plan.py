@@ -3,18 +3,13 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Revolute, Scene
 from jointplay.solver.statistics import Output, outputs_of
-
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,15 +1,17 @@
-"""A point of a study while it is computed, or waits for a lane."""
+"""A point of a study while it is computed or waits, and tallies of the time after settling."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
 from jointplay.solver.runs.study.indicators import RECURS, unwound
-
-Floats = NDArray[np.float64]
+from jointplay.solver.runs.study.plan import Study
+from jointplay.solver.statistics import OF_CHANNELS, OF_CONTACTS, Grid
 
 
 @dataclass
@@ -33,12 +35,12 @@ class PointRun:
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
     tallies: list[Floats] = field(default_factory=list)
-    """Tallies of the job's statistics, in its order; see `solver.runs.study.window`."""
+    """Tallies of the job's statistics, in its order; see `solver.runs.study.point_run`."""
     sampled: int = 0
     """Samples that they have had."""
     settling: Settling | None = field(default=None, repr=False)
 
-    def has_settled(self, scales: Floats, angles: NDArray[np.bool_], most: int) -> bool:
+    def has_settled(self, scales: Floats, angles: Flags, most: int) -> bool:
         """Look at the sections of the last leg; return whether the motion has settled."""
         found = self.settling or Settling(scales, RECURS, max(most, 1))
         if found.result is None:
@@ -51,3 +53,76 @@ class PointRun:
             found.feed(new)
         self.settling = found
         return found.result is not None and found.result.code != SETTLINGS["unsettled"]
+
+
+SAME = 1e-5
+"""Share of a step: a sample closer than that to an end of the stretch lies on it."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """Time after settling, and the samples in it: at whole multiples of the step.
+
+    The first may lie at the start; none lies at the end, which repeats the start of whole periods.
+    """
+
+    start: float
+    """s, as the other times."""
+    end: float
+    step: float
+    first: int
+    """Index of the first sample."""
+    grid: Grid
+
+
+def window_of(study: Study, point: int) -> Window:
+    """Return the stretch of a point's statistics."""
+    start, end = float(study.settle[point]), float(study.duration[point])
+    per_period = int(study.job["samples_per_period"])
+    step = float(study.period[point]) / per_period
+    first, stop = (math.ceil(time / step - SAME) for time in (start, end))
+    return Window(start, end, step, first, Grid(stop - first, per_period))
+
+
+def begin_tallies(study: Study, run: PointRun, joints: int) -> None:
+    """Give a point the tallies of its statistics: of channels, of contacts, as the job has them."""
+    grid, channels = window_of(study, run.point).grid, len(study.channels)
+    run.tallies = [
+        OF_CHANNELS[name].begin(grid, channels) if name in OF_CHANNELS else np.zeros(joints)
+        for name in study.statistics
+    ]
+
+
+def take_samples(study: Study, run: PointRun, values: Floats) -> None:
+    """Take (samples, channels) values that follow those before; one at the end is left out."""
+    grid = window_of(study, run.point).grid
+    values = values[: grid.samples - run.sampled]
+    if not len(values):
+        return
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CHANNELS:
+            OF_CHANNELS[name].add(tally, values, run.sampled, grid)
+    run.sampled += len(values)
+
+
+def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void]) -> None:
+    """Take contacts that ended."""
+    window = window_of(study, run.point)
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CONTACTS:
+            OF_CONTACTS[name].add(tally, contacts, window.start, window.end)
+
+
+def statistics_in(study: Study, run: PointRun, joints: tuple[str, ...]) -> dict[str, float]:
+    """Return the statistics of a point that has ended; `solver.statistics` says how named."""
+    window = window_of(study, run.point)
+    found: dict[str, float] = {}
+    for name, tally in zip(study.statistics, run.tallies, strict=True):
+        if name in OF_CHANNELS:
+            owners = tuple(channel.name for channel in study.channels)
+            values = OF_CHANNELS[name].value(tally, run.sampled)
+        else:
+            owners = joints
+            values = OF_CONTACTS[name].value(tally, window.start, window.end)
+        found |= {f"{owner}.{name}": float(x) for owner, x in zip(owners, values, strict=True)}
+    return found

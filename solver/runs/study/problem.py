@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import SectionKind
@@ -13,10 +13,7 @@ from jointplay.solver.kernels.loop.start import start_state
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.starts import Perturbation, perturbed_start, start_scales
 from jointplay.solver.runs.study.plan import Study
-from jointplay.solver.runs.study.point_run import PointRun
-from jointplay.solver.runs.study.window import begin_tallies, window_of
-
-Floats = NDArray[np.float64]
+from jointplay.solver.runs.study.point_run import PointRun, begin_tallies, window_of
 
 ENDLESS = 2**62
 """More sections than any run takes."""
@@ -78,7 +75,7 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
     )
 
 
-def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, NDArray[np.bool_]]:
+def scales_of(study: Study, kernel: Kernel, point: int) -> tuple[Floats, Flags]:
     """Return what counts as one in each state, and which states are angles, (states,) each."""
     scales = start_scales(study.point_scene(point), kernel.coordinates, float(study.period[point]))
     angles = np.zeros(len(scales), dtype=bool)

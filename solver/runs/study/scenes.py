@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel
 
+from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.scene.document import Scene
 
-Floats = NDArray[np.float64]
 Branches = dict[str, Any]
 
 
@@ -60,7 +59,7 @@ class PointScenes:
                 return self.column(leaf)
         return np.full(len(self.values), float(value_at(self.base, path)))
 
-    def at_rows(self, rows: NDArray[np.int64]) -> PointScenes:
+    def at_rows(self, rows: Integers) -> PointScenes:
         """Return the scenes of other points: rows of the values, in that order."""
         return PointScenes(self.base, self.leaves, self.values[rows])
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.records.checkpoint import decode, encode
 from jointplay.records.failure import SimulationFailed
@@ -13,8 +12,6 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.runs.work_precision.plan import REFERENCES, Run, WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.timed_run import TimedRun
 from jointplay.solver.version import SOLVER_VERSION
-
-Floats = NDArray[np.float64]
 
 _KIND = "accuracy study"
 KNOWN = 1e-8

@@ -3,8 +3,8 @@
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
@@ -14,8 +14,6 @@ from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.lane_results import failure_of, statistics_of
 from jointplay.solver.runs.work_precision.plan import Run
 from jointplay.solver.scene.document import Scene
-
-Floats = NDArray[np.float64]
 
 SAMPLES = 2000
 """Instants at which runs are compared."""

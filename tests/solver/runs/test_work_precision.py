@@ -12,10 +12,13 @@ import jointplay.solver.runs.work_precision.timed_run
 from jointplay.records.point import PointEnd
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Study, admit
-from jointplay.solver.runs.work_precision.advice import advice, cheapest
-from jointplay.solver.runs.work_precision.point import Point
 from jointplay.solver.runs.work_precision.run import KNOWN, WorkPrecisionRun
-from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
+from jointplay.solver.runs.work_precision.work_precision import (
+    Point,
+    WorkPrecision,
+    advice,
+    cheapest,
+)
 
 PRESS = {"kind": "accuracy-study", "scene": {"preset": "seven-bar-press"}}
 FEW = PRESS | {"duration": 0.003, "methods": ["tsitouras", "rk4"], "tolerances": [1e-4, 1e-8]}

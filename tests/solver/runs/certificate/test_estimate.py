@@ -5,16 +5,17 @@ import pytest
 
 from jointplay.solver.runs.certificate.companions import LADDER
 from jointplay.solver.runs.certificate.estimate import (
+    BINS,
     CONVERGED,
     LASTING,
     REACH,
     SAFETY,
     estimated_error,
+    histogram,
     spans,
     until,
     within,
 )
-from jointplay.solver.runs.certificate.spread import BINS, histogram
 
 TIME = np.linspace(0.0, 1.0, 101)
 
