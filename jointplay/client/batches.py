@@ -3,15 +3,15 @@
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from datetime import datetime
 from typing import Any, Self
 
-from jointplay.client.backend import ServiceBackend
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import FieldProblem, TimedOut
 from jointplay.client.job import Job
 from jointplay.client.notebook import html_table
+from jointplay.client.service_job import ServiceJob
 
 _INDEX = re.compile(r"^/jobs/(\d+)")
 _SHORTEST_PAUSE = 0.05  # s between two questions, growing to ...
@@ -47,7 +47,7 @@ class Batch:
 
     def refresh(self) -> Self:
         """Look at the batch once more."""
-        return self._renew(self._connection.get(self._path).json())
+        return self._renew(self._connection.get(self._path))
 
     def jobs(self) -> Iterator[Job]:
         """Yield the jobs in the order in which they were given, page by page as they are needed."""
@@ -55,7 +55,7 @@ class Batch:
 
     def cancel(self) -> Self:
         """Ask for every job that is not finished to be cancelled."""
-        return self._renew(self._connection.post(f"{self._path}/cancel").json())
+        return self._renew(self._connection.post(f"{self._path}/cancel"))
 
     def wait(
         self, *, report: Callable[[Self], None] | None = None, timeout: float | None = None
@@ -84,23 +84,15 @@ class Batch:
 
     def to_document(self) -> dict[str, Any]:
         """Return the batch as JSON takes it."""
-        return {
-            "id": self.id,
-            "label": self.label,
-            "created": self.created.isoformat(),
-            "size": self.size,
-            "counts": dict(self.counts),
-            "fraction": self.fraction,
-            "is_finished": self.is_finished,
-        }
+        found = {one.name: getattr(self, one.name) for one in fields(self) if one.repr}
+        return found | {"created": self.created.isoformat()}
 
     @property
     def _path(self) -> str:
         return f"/v1/batches/{segment(self.id)}"
 
     def _renew(self, document: Mapping[str, Any]) -> Self:
-        for name, value in _read(document).items():
-            setattr(self, name, value)
+        vars(self).update(_read(document))
         return self
 
 
@@ -113,12 +105,11 @@ def jobs_of(
     connection: Connection, path: str, query: Mapping[str, str | None] | None = None
 ) -> Iterator[Job]:
     """Yield the jobs of a list, fetching pages as they are needed."""
-    backend = ServiceBackend(connection)
     token: str | None = None
     while True:
-        page = connection.get(path, {**(query or {}), "page_token": token}).json()
+        page = connection.get(path, {**(query or {}), "page_token": token})
         for document in page["jobs"]:
-            yield Job(document, backend)
+            yield ServiceJob(document, connection)
         token = page["next_page_token"]
         if token is None:
             return
@@ -136,11 +127,10 @@ def _read(document: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def counted_from(first: int, fields: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:
+def counted_from(first: int, problems: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:
     """Name refused fields of a batch whose jobs are counted from `first`."""
-    return tuple(
-        FieldProblem(
-            _INDEX.sub(lambda found: f"/jobs/{first + int(found[1])}", field.place), field.detail
-        )
-        for field in fields
-    )
+
+    def place_of(found: re.Match[str]) -> str:
+        return f"/jobs/{first + int(found[1])}"
+
+    return tuple(FieldProblem(_INDEX.sub(place_of, place), detail) for place, detail in problems)

@@ -5,18 +5,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
 from inspect import Parameter, signature
-from types import TracebackType
 from typing import Any, Concatenate, ParamSpec, Self
 
 import httpx
 
 from jointplay import jobs as documents
-from jointplay.client.backend import ServiceBackend
 from jointplay.client.batches import Batch, batch_of, counted_from, jobs_of
 from jointplay.client.connection import DEFAULT_URL, Connection, segment
 from jointplay.client.errors import ClientError, Refused
 from jointplay.client.job import Job
 from jointplay.client.job_record import Estimate
+from jointplay.client.service_job import ServiceJob
 
 MOST_JOBS = 10_000
 """Jobs that the service takes in one batch."""
@@ -76,17 +75,11 @@ class Client:
         address = os.environ.get("JOINTPLAY_URL", DEFAULT_URL) if url is None else url
         secret = os.environ.get("JOINTPLAY_KEY") if key is None else key
         self._connection = Connection(address, secret, timeout, transport)
-        self._backend = ServiceBackend(self._connection)
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def __repr__(self) -> str:
@@ -115,7 +108,7 @@ class Client:
             made; by default every call has its own.
         """
         answer = self._connection.post("/v1/jobs", dict(document), idempotency_key)
-        return Job(answer.json(), self._backend)
+        return ServiceJob(answer, self._connection)
 
     def map(self, jobs: Iterable[Mapping[str, Any]], *, label: str = "") -> Iterator[Job]:
         """Queue many jobs at once, and yield each when it and those before it are finished.
@@ -155,16 +148,16 @@ class Client:
     def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
         """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""
         body = {"jobs": [dict(document) for document in jobs], "label": label}
-        return batch_of(self._connection, self._connection.post("/v1/batches", body).json())
+        return batch_of(self._connection, self._connection.post("/v1/batches", body))
 
     def estimate(self, document: Mapping[str, Any]) -> Estimate:
         """Return what a job will cost; nothing is queued."""
-        answer = self._connection.post("/v1/estimates", dict(document)).json()
-        return Estimate.from_document(answer)
+        return Estimate.from_document(self._connection.post("/v1/estimates", dict(document)))
 
     def job(self, job_id: str) -> Job:
         """Return a job by its id, as it is now."""
-        return Job(self._connection.get(f"/v1/jobs/{segment(job_id)}").json(), self._backend)
+        found = self._connection.get(f"/v1/jobs/{segment(job_id)}")
+        return ServiceJob(found, self._connection)
 
     def jobs(
         self,
@@ -192,17 +185,16 @@ class Client:
     def batch(self, batch_id: str) -> Batch:
         """Return a batch by its id, as it is now."""
         found = self._connection.get(f"/v1/batches/{segment(batch_id)}")
-        return batch_of(self._connection, found.json())
+        return batch_of(self._connection, found)
 
     def scenes(self) -> list[dict[str, Any]]:
         """Return the presets: name, description, source and parameters of each."""
-        scenes: list[dict[str, Any]] = self._connection.get("/v1/scenes").json()["scenes"]
+        scenes: list[dict[str, Any]] = self._connection.get("/v1/scenes")["scenes"]
         return scenes
 
     def scene(self, name: str) -> dict[str, Any]:
         """Return the scene document of a preset."""
-        document: dict[str, Any] = self._connection.get(f"/v1/scenes/{segment(name)}").json()
-        return document
+        return self._connection.get(f"/v1/scenes/{segment(name)}")
 
 
 def _text(moment: datetime | None) -> str | None:

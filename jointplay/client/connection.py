@@ -10,8 +10,7 @@ import httpx
 from httpx_sse import ServerSentEvent, connect_sse
 
 from jointplay.client import retrying
-from jointplay.client.errors import ClientError, Unreachable
-from jointplay.client.refusals import error_from
+from jointplay.client.errors import ClientError, Unreachable, error_from
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 _LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
@@ -42,26 +41,30 @@ class Connection:
             )
         except httpx.InvalidURL as error:
             raise ClientError(f"{url!r} is not an address such as {DEFAULT_URL}.") from error
+        self.close = self._http.close
 
-    def close(self) -> None:
-        """Close the sockets."""
-        self._http.close()
+    def get(self, path: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """GET the JSON document at ``path``; parameters that are None are left out."""
+        document: dict[str, Any] = json.loads(self.content(path, query))
+        return document
 
-    def get(self, path: str, query: Mapping[str, Any] | None = None) -> httpx.Response:
-        """GET ``path``; parameters that are None are left out."""
+    def content(self, path: str, query: Mapping[str, Any] | None = None) -> bytes:
+        """GET what is at ``path``, as bytes."""
         given = {name: value for name, value in (query or {}).items() if value is not None}
-        return self._exchange("GET", path, params=given)
+        return self._exchange("GET", path, params=given).content
 
     def post(
         self, path: str, document: object | None = None, idempotency_key: str | None = None
-    ) -> httpx.Response:
+    ) -> dict[str, Any]:
         """POST a JSON document, or nothing, with an Idempotency-Key of its own if none is given."""
         headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex}
-        if document is None:
-            return self._exchange("POST", path, headers=headers)
-        body = json.dumps(document).encode()  # NaN passes here: the service says which field
-        headers["Content-Type"] = "application/json"
-        return self._exchange("POST", path, content=body, headers=headers)
+        arguments: dict[str, Any] = {"headers": headers}
+        if document is not None:
+            headers["Content-Type"] = "application/json"
+            # NaN passes here: the service says which field
+            arguments["content"] = json.dumps(document).encode()
+        answer: dict[str, Any] = self._exchange("POST", path, **arguments).json()
+        return answer
 
     def delete(self, path: str) -> None:
         """DELETE ``path``."""
@@ -77,7 +80,7 @@ class Connection:
                     raise error_from(source.response)
                 yield from source.iter_sse()
         except httpx.TransportError as error:
-            raise Unreachable(_unreachable(self.url, error)) from error
+            raise self._unreachable(error) from error
 
     def _exchange(self, method: str, path: str, **arguments: Any) -> httpx.Response:
         lost = False
@@ -99,7 +102,7 @@ class Connection:
             retrying.sleep(pause)
         if response is not None:
             raise error_from(response)
-        raise Unreachable(_unreachable(self.url, failure)) from failure
+        raise self._unreachable(failure) from failure
 
     def _once(
         self, method: str, path: str, **arguments: Any
@@ -111,13 +114,14 @@ class Connection:
         except httpx.TransportError as error:
             return None, error
 
+    def _unreachable(self, error: httpx.TransportError | None) -> Unreachable:
+        if isinstance(error, httpx.ConnectError | httpx.ConnectTimeout):
+            sentence = "start one with `jointplay serve` or give its URL."
+            return Unreachable(f"No service answers at {self.url}; {sentence}")
+        broke = f"The connection to {self.url} broke ({type(error).__name__})"
+        return Unreachable(f"{broke}; the job itself goes on.")
+
 
 def segment(text: str) -> str:
     """Return ``text`` as one segment of a path."""
     return quote(text, safe="")
-
-
-def _unreachable(url: str, error: httpx.TransportError | None) -> str:
-    if isinstance(error, httpx.ConnectError | httpx.ConnectTimeout):
-        return f"No service answers at {url}; start one with `jointplay serve` or give its URL."
-    return f"The connection to {url} broke ({type(error).__name__}); the job itself goes on."

@@ -1,7 +1,10 @@
 """Errors between client and service: one class for each remedy."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+if TYPE_CHECKING:
+    import httpx
 
 
 class FieldProblem(NamedTuple):
@@ -44,12 +47,20 @@ class Refused(ClientError):
         The refused fields, empty when the problem is not about a field.
     """
 
+    _usual: ClassVar = (422, "invalid-request")
+    """Status and problem where nothing else is said."""
+
     def __init__(
-        self, detail: str, *, status: int, problem: str, fields: Sequence[FieldProblem] = ()
+        self,
+        detail: str,
+        *,
+        status: int | None = None,
+        problem: str | None = None,
+        fields: Sequence[FieldProblem] = (),
     ) -> None:
         super().__init__(detail)
-        self.status = status
-        self.problem = problem
+        self.status = self._usual[0] if status is None else status
+        self.problem = self._usual[1] if problem is None else problem
         self.fields = tuple(fields)
 
     def __str__(self) -> str:
@@ -68,6 +79,8 @@ class NotAllowed(Refused):
 class NotFound(Refused):
     """No such job, scene, figure or result (404)."""
 
+    _usual = (404, "no-results")
+
 
 class Expired(Refused):
     """The job was deleted or has expired, and its results with it (410)."""
@@ -76,6 +89,8 @@ class Expired(Refused):
 class ResultsNotReady(Refused):
     """The job exists, but there are no results yet (409)."""
 
+    _usual = (409, "results-not-ready")
+
 
 class NotFinished(Refused):
     """The job is not finished, so it cannot be deleted yet: cancel it, or wait (409)."""
@@ -83,3 +98,34 @@ class NotFinished(Refused):
 
 class TimedOut(ClientError):
     """Waiting took too long; the job goes on."""
+
+
+_BY_PROBLEM = {"not-finished": NotFinished, "results-not-ready": ResultsNotReady}
+_BY_STATUS = {401: NotAllowed, 403: NotAllowed, 404: NotFound, 410: Expired}
+
+
+def error_from(response: "httpx.Response") -> ClientError:
+    """Return the exception for an answer of 300 or more."""
+    status = response.status_code
+    problem = _problem_in(response)
+    detail = str(problem.get("detail") or problem.get("title") or response.reason_phrase)
+    if status in (429, 503):
+        return Overloaded(f"The service takes no more for now ({status}): {detail}")
+    if status >= 500:
+        return ServiceFailure(f"The service failed with {status}: {detail}")
+    name = str(problem.get("type", "")).rsplit("/", 1)[-1]
+    kind = _BY_PROBLEM.get(name) or _BY_STATUS.get(status, Refused)
+    fields = [
+        FieldProblem(str(one.get("pointer") or one.get("parameter") or ""), one["detail"])
+        for one in problem.get("errors") or ()
+    ]
+    return kind(detail, status=status, problem=name, fields=fields)
+
+
+def _problem_in(response: "httpx.Response") -> dict[str, Any]:
+    """Return the problem document, or an empty one when something else answered (a proxy)."""
+    if response.headers.get("content-type", "").startswith("application/problem+json"):
+        document = response.json()
+        if isinstance(document, dict):
+            return document
+    return {}

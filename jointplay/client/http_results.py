@@ -22,10 +22,10 @@ _Times = tuple[float | None, float | None]
 class HttpResults:
     """The `Results` of a job of a service; what is too large for one answer comes in several."""
 
-    def __init__(self, connection: Connection, job: JobRecord) -> None:
+    def __init__(self, connection: Connection, path: str, job: JobRecord) -> None:
         self._connection = connection
+        self._path = path
         self._job = job
-        self._path = f"/v1/jobs/{segment(job.id)}"
 
     def store(self) -> Store:
         """Return the address of the job's store."""
@@ -43,28 +43,26 @@ class HttpResults:
         points: int | None,
     ) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
-        chosen = {"channels": _joined(channels), "points": points}
-        if points is not None:
-            document = self._document("history", {**chosen, "start": start, "stop": stop})
-            return Window.from_document(document)
-        found = self._windows("history", start, stop, **chosen)
-        return Window.joined([Window.from_document(document) for document in found])
+        if points is None:
+            return self._window("history", channels, start, stop)
+        query = {"channels": channels, "start": start, "stop": stop, "points": points}
+        return Window.from_document(self._get("history", **query))
 
     def sections(self, channels: Sequence[str] | None) -> Window:
         """Return channels at the Poincare sections of a simulation."""
-        found = self._windows("poincare", None, None, channels=_joined(channels))
-        return Window.joined([Window.from_document(document) for document in found])
+        return self._window("poincare", channels)
 
     def peaks(self) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel."""
+        found = self._get("peaks")["peaks"]
         return {
-            channel: Peak(*_numbers(peak), peak["unit"])
-            for channel, peak in self._document("peaks")["peaks"].items()
+            channel: Peak(**{name: _number(peak[name]) for name in PEAK}, unit=peak["unit"])
+            for channel, peak in found.items()
         }
 
     def impacts(self) -> Impacts:
         """Return the contacts of the clearance joints."""
-        found = self._windows("impacts", None, None)
+        found = self._in_parts("impacts")
         rows = [row for document in found for row in document["impacts"]]
         if len(found) > 1:  # windows are of onsets
             rows.sort(key=lambda row: math.inf if row["release"] is None else row["release"])
@@ -73,15 +71,15 @@ class HttpResults:
 
     def statistics(self) -> dict[str, Any]:
         """Return what the run cost, and its energy ledger."""
-        return self._document("statistics")
+        return self._get("statistics")
 
     def certificate(self) -> dict[str, Any]:
         """Return how far the run can be believed."""
-        return self._document("certificate")
+        return self._get("certificate")
 
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys."""
-        return self._document("accuracy")
+        return self._get("accuracy")
 
     def study(
         self,
@@ -91,9 +89,8 @@ class HttpResults:
     ) -> StudyDataset:
         """Return the points of a study, fetched as they are now."""
         if "sweep" in self._job.links:
-            fetch = partial(self._query, "sweep", channel=_joined(channels))
-            return studies.with_extremes(self._job, fetch)
-        fetch = partial(self._query, "poincare", channels=_joined(observables))
+            return studies.with_extremes(self._job, partial(self._get, "sweep", channel=channels))
+        fetch = partial(self._get, "poincare", channels=observables)
         window = sections or (0, int(self._job.job["record"]))
         return studies.with_sections(self._job, fetch, window)
 
@@ -105,7 +102,7 @@ class HttpResults:
 
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""
-        return [figure["name"] for figure in self._document("figures")["figures"]]
+        return [figure["name"] for figure in self._get("figures")["figures"]]
 
     def figure(
         self,
@@ -118,20 +115,26 @@ class HttpResults:
         stop: float | None,
     ) -> bytes:
         """Return a figure, drawn by the service."""
-        query = {
-            "channels": _joined(channels or None),
-            "joints": _joined(joints or None),
-            "start": start,
-            "stop": stop,
-        }
+        shown = {"channels": channels or None, "joints": joints or None}
+        query = _query(**shown, start=start, stop=stop)
         path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
-        return self._connection.get(path, query).content
+        return self._connection.content(path, query)
 
-    def _windows(
-        self, name: str, start: float | None, stop: float | None, **query: Any
+    def _window(
+        self,
+        name: str,
+        channels: Sequence[str] | None,
+        start: float | None = None,
+        stop: float | None = None,
+    ) -> Window:
+        found = self._in_parts(name, start, stop, channels=channels)
+        return Window.joined([Window.from_document(document) for document in found])
+
+    def _in_parts(
+        self, name: str, start: float | None = None, stop: float | None = None, **query: Any
     ) -> list[dict[str, Any]]:
         def fetch(window: _Times) -> dict[str, Any]:
-            return self._document(name, {**query, "start": window[0], "stop": window[1]})
+            return self._get(name, **query, start=window[0], stop=window[1])
 
         def halves(window: _Times) -> tuple[_Times, _Times] | None:
             start, stop = window
@@ -144,18 +147,17 @@ class HttpResults:
 
         return [document for _, document in parts_that_fit(fetch, (start, stop), halves)]
 
-    def _query(self, name: str, **query: Any) -> dict[str, Any]:
-        return self._document(name, query)
-
-    def _document(self, name: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
-        document: dict[str, Any] = self._connection.get(f"{self._path}/{name}", query).json()
-        return document
+    def _get(self, name: str, **query: Any) -> dict[str, Any]:
+        return self._connection.get(f"{self._path}/{name}", _query(**query))
 
 
-def _numbers(peak: Mapping[str, Any]) -> tuple[float, float, float, float]:
-    low, low_time, high, high_time = floats([peak[name] for name in PEAK]).tolist()
-    return low, low_time, high, high_time
+def _query(**given: Any) -> dict[str, Any]:
+    """Return parameters of a request; names come as one text."""
+    return {
+        name: value if value is None or isinstance(value, int | float) else ",".join(value)
+        for name, value in given.items()
+    }
 
 
-def _joined(names: Sequence[str] | None) -> str | None:
-    return None if names is None else ",".join(names)
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value

@@ -1,7 +1,8 @@
 """`Job`: what became of a job, and its results; the same from a service and from a folder."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, Self
 
@@ -15,8 +16,6 @@ from jointplay.progress import progress as bar
 if TYPE_CHECKING:
     import xarray as xr
 
-    from jointplay.client.backend import Backend
-
 
 class Job(ReadableJob):
     """One job: its record as it was last seen, and its results.
@@ -28,10 +27,6 @@ class Job(ReadableJob):
     Tables are pandas and stored arrays xarray: ``pip install 'jointplay[xarray]'``.  `window`,
     `study`, `results` and figures need neither.
     """
-
-    def __init__(self, document: Mapping[str, Any], backend: "Backend") -> None:
-        super().__init__(document, backend.results)
-        self._backend = backend
 
     def __hash__(self) -> int:
         return hash(self.id)  # the record changes, the job stays
@@ -54,7 +49,7 @@ class Job(ReadableJob):
 
     def refresh(self) -> Self:
         """Look at the job once more."""
-        self.renew(self._backend.look(self))
+        self.renew(self._look())
         return self
 
     def open(self, group: str = "") -> "xr.Dataset":
@@ -108,13 +103,13 @@ class Job(ReadableJob):
                 self.refresh()
             notify()
             if not self.is_finished:
-                self._follow(notify, deadline)
+                self._watch(notify, deadline)
         if check:
             self.check()
         return self
 
-    def _follow(self, notify: Callable[[], None], deadline: float | None) -> None:
-        for _ in self._backend.follow(self, deadline):
+    def _watch(self, notify: Callable[[], None], deadline: float | None) -> None:
+        for _ in self._follow(deadline):
             if not self.is_finished:
                 notify()
         if not self.is_finished:
@@ -132,12 +127,28 @@ class Job(ReadableJob):
 
     def cancel(self) -> Self:
         """Ask for the job to be cancelled; asking again, or too late, changes nothing."""
-        self.renew(self._backend.cancel(self))
+        self.renew(self._ask_to_end())
         return self
 
+    @abstractmethod
     def delete(self) -> None:
         """Delete the finished job with its results; there is no way back."""
-        self._backend.delete(self)
+
+    @abstractmethod
+    def _look(self) -> dict[str, Any]:
+        """Return its document as it is now."""
+
+    @abstractmethod
+    def _ask_to_end(self) -> dict[str, Any]:
+        """Ask for it to be cancelled, and return its document."""
+
+    @abstractmethod
+    def _follow(self, deadline: float | None) -> Iterator[None]:
+        """Keep state and progress up to date until it is finished; yield when they have changed.
+
+        What else its record says is as old as before.  After the deadline, of `time.monotonic`,
+        the iteration ends early; `Unreachable` if the service was lost and did not come back.
+        """
 
 
 class JobEnded(ClientError):

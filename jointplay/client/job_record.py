@@ -100,40 +100,24 @@ class JobRecord:
 
     def renew(self, document: Mapping[str, Any]) -> None:
         """Take over what the service says now."""
-        for name, value in read_job(document).items():
-            setattr(self, name, value)
+        vars(self).update(read_job(document))
 
     def advance(self, snapshot: Mapping[str, Any]) -> bool:
         """Take over what an event says, and tell whether that is anything new."""
         try:
-            news = {
-                "state": snapshot["state"],
-                "activity": snapshot["activity"],
-                "attempt": snapshot["attempt"],
-                "progress": Progress(**snapshot["progress"]),
-            }
+            news = {name: snapshot[name] for name in ("state", "activity", "attempt")}
+            news["progress"] = Progress(**snapshot["progress"])
         except (KeyError, TypeError) as error:
             raise ClientError(f"The service sent an event that is none: {snapshot}") from error
         changed = any(getattr(self, name) != value for name, value in news.items())
-        for name, value in news.items():
-            setattr(self, name, value)
+        vars(self).update(news)
         return changed
 
 
 def read_job(document: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a `JobRecord` from the service's JSON."""
-    error = document["error"]
-    same = ("id", "kind", "label", "batch", "state", "activity", "attempt", "links", "job")
-    moments = ("created", "started", "finished", "expires")
-    return {
-        **{name: document[name] for name in same},
-        **{name: _moment(document[name]) for name in moments},
-        "progress": Progress(**document["progress"]),
-        "error": None if error is None else JobError.of(error),
-        "solver_version": document["solver_version"],
-        **({"cached": document["cached"]} if "cached" in document else {}),
-    }
-
-
-def _moment(text: str | None) -> datetime | None:
-    return None if text is None else datetime.fromisoformat(text)
+    found = {one.name: document[one.name] for one in fields(JobRecord) if one.name in document}
+    for name in ("created", "started", "finished", "expires"):
+        found[name] = found[name] and datetime.fromisoformat(found[name])
+    error = found["error"] and JobError.of(found["error"])
+    return found | {"progress": Progress(**found["progress"]), "error": error}

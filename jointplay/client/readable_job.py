@@ -1,6 +1,7 @@
 """A job's results for notebooks: arrays, tables, windows and pictures."""
 
-from collections.abc import Callable, Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -19,20 +20,21 @@ if TYPE_CHECKING:
 Names = str | Sequence[str]
 
 
-class ReadableJob(JobRecord):
+class ReadableJob(JobRecord, ABC):
     """A job's record with the ways to its results."""
 
-    def __init__(
-        self, document: Mapping[str, Any], results: Callable[[JobRecord], Results]
-    ) -> None:
+    def __init__(self, document: Mapping[str, Any]) -> None:
         super().__init__(**read_job(document))
-        self._results = results
         self._opened: dict[str, xr.Dataset] = {}
 
     @cached_property
     def results(self) -> Results:
         """The results as plain numbers, without pandas and xarray."""
-        return self._results(self)
+        return self._open_results()
+
+    @abstractmethod
+    def _open_results(self) -> Results:
+        """Return the way to the results."""
 
     @property
     def history(self) -> "xr.Dataset":

@@ -38,10 +38,10 @@ def open_group(job: JobRecord, store: Store, group: str) -> "xr.Dataset":
     except (FileNotFoundError, KeyError) as error:  # of a group: no such key in the metadata
         if not job.is_finished:
             sentence = f"Job {job.id} is {job.state} and has committed nothing yet."
-            raise ResultsNotReady(sentence, status=409, problem="results-not-ready") from error
+            raise ResultsNotReady(sentence) from error
         what = f"no group {group!r}" if group else "no results"
         sentence = f"Job {job.id} is {job.state} and has {what}."
-        raise NotFound(sentence, status=404, problem="no-results") from error
+        raise NotFound(sentence) from error
     return found
 
 

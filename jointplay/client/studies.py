@@ -1,6 +1,6 @@
 """Studies from the service's pages: one dataset of all points."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -37,44 +37,32 @@ def with_sections(
         ranges = {"section_start": window[0], "section_stop": window[1]}
         return list(_pages(partial(fetch, **ranges)))
 
-    windows = list(parts_that_fit(pages_of, sections, _halves))
-    tables: dict[str, list[Floats]] = {}
-    for (first, last), pages in windows:
-        for name in ("", *pages[0]["channels"]):
+    def table(name: str) -> Floats:
+        parts = []
+        for (first, last), pages in windows:
             rows = [page["channels"][name] if name else page["time"] for page in pages]
-            joined = list(chain.from_iterable(one["values"] for one in rows))
-            tables.setdefault(name, []).append(_table(joined, last - first))
-    found = {name: np.concatenate(one, axis=1) for name, one in tables.items()}
+            values = list(chain.from_iterable(one["values"] for one in rows))
+            parts.append(_table(values, last - first))
+        return np.concatenate(parts, axis=1)
+
+    windows = list(parts_that_fit(pages_of, sections, _halves))
     _, pages = windows[0]
     channels = pages[0]["channels"]
-    return _study(
-        job,
-        pages,
-        observables=[_channel(name, one) for name, one in channels.items()],
-        times=found.pop(""),
-        section_values=found,
-    )
+    found = {name: table(name) for name in channels}
+    observables = _channels(channels)
+    return _study(job, pages, observables=observables, times=table(""), section_values=found)
 
 
 def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDataset:
     """Return a sweep with the extremes of channels; `fetch` asks for them, with `start`."""
     pages = list(_pages(fetch))
     channels = pages[0]["peaks"]
-    extremes = {
-        name: PeakColumns(
-            *(
-                _joined([page["peaks"][name][column] for page in pages])
-                for column in PeakColumns._fields
-            )
-        )
-        for name in channels
-    }
-    return _study(
-        job,
-        pages,
-        channels=[_channel(name, one) for name, one in channels.items()],
-        extremes=extremes,
-    )
+    extremes = {}
+    for name in channels:
+        peaks = [page["peaks"][name] for page in pages]
+        columns = [_joined([one[part] for one in peaks]) for part in PeakColumns._fields]
+        extremes[name] = PeakColumns(*columns)
+    return _study(job, pages, channels=_channels(channels), extremes=extremes)
 
 
 def _halves(sections: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
@@ -94,11 +82,7 @@ def _pages(fetch: Callable[..., Document]) -> Iterator[Document]:
 def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDataset:
     """Put together what every study has."""
     first = pages[0]
-    parameters = [_channel(name, one) for name, one in first["values"].items()]
-    values = [
-        _joined([page["values"][parameter.name]["values"] for page in pages])
-        for parameter in parameters
-    ]
+    values = list(_columns(pages, "values").values())
     status = [PointStatus[word] for page in pages for word in page["status"]]
     codes, names = None, []
     if first.get("verdicts") is not None:
@@ -114,8 +98,8 @@ def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDa
                 name: (one["unit"], one["long_name"]) for name, one in first["statistics"].items()
             },
         },
-        parameters=parameters,
-        values=np.array(values).reshape(len(parameters), len(status)).T,
+        parameters=_channels(first["values"]),
+        values=np.array(values).reshape(len(values), len(status)).T,
         status=np.array(status, np.uint8),
         failures={
             one["point"]: Failure(one["code"], one["detail"], one["time"])
@@ -155,5 +139,5 @@ def _joined(columns: Sequence[Sequence[float | None]]) -> Floats:
     return np.array(list(chain.from_iterable(columns)), np.float64)
 
 
-def _channel(name: str, described: Document) -> Channel:
-    return Channel(name, described["unit"], described["long_name"])
+def _channels(described: Mapping[str, Document]) -> list[Channel]:
+    return [Channel(name, one["unit"], one["long_name"]) for name, one in described.items()]

@@ -22,7 +22,7 @@ def insist(job: JobRecord, what: str, *results: str) -> None:
     """Raise `NotFound` if jobs of this kind have none of these results."""
     if not job.links.keys() & {*results}:
         sentence = f"Job {job.id} is of kind {job.kind} and has no {what}."
-        raise NotFound(sentence, status=404, problem="wrong-kind")
+        raise NotFound(sentence, problem="wrong-kind")
 
 
 def insist_on_points(job: JobRecord) -> None:

@@ -54,28 +54,22 @@ class Window:
     @classmethod
     def from_document(cls, document: dict[str, Any]) -> Self:
         """Read the service's JSON: samples, or the extremes of groups of samples."""
-        if "bins" in document:
-            bins = document["bins"]
-            return cls(
-                time=pairs(bins["first"], bins["last"]),
-                channels={
-                    name: ChannelSeries(
-                        one["unit"], one["long_name"], pairs(one["minimum"], one["maximum"])
-                    )
-                    for name, one in document["extremes"].items()
-                },
-                complete=document["complete"],
-                exact=False,
+        exact = "bins" not in document
+        if exact:
+            time = floats(document["time"]["values"])
+            columns = document["channels"]
+        else:
+            time = pairs(document["bins"]["first"], document["bins"]["last"])
+            columns = document["extremes"]
+        channels = {
+            name: ChannelSeries(
+                one["unit"],
+                one["long_name"],
+                floats(one["values"]) if exact else pairs(one["minimum"], one["maximum"]),
             )
-        return cls(
-            time=floats(document["time"]["values"]),
-            channels={
-                name: ChannelSeries(one["unit"], one["long_name"], floats(one["values"]))
-                for name, one in document["channels"].items()
-            },
-            complete=document["complete"],
-            note=document.get("note", ""),
-        )
+            for name, one in columns.items()
+        }
+        return cls(time, channels, document["complete"], exact, document.get("note", ""))
 
     def dataset(self) -> Dataset:
         """Return the window as exports take it."""

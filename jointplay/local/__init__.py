@@ -5,7 +5,7 @@ The folder holds ``job.json`` (the filled-in job: running it repeats the result)
 is loaded when something is computed: importing this loads no compiler.
 """
 
-from jointplay.local.loading import load
+from jointplay.local.folder_job import load
 from jointplay.local.running import run
 
 __all__ = ["load", "run"]

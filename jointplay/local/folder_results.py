@@ -11,7 +11,6 @@ from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import ChannelSeries, Window
-from jointplay.local.folder import results_in, store_in
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.impact import IMPACT_UNITS
@@ -24,24 +23,18 @@ from jointplay.storage.studies import StudyReader
 class FolderResults:
     """The `Results` of a job in a folder; refusals are those of a service."""
 
-    def __init__(self, folder: Path) -> None:
-        self._store = store_in(folder)
-        self._reader = results_in(folder)
+    def __init__(self, store: Path, reader: ResultReader | StudyReader) -> None:
+        self._store = store
+        self._reader = reader
 
     def store(self) -> Store:
-        """Return the path of the store.
-
-        Raises
-        ------
-        NotFound
-            The run was cut short: its arrays were never packed for other programs.
-        """
+        """Return the path of the store; none of a run that was cut short, never packed."""
         if self._store.is_dir():
             sentence = (
                 f"{self._store} holds what a run computed that was cut short; other programs"
                 " cannot open it. Read it here, or run the job again to its end."
             )
-            raise NotFound(sentence, status=404, problem="no-results")
+            raise NotFound(sentence)
         return Store(str(self._store), None)
 
     def window(
@@ -99,14 +92,14 @@ class FolderResults:
         run = self._run("certificate")
         found = run.certificate()
         if found is None:
-            raise _missing(f"{self._store} was computed without a certificate.")
+            raise NotFound(f"{self._store} was computed without a certificate.")
         return certificate_document(run, found)
 
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys."""
         study = self.study(None, None, None)
         if "runs" not in study.attributes:
-            raise _missing(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
+            raise NotFound(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
         return WorkPrecision.of(study).document()
 
     def study(
@@ -118,7 +111,7 @@ class FolderResults:
         """Return the points of a study: all there is, whatever was asked for."""
         if isinstance(self._reader, StudyReader):
             return self._reader
-        raise _missing(f"{self._store} is of a simulation; it has a history and no points.")
+        raise NotFound(f"{self._store} is of a simulation; it has a history and no points.")
 
     def source(
         self, channels: Sequence[str] | None, start: float | None, stop: float | None
@@ -148,7 +141,7 @@ class FolderResults:
     def _run(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):
             return self._reader
-        raise _missing(f"{self._store} is of a study; it has points and no {what}.")
+        raise NotFound(f"{self._store} is of a study; it has points and no {what}.")
 
 
 def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any) -> Window:
@@ -174,15 +167,11 @@ def _refusals() -> Iterator[None]:
     except NoSuchChannel as error:
         raise _refused("channels", *error.sentences) from None
     except figures.UnknownFigure as error:
-        raise _missing(str(error), "unknown-figure") from None
+        raise NotFound(str(error), problem="unknown-figure") from None
     except figures.NotDrawable as error:
         raise _refused(error.cause, str(error), problem="not-drawable") from None
 
 
 def _refused(place: str, *sentences: str, problem: str = "invalid-request") -> Refused:
     fields = [FieldProblem(place, sentence) for sentence in sentences]
-    return Refused(" ".join(sentences), status=422, problem=problem, fields=fields)
-
-
-def _missing(sentence: str, problem: str = "no-results") -> NotFound:
-    return NotFound(sentence, status=404, problem=problem)
+    return Refused(" ".join(sentences), problem=problem, fields=fields)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from jointplay import jobs
 from jointplay.client.errors import FieldProblem, Refused
 from jointplay.client.job import Job
-from jointplay.local.loading import load
+from jointplay.local.folder_job import load
 from jointplay.progress import progress as shown
 from jointplay.scene_choice import Scene
 
@@ -86,7 +86,6 @@ def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
     except InvalidInput as error:
         raise Refused(
             str(error),
-            status=422,
             problem="limit-exceeded" if isinstance(error, LimitExceeded) else "invalid-job",
             fields=[FieldProblem(*problem) for problem in error.problems],
         ) from None

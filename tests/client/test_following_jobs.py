@@ -6,7 +6,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, events
+from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, service_job
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue import BlockState, Catalogue
 from jointplay.storage.settings import Settings
@@ -46,7 +46,7 @@ def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
 
 
 def test_a_lost_service_is_an_error_and_not_an_end(tmp_path, monkeypatch):
-    monkeypatch.setattr(events, "_PATIENCE", 0.5)
+    monkeypatch.setattr(service_job, "_PATIENCE", 0.5)
     with serving(create_app(Settings(data=tmp_path / "data"))) as url:
         client = Client(url)
         job = client.submit(PENDULUM)

@@ -108,10 +108,10 @@ def test_every_submission_has_a_key_of_its_own(fresh_service):
 
 
 def test_a_deletion_whose_answer_was_lost_is_done(fresh_service, pauses):
-    with front(["unheard"], fresh_service) as (url, _), Client(fresh_service) as direct:
+    with front([None, "unheard"], fresh_service) as (url, _), Client(fresh_service) as direct:
         job = direct.submit(PENDULUM).cancel()
         with Client(url) as client:
-            client._backend.delete(job)
+            client.job(job.id).delete()
     assert number_of_jobs(fresh_service) == 0
 
 
@@ -164,7 +164,7 @@ def test_other_refusals_are_not_repeated(pauses):
 def test_the_api_key_is_sent_with_each_request(fresh_service, monkeypatch):
     with front([], fresh_service) as (url, heard), Client(url, key="sk_secret") as client:
         client.submit(PENDULUM).cancel()
-        assert client._backend.results(next(iter(client.jobs()))).store().options == {
+        assert next(iter(client.jobs())).results.store().options == {
             "client_kwargs": {
                 "headers": {"Authorization": "Bearer sk_secret"},
                 "trust_env": False,

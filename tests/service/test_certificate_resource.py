@@ -6,7 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
-from jointplay.local.folder_results import FolderResults
+from jointplay.local import load
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue import BlockState
 from jointplay.storage.settings import Settings
@@ -50,7 +50,7 @@ def test_it_says_how_far_the_numbers_can_be_believed(
     assert len(theta["error"]) == len(found["time"]["values"])
     assert 0.0 < max(theta["error"]) < 1e-3  # tolerance 1e-6, a few swings
     assert sum(theta["histogram"]["share"]) == pytest.approx(1.0)
-    assert found == FolderResults(folder).certificate()
+    assert found == load(folder).certificate
 
 
 def test_channels_choose(http: httpx.Client, computed: tuple[str, Path]) -> None:

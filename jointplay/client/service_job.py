@@ -1,0 +1,73 @@
+"""A job of a service: followed by its events, cancelled and deleted over HTTP."""
+
+import random
+import time
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from jointplay.client.connection import Connection, segment
+from jointplay.client.errors import ServiceFailure, Unreachable
+from jointplay.client.http_results import HttpResults
+from jointplay.client.job import Job
+
+_SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
+_PATIENCE = 20.0  # s for which a lost service is looked for again
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.1, 2.0
+
+
+class ServiceJob(Job):
+    """A `Job` of the service that a connection leads to."""
+
+    def __init__(self, document: Mapping[str, Any], connection: Connection) -> None:
+        super().__init__(document)
+        self._connection = connection
+        self._path = f"/v1/jobs/{segment(self.id)}"
+
+    def delete(self) -> None:
+        """Delete the finished job with its results; there is no way back."""
+        self._connection.delete(self._path)
+
+    def _open_results(self) -> HttpResults:
+        return HttpResults(self._connection, self._path, self)
+
+    def _look(self) -> dict[str, Any]:
+        return self._connection.get(self._path)
+
+    def _ask_to_end(self) -> dict[str, Any]:
+        return self._connection.post(f"{self._path}/cancel")
+
+    def _follow(self, deadline: float | None) -> Iterator[None]:
+        """Follow the events, over as many connections as it takes."""
+        lost_since: float | None = None
+        pause = _FIRST_PAUSE
+        while deadline is None or time.monotonic() < deadline:
+            try:
+                for snapshot in self._snapshots(deadline):
+                    lost_since, pause = None, _FIRST_PAUSE
+                    if self.advance(snapshot):
+                        yield
+                    if self.is_finished:
+                        return
+            except (Unreachable, ServiceFailure):
+                now = time.monotonic()
+                lost_since = lost_since or now
+                if now - lost_since > _PATIENCE:
+                    raise
+            # not all clients of a service that was lost come back in the same moment
+            time.sleep(pause * random.uniform(0.5, 1.0))  # noqa: S311
+            pause = min(2 * pause, _LONGEST_PAUSE)
+
+    def _snapshots(self, deadline: float | None) -> Iterator[Mapping[str, Any]]:
+        """Yield the progress events of one connection."""
+        silence = _SILENCE
+        if deadline is not None:
+            silence = min(silence, max(deadline - time.monotonic(), 0.01))
+        try:
+            for event in self._connection.events(f"{self._path}/events", silence):
+                if deadline is not None and time.monotonic() > deadline:
+                    return
+                if event.event == "progress":
+                    yield event.json()
+        except Unreachable:
+            if deadline is None or time.monotonic() < deadline:
+                raise

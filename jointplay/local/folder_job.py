@@ -1,0 +1,126 @@
+"""A job whose results are in a folder, as the same object that a client has."""
+
+import json
+import shutil
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from jointplay.client.errors import NotFound
+from jointplay.client.job import Job
+from jointplay.worker.local.folder import OUTCOME_FILE, RUNNING, STORE
+
+if TYPE_CHECKING:
+    from jointplay.local.folder_results import FolderResults
+    from jointplay.storage.results import ResultReader
+    from jointplay.storage.studies import StudyReader
+
+
+class FolderJob(Job):
+    """A `Job` in a folder, which has ended."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        super().__init__(self._look())
+
+    def delete(self) -> None:
+        """Remove the folder."""
+        shutil.rmtree(self._folder)
+
+    def _open_results(self) -> "FolderResults":
+        from jointplay.local.folder_results import FolderResults
+
+        return FolderResults(store_in(self._folder), results_in(self._folder))
+
+    def _look(self) -> dict[str, Any]:
+        """Return what a service would say of the job."""
+        source = results_in(self._folder)
+        attributes = source.attributes
+        job = attributes["job"]
+        return {
+            "id": str(self._folder),
+            "kind": job["kind"],
+            "label": job.get("label") or None,
+            "batch": None,
+            "activity": None,
+            "attempt": 1,
+            "expires": None,
+            "links": dict.fromkeys(_results_of(source), str(store_in(self._folder))),
+            "job": job,
+            "solver_version": attributes.get("solver_version"),
+            **self._outcome(float(job.get("duration") or 0.0), complete=source.complete),
+        }
+
+    def _outcome(self, end: float, *, complete: bool) -> dict[str, Any]:
+        """Return how the job ended; of a store alone only that it is whole, or not, is known."""
+        try:
+            found: dict[str, Any] = json.loads((self._folder / OUTCOME_FILE).read_bytes())
+        except (FileNotFoundError, NotADirectoryError):
+            written = datetime.fromtimestamp(self._folder.stat().st_mtime, UTC).isoformat()
+            found = {
+                "state": "succeeded" if complete else "cancelled",
+                "error": None,
+                "started": None,
+                "finished": written,
+                "progress": {"time": end * complete, "fraction": float(complete)},
+            }
+        return {**found, "created": found["started"] or found["finished"]}
+
+    def _ask_to_end(self) -> dict[str, Any]:
+        return self._look()
+
+    def _follow(self, deadline: float | None) -> Iterator[None]:
+        yield from ()
+
+
+def load(folder: Path | str) -> Job:
+    """Return the job whose results `run`, or the command ``jointplay run``, left in a folder.
+
+    Raises
+    ------
+    jointplay.client.NotFound
+        There are none.
+    """
+    return FolderJob(Path(folder))
+
+
+def store_in(folder: Path) -> Path:
+    """Return the store in a run's folder: packed, or still in pieces if the run was cut short.
+
+    The packed store itself may be given too; `NotFound` if there is none.
+    """
+    if folder.is_file():
+        return folder
+    for store in (folder / STORE, folder / RUNNING):
+        if store.exists():
+            return store
+    raise NotFound(f"{folder} holds no results: give a folder that a run made, or a job's id.")
+
+
+def results_in(folder: Path) -> "ResultReader | StudyReader":
+    """Return the results in a run's folder: of a simulation, or of a study; or `NotFound`."""
+    from jointplay.storage.results import NotAStore, ResultReader
+    from jointplay.storage.studies import StudyReader
+
+    store = store_in(folder)
+    try:
+        return StudyReader(store)
+    except NotAStore:
+        pass
+    try:
+        return ResultReader(store)
+    except NotAStore as error:
+        sentence = f"{store} holds no results that this version reads: {error}."
+        raise NotFound(sentence) from error
+
+
+def _results_of(source: "ResultReader | StudyReader") -> list[str]:
+    """Return the names of the results that a store holds, as a service has them."""
+    from jointplay.storage.studies import StudyReader
+
+    if not isinstance(source, StudyReader):
+        return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]
+    if "runs" in source.attributes:
+        return ["accuracy"]
+    return ["poincare"] if source.record else ["sweep"]
