@@ -74,7 +74,9 @@ class BlockRun:
                     and self._work is not None
                     and self._work.recognised
                 )
-                state = self._catalogue.finish(
+                catalogue = self._catalogue
+                finish = catalogue.finish_repeatable if recognised else catalogue.finish
+                state = finish(
                     self._block.id,
                     self._block.attempt,
                     _BLOCK_STATES[outcome.state],
@@ -82,7 +84,6 @@ class BlockRun:
                     time=outcome.time,
                     fraction=outcome.fraction,
                     steps=(outcome.statistics or {}).get("steps"),
-                    durable=not recognised,
                 )
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)

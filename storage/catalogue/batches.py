@@ -1,9 +1,8 @@
 """Batches: many jobs accepted or refused as one, looked at and cancelled as one."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
-from sqlalchemy import and_, func, insert, select, update
+from sqlalchemy import func, insert, literal, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
@@ -21,6 +20,7 @@ from jointplay.storage.catalogue.submission import (
     insert_jobs,
     remember_key,
     request_cancel,
+    row_of,
 )
 
 LARGEST_BATCH = 10_000
@@ -45,8 +45,8 @@ def submit_batch(
     unit.execute(
         insert(tables.batch).values(id=batch_id, label=label, created=unit.now, count=len(jobs))
     )
-    members = [replace(job, batch=batch_id) for job in jobs]
-    insert_jobs(unit, list(zip(job_ids, members, strict=True)))
+    members = zip(job_ids, jobs, strict=True)
+    insert_jobs(unit, [(row_of(name, new, unit.now, batch_id), new) for name, new in members])
     if key is not None:
         remember_key(unit, key, batch=batch_id)
     return SubmittedBatch(find_batch(unit, batch_id), tuple(job_ids), created=True)
@@ -65,8 +65,7 @@ def find_batch(unit: Unit, batch_id: str) -> Batch:
         .where(_job.c.batch == batch_id)
         .group_by(_job.c.state)
     )
-    for name, count, lacking in counted:
-        state = JobState(name)
+    for state, count, lacking in counted:
         states[state] = count
         if not state.terminal:
             going += lacking
@@ -76,33 +75,21 @@ def find_batch(unit: Unit, batch_id: str) -> Batch:
 def cancel_batch(unit: Unit, batch_id: str) -> Batch:
     """Cancel every job that has not ended, as `request_cancel` does; or BatchNotFound."""
     find_batch(unit, batch_id)
-    queued = and_(_job.c.batch == batch_id, _job.c.state == JobState.queued.value)
+    queued = (_job.c.batch == batch_id) & (_job.c.state == JobState.queued)
     waiting = select(_job.c.id).where(queued)
     drop_blocks(unit, tables.block.c.job.in_(waiting), untouched=False)
     event = tables.event
-    last = (
-        select(event.c.job, func.max(event.c.seq).label("seq"))
-        .where(event.c.job.in_(waiting))
-        .group_by(event.c.job)
-    )
-    events = [
-        {
-            "job": row.job,
-            "seq": row.seq + 1,
-            "time": unit.now,
-            "type": JobState.cancelled.value,
-            "data": {},
-        }
-        for row in unit.execute(last)
-    ]
-    if events:
-        unit.execute(insert(event), events)
-    unit.execute(
-        update(_job).where(queued).values(state=JobState.cancelled.value, finished=unit.now)
-    )
-    started = select(_job.c.id).where(
-        _job.c.batch == batch_id, _job.c.state == JobState.running.value
-    )
+    new = {
+        event.c.job: event.c.job,
+        event.c.seq: func.max(event.c.seq) + 1,
+        event.c.time: literal(unit.now, event.c.time.type),
+        event.c.type: literal(JobState.cancelled.value, event.c.type.type),
+        event.c.data: literal({}, event.c.data.type),
+    }
+    one_each = select(*new.values()).where(event.c.job.in_(waiting)).group_by(event.c.job)
+    unit.execute(insert(event).from_select(list(new), one_each))
+    unit.execute(update(_job).where(queued).values(state=JobState.cancelled, finished=unit.now))
+    started = select(_job.c.id).where(_job.c.batch == batch_id, _job.c.state == JobState.running)
     for job_id in unit.execute(started).scalars().all():
         request_cancel(unit, job_id)
     return find_batch(unit, batch_id)

@@ -12,12 +12,10 @@ from typing import Concatenate, ParamSpec, TypeVar
 from sqlalchemy import Connection, text
 from sqlalchemy.exc import OperationalError
 
-from jointplay.records.job import JobError
 from jointplay.storage.catalogue import (
     batches,
     holding,
     listing,
-    removal,
     rows,
     schema,
     submission,
@@ -28,9 +26,7 @@ from jointplay.storage.catalogue.errors import KeyReused
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.records import (
-    BlockState,
     Job,
-    JobState,
     NewJob,
     SubmissionKey,
     Submitted,
@@ -171,7 +167,7 @@ class Catalogue:
     identical = _reading(submission.same_job)
     request_cancel = _durably(submission.request_cancel)
     cancel_batch = _durably(batches.cancel_batch)
-    delete = _durably(removal.expire)
+    delete = _durably(upkeep.expire)
 
     def expired(self, job: Job) -> bool:
         """Tell whether a job and its results can be read no more."""
@@ -187,28 +183,15 @@ class Catalogue:
     record_checkpoint = _writing(holding.record_checkpoint)
     release = _writing(holding.release)
 
-    def finish(
-        self,
-        block: str,
-        attempt: int,
-        outcome: BlockState,
-        error: JobError | None = None,
-        *,
-        time: float | None = None,
-        fraction: float | None = None,
-        steps: int | None = None,
-        durable: bool = True,
-    ) -> JobState:
-        """End a held block as `holding.finish` does; if not `durable` a power cut may undo it."""
-        end = (_durably if durable else _writing)(holding.finish)
-        return end(self, block, attempt, outcome, error, time=time, fraction=fraction, steps=steps)
+    finish = _durably(holding.finish)
+    finish_repeatable = _writing(holding.finish)  # for what is quickly found again
 
     # What relay and reaper do
 
     due_wake_ups = _reading(upkeep.due_wake_ups)
     mark_published = _writing(upkeep.mark_published)
     reap = _durably(upkeep.reap)
-    removable = _reading(removal.removable)
-    mark_removed = _writing(removal.mark_removed)
+    removable = _reading(upkeep.removable)
+    mark_removed = _writing(upkeep.mark_removed)
     take_lead = _writing(upkeep.take_lead)
     release_lead = _writing(upkeep.release_lead)

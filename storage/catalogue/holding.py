@@ -6,14 +6,14 @@ thought dead and comes back finds its attempt fenced: nothing it does counts any
 
 from typing import Any
 
-from sqlalchemy import delete, func, insert, select, update
+from sqlalchemy import ColumnElement, and_, delete, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Verdict
-from jointplay.storage.catalogue.rows import block_record, lock_job, record_event, step_job
+from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, JobState, Verdict
+from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 from jointplay.storage.catalogue.submission import drop_queued_blocks
 
 RECOVERED_QUEUE = "recovered"
@@ -30,9 +30,9 @@ def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
         return None
     row = unit.execute(
         update(_block)
-        .where(_block.c.id == block_id, _block.c.state == BlockState.queued.value)
+        .where(_block.c.id == block_id, _block.c.state == BlockState.queued)
         .values(
-            state=BlockState.running.value,
+            state=BlockState.running,
             attempt=_block.c.attempt + 1,
             lease_until=unit.now + lease,
             worker=worker,
@@ -41,7 +41,7 @@ def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
     ).one_or_none()
     if row is None:
         return None
-    held = block_record(row)
+    held = Block(**row._mapping)
     unit.execute(delete(tables.outbox).where(tables.outbox.c.block == block_id))
     unit.execute(
         insert(tables.attempt).values(
@@ -57,27 +57,20 @@ def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
         )
     )
     step_job(unit, job_id, JobState.running)
-    record_event(
-        unit,
-        job_id,
-        "claimed",
-        {"block": held.id, "attempt": held.attempt, "worker": worker},
-    )
+    claimed = {"block": held.id, "attempt": held.attempt, "worker": worker}
+    record_event(unit, job_id, "claimed", claimed)
     return Claim(held, lock_job(unit, job_id))
+
+
+def _is_held(block_id: str, attempt: int) -> ColumnElement[bool]:
+    columns = (_block.c.id == block_id, _block.c.attempt == attempt)
+    return and_(*columns, _block.c.state == BlockState.running)
 
 
 def _change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
     """Change a block this attempt holds and return its job; Fenced if it does not hold it."""
-    job_id = unit.execute(
-        update(_block)
-        .where(
-            _block.c.id == block_id,
-            _block.c.attempt == attempt,
-            _block.c.state == BlockState.running.value,
-        )
-        .values(values)
-        .returning(_block.c.job)
-    ).scalar_one_or_none()
+    change = update(_block).where(_is_held(block_id, attempt)).values(values)
+    job_id = unit.execute(change.returning(_block.c.job)).scalar_one_or_none()
     if job_id is None:
         raise Fenced(block_id, attempt)
     return str(job_id)
@@ -88,15 +81,11 @@ def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     state = unit.execute(
         select(tables.job.c.state)
         .join(_block, _block.c.job == tables.job.c.id)
-        .where(
-            _block.c.id == block_id,
-            _block.c.attempt == attempt,
-            _block.c.state == BlockState.running.value,
-        )
+        .where(_is_held(block_id, attempt))
     ).scalar_one_or_none()
     if state is None:
         raise Fenced(block_id, attempt)
-    return Verdict.go_on if state == JobState.running.value else Verdict.cancel
+    return Verdict.go_on if state is JobState.running else Verdict.cancel
 
 
 def heartbeat(unit: Unit, block_id: str, attempt: int, lease: float) -> Verdict:
@@ -168,11 +157,11 @@ def finish(
     block_id: str,
     attempt: int,
     outcome: BlockState,
-    error: JobError | None,
+    error: JobError | None = None,
     *,
-    time: float | None,
-    fraction: float | None,
-    steps: int | None,
+    time: float | None = None,
+    fraction: float | None = None,
+    steps: int | None = None,
 ) -> JobState:
     """End a held block (done, failed or cancelled) and, with its last block, the job.
 
@@ -189,7 +178,7 @@ def finish(
     Fenced
         The block is held no more; nothing was changed.
     """
-    changes: dict[str, Any] = {"state": outcome.value, "lease_until": None}
+    changes: dict[str, Any] = {"state": outcome, "lease_until": None}
     if time is not None:
         changes["progress_time"] = time
     if steps is not None:
@@ -220,10 +209,10 @@ def _settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
         return lock_job(unit, job_id).state
     of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
     states = set(unit.execute(of_job).scalars())
-    if states == {BlockState.done.value, BlockState.waiting.value}:
+    if states == {BlockState.done, BlockState.waiting}:
         _queue_waiting(unit, job_id)
-    elif not states & {BlockState.queued.value, BlockState.running.value}:
-        all_done = states == {BlockState.done.value}
+    elif not states & {BlockState.queued, BlockState.running}:
+        all_done = states == {BlockState.done}
         step_job(unit, job_id, JobState.succeeded if all_done else JobState.cancelled)
     return lock_job(unit, job_id).state
 
@@ -231,8 +220,8 @@ def _settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
 def _queue_waiting(unit: Unit, job_id: str) -> None:
     queued = unit.execute(
         update(_block)
-        .where(_block.c.job == job_id, _block.c.state == BlockState.waiting.value)
-        .values(state=BlockState.queued.value)
+        .where(_block.c.job == job_id, _block.c.state == BlockState.waiting)
+        .values(state=BlockState.queued)
         .returning(_block.c.id)
     )
     for block_id in queued.scalars().all():
@@ -244,20 +233,9 @@ def release(unit: Unit, block_id: str, attempt: int) -> None:
 
     It is not a loss.
     """
-    job_id = _change_held(
-        unit,
-        block_id,
-        attempt,
-        state=BlockState.queued.value,
-        lease_until=None,
-        worker=None,
-    )
-    job = lock_job(unit, job_id)
-    _end_attempt(unit, block_id, attempt, "released")
-    _sum_progress(unit, job_id)
-    record_event(unit, job_id, "released", {"block": block_id, "attempt": attempt})
+    job = _take_back(unit, block_id, attempt, "released")
     if job.state.terminal:
-        drop_queued_blocks(unit, job_id, untouched=False)
+        drop_queued_blocks(unit, job.id, untouched=False)
     else:
         queue_again(unit, block_id)
 
@@ -270,33 +248,32 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     BlockState
         What became of the block: queued, failed, or cancelled if the job was being cancelled.
     """
-    job_id = _change_held(
-        unit,
-        block_id,
-        attempt,
-        state=BlockState.queued.value,
-        lease_until=None,
-        worker=None,
-        losses=_block.c.losses + 1,
-    )
-    job = lock_job(unit, job_id)
-    _end_attempt(unit, block_id, attempt, "lost")
-    _sum_progress(unit, job_id)
-    record_event(unit, job_id, "lost", {"block": block_id, "attempt": attempt})
+    job = _take_back(unit, block_id, attempt, "lost", losses=_block.c.losses + 1)
     losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
     if losses < max_attempts and not job.state.terminal:
         queue_again(unit, block_id)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
-    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up.value))
+    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
     error = JobError(
         "platform",
         "worker-lost",
         f"{losses} workers in a row disappeared while computing this; the worker's log says why"
         " (out of memory is the usual reason). Submit it again once that is solved.",
     )
-    _settle(unit, job_id, error if given_up is BlockState.failed else None)
+    _settle(unit, job.id, error if given_up is BlockState.failed else None)
     return given_up
+
+
+def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:
+    """End an attempt without a result and return its job; Fenced if it does not hold the block."""
+    free = {"state": BlockState.queued, "lease_until": None, "worker": None}
+    job_id = _change_held(unit, block_id, attempt, **free, **changes)
+    job = lock_job(unit, job_id)
+    _end_attempt(unit, block_id, attempt, outcome)
+    _sum_progress(unit, job_id)
+    record_event(unit, job_id, outcome, {"block": block_id, "attempt": attempt})
+    return job
 
 
 def queue_again(unit: Unit, block_id: str) -> None:

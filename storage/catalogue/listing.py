@@ -9,18 +9,17 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.identifiers import earliest
 from jointplay.storage.catalogue.records import (
+    TERMINAL,
     Attempt,
     Block,
     Event,
+    Job,
     JobFilter,
     JobPage,
-    JobState,
     JobStatus,
 )
-from jointplay.storage.catalogue.rows import attempt_record, block_record, event_record, job_record
 
 LARGEST_PAGE = 1000
-_TERMINAL = [state.value for state in JobState if state.terminal]
 
 
 def page_of_jobs(
@@ -54,15 +53,15 @@ def page_of_jobs(
     for name in ("state", "kind", "label", "scene", "batch"):
         value = getattr(wanted, name)
         if value is not None:
-            statement = statement.where(columns[name] == str(value))
+            statement = statement.where(columns[name] == value)
     # an id begins with its time: the primary key finds a window of time at once
     if wanted.since is not None:
         statement = statement.where(columns.id >= earliest(wanted.since))
     if wanted.before is not None:
         statement = statement.where(columns.id < earliest(wanted.before))
-    expired = and_(columns.expires <= unit.now, columns.state.in_(_TERMINAL))
+    expired = and_(columns.expires <= unit.now, columns.state.in_(TERMINAL))
     statement = statement.where(columns.expires.is_(None) | not_(expired))
-    found = [job_record(row._mapping) for row in unit.execute(statement)]
+    found = [Job(**row._mapping) for row in unit.execute(statement)]
     more = len(found) > limit
     jobs = tuple(found[:limit])
     return JobPage(jobs, jobs[-1].id if more else None)
@@ -72,7 +71,7 @@ def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:
     """Return a job's blocks by index."""
     table = tables.block
     rows = unit.execute(select(table).where(table.c.job == job_id).order_by(table.c.index))
-    return tuple(block_record(row) for row in rows)
+    return tuple(Block(**row._mapping) for row in rows)
 
 
 def attempts_of(unit: Unit, job_id: str) -> tuple[Attempt, ...]:
@@ -84,7 +83,7 @@ def attempts_of(unit: Unit, job_id: str) -> tuple[Attempt, ...]:
         .where(block.c.job == job_id)
         .order_by(block.c.index, table.c.number)
     )
-    return tuple(attempt_record(row) for row in rows)
+    return tuple(Attempt(**row._mapping) for row in rows)
 
 
 def events_of(unit: Unit, job_id: str, *, after: int = 0, limit: int = 1000) -> tuple[Event, ...]:
@@ -96,7 +95,7 @@ def events_of(unit: Unit, job_id: str, *, after: int = 0, limit: int = 1000) -> 
         .order_by(table.c.seq)
         .limit(limit)
     )
-    return tuple(event_record(row) for row in rows)
+    return tuple(Event(**row._mapping) for row in rows)
 
 
 def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
@@ -115,4 +114,4 @@ def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
             newest,
         ).where(columns.id.in_(jobs))
     )
-    return tuple(JobStatus(row[0], JobState(row[1]), *row[2:]) for row in rows)
+    return tuple(JobStatus(*row) for row in rows)

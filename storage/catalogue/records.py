@@ -35,6 +35,9 @@ LEGAL_STEPS: Mapping[JobState, frozenset[JobState]] = {
 }
 
 
+TERMINAL = [state for state in JobState if state.terminal]
+
+
 class BlockState(StrEnum):
     """State of a block; a lost or released one goes from running back to queued.
 
@@ -57,12 +60,8 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True)
-class NewJob:
-    """A checked job about to be submitted; `blocks` are (first, count) of its units of work.
-
-    With `seal` there is one more, with a count of 0, that is queued when all others are done: it
-    finishes the store that they filled, and the job succeeds with it.
-    """
+class JobRequest:
+    """What is known of a job from the request for it on."""
 
     kind: str
     spec: dict[str, Any]
@@ -73,6 +72,16 @@ class NewJob:
     batch: str | None = None
     scene: str | None = None  # its name, by which jobs are found
     expires: float | None = None
+
+
+@dataclass(frozen=True)
+class NewJob(JobRequest):
+    """A checked job about to be submitted; `blocks` are (first, count) of its units of work.
+
+    With `seal` there is one more, with a count of 0, that is queued when all others are done: it
+    finishes the store that they filled, and the job succeeds with it.
+    """
+
     blocks: tuple[tuple[int, int], ...] = ((0, 1),)
     seal: bool = False
 
@@ -86,31 +95,22 @@ class SubmissionKey:
     seconds: float = 86_400.0  # how long the key is remembered
 
 
-@dataclass(frozen=True)
-class Job:
+@dataclass(frozen=True, kw_only=True)
+class Job(JobRequest):
     """One job. `attempt` counts from 1 and names its results folder; 0: never started."""
 
     id: str
-    kind: str
-    label: str | None
-    batch: str | None
-    spec: dict[str, Any]
-    digest: str
-    solver_version: str
-    result_schema: int
-    state: JobState
-    progress_time: float  # simulated seconds
-    progress_fraction: float  # 0..1
-    attempt: int
-    error: JobError | None
     created: float
-    started: float | None
-    finished: float | None
-    expires: float | None
-    activity: str | None  # a word for what takes long before anything advances: "compiling"
-    scene: str | None
-    steps: int | None  # accepted steps of the solver, as far as they are known
-    removed: float | None  # when its results were removed
+    state: JobState = JobState.queued
+    progress_time: float = 0.0  # simulated seconds
+    progress_fraction: float = 0.0  # 0..1
+    attempt: int = 0
+    error: JobError | None = None
+    started: float | None = None
+    finished: float | None = None
+    activity: str | None = None  # a word for what takes long before anything advances: "compiling"
+    steps: int | None = None  # accepted steps of the solver, as far as they are known
+    removed: float | None = None  # when its results were removed
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""
@@ -174,15 +174,15 @@ class Block:
     first: int
     count: int
     state: BlockState
-    attempt: int
-    losses: int  # attempts whose worker was lost, which is what max_attempts limits
-    lease_until: float | None
-    worker: str | None
-    watermark: int  # samples (or values) that are durable in the results store
-    checkpoint: str | None  # path of the checkpoint below the job's results folder
-    progress_time: float
-    progress_fraction: float
-    progress_steps: int | None
+    attempt: int = 0
+    losses: int = 0  # attempts whose worker was lost, which is what max_attempts limits
+    lease_until: float | None = None
+    worker: str | None = None
+    watermark: int = 0  # samples (or values) that are durable in the results store
+    checkpoint: str | None = None  # path of the checkpoint below the job's results folder
+    progress_time: float = 0.0
+    progress_fraction: float = 0.0
+    progress_steps: int | None = None
 
 
 @dataclass(frozen=True)

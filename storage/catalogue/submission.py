@@ -1,12 +1,11 @@
 """Accepting jobs and cancelling them: what users ask for."""
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from sqlalchemy import (
     ColumnElement,
-    Row,
     and_,
     bindparam,
     delete,
@@ -21,20 +20,28 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import KeyReused
 from jointplay.storage.catalogue.records import (
+    Block,
     BlockState,
     Job,
+    JobRequest,
     JobState,
     NewJob,
     SubmissionKey,
     Submitted,
 )
-from jointplay.storage.catalogue.rows import find_job, job_record, lock_job, step_job
+from jointplay.storage.catalogue.rows import find_job, lock_job, step_job
 
 FRESH_QUEUE = "jobs"
 _LONGEST_NAME = 200  # of a scene, as it is looked for
-_REUSED = (JobState.queued.value, JobState.running.value, JobState.succeeded.value)
-_UNSET = dict.fromkeys(column.name for column in tables.job.columns)
-_LIVE = (BlockState.queued.value, BlockState.running.value)
+_REUSED = (JobState.queued, JobState.running, JobState.succeeded)
+_LIVE = (BlockState.queued, BlockState.running)
+_OF_REQUEST = [field.name for field in fields(JobRequest)]
+# each value that a column begins with; the fields without one are always given
+_NEW_JOB = {field.name: field.default for field in fields(Job) if field.default is not None}
+_NEW_BLOCK = {field.name: field.default for field in fields(Block) if field.default is not None}
+
+Row = dict[str, Any]
+"""Values by column."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +66,7 @@ def submit(
     The requests are answered as if one came after the other; new jobs are stored together.
     """
     answers: list[Submitted | KeyReused] = []
-    fresh: list[tuple[str, Request]] = []
+    fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()
     for request in requests:
         names = request.names()
@@ -72,11 +79,10 @@ def submit(
             answers.append(error)
             continue
         if answer is None:
-            job_id = next_id()
-            fresh.append((job_id, request))
+            row = row_of(next_id(), request.new, unit.now)
+            fresh.append((row, request))
             pending |= names
-            row = _job_row(job_id, request.new, unit.now)
-            answer = Submitted(job_record({**_UNSET, **row}), created=True)
+            answer = Submitted(Job(**row), created=True)
         answers.append(answer)
     _store(unit, fresh)
     return answers
@@ -104,13 +110,13 @@ def _earlier(unit: Unit, request: Request) -> Submitted | None:
     return Submitted(job, created=False, cached=True)
 
 
-def _store(unit: Unit, fresh: Sequence[tuple[str, Request]]) -> None:
+def _store(unit: Unit, fresh: Sequence[tuple[Row, Request]]) -> None:
     if not fresh:
         return
-    insert_jobs(unit, [(job_id, request.new) for job_id, request in fresh])
-    for job_id, request in fresh:
+    insert_jobs(unit, [(row, request.new) for row, request in fresh])
+    for row, request in fresh:
         if request.key is not None:
-            remember_key(unit, request.key, job=job_id)
+            remember_key(unit, request.key, job=row["id"])
 
 
 _SAME_JOB = (
@@ -144,71 +150,41 @@ def same_job(unit: Unit, new: NewJob) -> str | None:
     return found
 
 
-def insert_jobs(unit: Unit, jobs: Sequence[tuple[str, NewJob]]) -> None:
-    """Store new jobs with their ids, all their blocks, wake-ups and first events."""
+def row_of(job_id: str, new: NewJob, now: float, batch: str | None = None) -> Row:
+    """Return the row of a new job, without the columns that have no value yet."""
+    row = {name: getattr(new, name) for name in _OF_REQUEST}
+    if new.scene is not None:
+        row["scene"] = new.scene[:_LONGEST_NAME]
+    return {**_NEW_JOB, **row, "batch": batch or new.batch, "id": job_id, "created": now}
+
+
+def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
+    """Store rows of new jobs, all their blocks, wake-ups and first events."""
     now = unit.now
-    unit.execute(insert(tables.job), [_job_row(job_id, new, now) for job_id, new in jobs])
-    blocks = [row for job_id, new in jobs for row in _block_rows(job_id, new)]
+    unit.execute(insert(tables.job), [row for row, _ in jobs])
+    blocks = [block for row, new in jobs for block in _blocks(row["id"], new)]
     unit.execute(insert(tables.block), blocks)
-    unit.execute(
-        insert(tables.outbox),
-        [
-            {"block": block["id"], "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
-            for block in blocks
-            if block["state"] == BlockState.queued.value
-        ],
-    )
-    unit.execute(
-        insert(tables.event),
-        [
-            {"job": job_id, "seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
-            for job_id, _ in jobs
-        ],
-    )
+    wake_ups = [
+        {"block": block["id"], "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
+        for block in blocks
+        if block["state"] is BlockState.queued
+    ]
+    unit.execute(insert(tables.outbox), wake_ups)
+    queued = {"seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
+    unit.execute(insert(tables.event), [queued | {"job": row["id"]} for row, _ in jobs])
 
 
-def _job_row(job_id: str, new: NewJob, now: float) -> dict[str, Any]:
-    return {
-        "id": job_id,
-        "kind": new.kind,
-        "label": new.label,
-        "batch": new.batch,
-        "scene": None if new.scene is None else new.scene[:_LONGEST_NAME],
-        "spec": new.spec,
-        "digest": new.digest,
-        "solver_version": new.solver_version,
-        "result_schema": new.result_schema,
-        "state": JobState.queued.value,
-        "progress_time": 0.0,
-        "progress_fraction": 0.0,
-        "attempt": 0,
-        "created": now,
-        "expires": new.expires,
-    }
-
-
-def _block_rows(job_id: str, new: NewJob) -> Iterator[dict[str, Any]]:
+def _blocks(job_id: str, new: NewJob) -> Iterator[Row]:
     cuts = [(first, count, BlockState.queued) for first, count in new.blocks]
     if new.seal:
         first, count = new.blocks[-1]
         cuts.append((first + count, 0, BlockState.waiting))
     for index, (first, count, state) in enumerate(cuts):
-        yield {
-            "id": f"{job_id}-{index}",
-            "job": job_id,
-            "index": index,
-            "first": first,
-            "count": count,
-            "state": state.value,
-            "attempt": 0,
-            "losses": 0,
-            "watermark": 0,
-            "progress_time": 0.0,
-            "progress_fraction": 0.0,
-        }
+        place = {"id": f"{job_id}-{index}", "job": job_id, "index": index}
+        yield {**_NEW_BLOCK, **place, "first": first, "count": count, "state": state}
 
 
-def earlier_answer(unit: Unit, key: SubmissionKey) -> Row[Any] | None:
+def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
     """Find what a key was answered with (its job or batch), if it is still remembered.
 
     Raises
@@ -218,7 +194,7 @@ def earlier_answer(unit: Unit, key: SubmissionKey) -> Row[Any] | None:
     """
     table = tables.idempotency
     same_key = table.c.key == key.key
-    row: Row[Any] | None = unit.execute(select(table).where(same_key)).one_or_none()
+    row = unit.execute(select(table).where(same_key)).one_or_none()
     if row is None:
         return None
     if row.expires <= unit.now or (row.job is None and row.batch is None):
@@ -278,8 +254,8 @@ def drop_queued_blocks(unit: Unit, job_id: str, *, untouched: bool) -> None:
 def drop_blocks(unit: Unit, of: ColumnElement[bool], *, untouched: bool) -> None:
     """Cancel those blocks among some that no worker holds, or ever held."""
     block, outbox = tables.block, tables.outbox
-    dropped = and_(of, block.c.state.in_((BlockState.queued.value, BlockState.waiting.value)))
+    dropped = and_(of, block.c.state.in_((BlockState.queued, BlockState.waiting)))
     if untouched:
         dropped = and_(dropped, block.c.attempt == 0)
     unit.execute(delete(outbox).where(exists().where(and_(block.c.id == outbox.c.block, dropped))))
-    unit.execute(update(block).where(dropped).values(state=BlockState.cancelled.value))
+    unit.execute(update(block).where(dropped).values(state=BlockState.cancelled))

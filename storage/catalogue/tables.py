@@ -1,9 +1,17 @@
-"""The catalogue's tables, from which a new database is made."""
+"""The catalogue's tables, from which a new database is made.
+
+Columns are named as the fields of `storage.catalogue.records` are, and give their types back.
+"""
+
+from dataclasses import asdict
+from typing import Any
 
 from sqlalchemy import (
     JSON,
     BigInteger,
     Column,
+    Dialect,
+    Enum,
     Float,
     ForeignKey,
     Index,
@@ -13,8 +21,28 @@ from sqlalchemy import (
     String,
     Table,
     Text,
+    TypeDecorator,
     UniqueConstraint,
 )
+
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue.records import BlockState, JobState
+
+
+class StoredError(TypeDecorator[JobError]):
+    """Error of a job as a JSON document of its fields."""
+
+    impl = JSON(none_as_null=True)
+    cache_ok = True
+
+    def process_bind_param(self, value: JobError | None, dialect: Dialect) -> dict[str, Any] | None:
+        """Return what is stored."""
+        return None if value is None else asdict(value)
+
+    def process_result_value(self, value: Any, dialect: Dialect) -> JobError | None:
+        """Return what was given."""
+        return None if value is None else JobError(**value)
+
 
 metadata = MetaData(
     naming_convention={
@@ -36,11 +64,11 @@ job = Table(
     Column("digest", String(64), nullable=False),
     Column("solver_version", String(64), nullable=False),
     Column("result_schema", Integer, nullable=False),
-    Column("state", String(10), nullable=False),
+    Column("state", Enum(JobState, native_enum=False, length=10), nullable=False),
     Column("progress_time", Float(53), nullable=False),
     Column("progress_fraction", Float(53), nullable=False),
     Column("attempt", Integer, nullable=False),
-    Column("error", JSON(none_as_null=True)),
+    Column("error", StoredError),
     Column("created", Float(53), nullable=False),
     Column("started", Float(53)),
     Column("finished", Float(53)),
@@ -79,7 +107,7 @@ block = Table(
     Column("index", Integer, nullable=False),
     Column("first", BigInteger, nullable=False),
     Column("count", BigInteger, nullable=False),
-    Column("state", String(10), nullable=False),
+    Column("state", Enum(BlockState, native_enum=False, length=10), nullable=False),
     Column("attempt", Integer, nullable=False),
     Column("losses", Integer, nullable=False),
     Column("lease_until", Float(53)),

@@ -1,13 +1,22 @@
-"""Queries of relay and reaper: unannounced blocks, expired leases, the leader."""
+"""Queries of relay and reaper: unannounced blocks, lost leases, expired jobs, the leader.
+
+A job that expires can be read no more; its results are removed soon, and its row says that they
+were.
+"""
+
+from collections.abc import Sequence
 
 from sqlalchemy import case, delete, func, insert, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.errors import JobNotFinished
 from jointplay.storage.catalogue.holding import RECOVERED_QUEUE, lose
-from jointplay.storage.catalogue.records import BlockState, Reaped, WakeUp
+from jointplay.storage.catalogue.records import TERMINAL, BlockState, Job, Reaped, WakeUp
+from jointplay.storage.catalogue.rows import find_job, lock_job
 from jointplay.storage.catalogue.submission import FRESH_QUEUE
 
+_job = tables.job
 _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most this many times `republish_after`
 
@@ -50,7 +59,7 @@ def reap(unit: Unit, max_attempts: int) -> Reaped:
     block = tables.block
     expired = unit.execute(
         select(block.c.id, block.c.attempt, block.c.job)
-        .where(block.c.state == BlockState.running.value, block.c.lease_until < unit.now)
+        .where(block.c.state == BlockState.running, block.c.lease_until < unit.now)
         .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
         .with_for_update(skip_locked=True)
@@ -64,6 +73,39 @@ def reap(unit: Unit, max_attempts: int) -> Reaped:
             ended.append(row.job)
     unit.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= unit.now))
     return Reaped(tuple(requeued), tuple(ended))
+
+
+def expire(unit: Unit, job_id: str) -> Job:
+    """Let a finished job expire now, unless it did before; its results are removed soon.
+
+    Raises
+    ------
+    JobNotFound
+    JobNotFinished
+        It is queued, running or cancelling: it has to be cancelled first.
+    """
+    job = lock_job(unit, job_id)
+    if not job.state.terminal:
+        raise JobNotFinished(job_id, job.state.value)
+    if not job.expired(unit.now):
+        unit.execute(update(_job).where(_job.c.id == job_id).values(expires=unit.now))
+    return find_job(unit, job_id)
+
+
+def removable(unit: Unit, limit: int) -> tuple[str, ...]:
+    """Return expired jobs whose results are still there, those first that expired first."""
+    found = unit.execute(
+        select(_job.c.id)
+        .where(_job.c.removed.is_(None), _job.c.expires <= unit.now, _job.c.state.in_(TERMINAL))
+        .order_by(_job.c.expires)
+        .limit(limit)
+    )
+    return tuple(found.scalars())
+
+
+def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
+    """Remember that the results of jobs are gone."""
+    unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now))
 
 
 def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
