@@ -7,21 +7,17 @@ from importlib.metadata import version
 from fastapi import FastAPI
 
 import jointplay.service.batches.endpoints
-import jointplay.service.estimates.endpoints
-import jointplay.service.events.endpoints
-import jointplay.service.health.endpoints
 import jointplay.service.jobs.endpoints
 import jointplay.service.problems.endpoints
 import jointplay.service.results.endpoints
 import jointplay.service.results.figures
-import jointplay.service.scenes.endpoints
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from jointplay.service import problems
-from jointplay.service.estimates.prober import Prober
+from jointplay.service import estimates, events, health, problems, scenes
 from jointplay.service.idempotency import InFlight
 from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.openapi import described
+from jointplay.service.prober import Prober
 from jointplay.storage.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
@@ -33,15 +29,15 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 """
 _RESOURCES = (
     jointplay.service.jobs.endpoints,
-    jointplay.service.events.endpoints,
-    jointplay.service.estimates.endpoints,
+    events,
+    estimates,
     jointplay.service.batches.endpoints,
     jointplay.service.studies.endpoints,
     jointplay.service.results.endpoints,
     jointplay.service.results.figures,
     jointplay.service.zarr.endpoints,
-    jointplay.service.scenes.endpoints,
-    jointplay.service.health.endpoints,
+    scenes,
+    health,
     jointplay.service.problems.endpoints,
 )
 

@@ -7,8 +7,8 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
-from jointplay.service.batches.schemas import BatchDocument
-from jointplay.service.jobs.request import FIELDS
+from jointplay.service.batches.admission import BatchDocument
+from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.problems.document import ProblemDocument, problems
 from jointplay.service.problems.kinds import INVALID_REQUEST
 from jointplay.solver.kinds import KINDS, any_job

@@ -3,15 +3,32 @@
 from collections.abc import Sequence
 from typing import Any
 
+from pydantic import BaseModel, ConfigDict, Field
+
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
-from jointplay.service.batches.schemas import LONGEST_LABEL, MOST_JOBS
 from jointplay.service.jobs.submission import checked
 from jointplay.storage.catalogue import NewJob
 from jointplay.storage.settings import Settings
 
-_FIELDS = ("jobs", "label")
+MOST_JOBS = 10_000
+LONGEST_LABEL = 200
 _MOST_PROBLEMS = 100  # that are looked for: as many as one problem document carries
+
+
+class BatchDocument(BaseModel):
+    """Jobs of any kinds that are accepted or refused together."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    jobs: list[Any] = Field(
+        min_length=1,
+        max_length=MOST_JOBS,
+        description="The jobs, in the order in which they are queued.",
+    )
+    label: str = Field(
+        default="", max_length=LONGEST_LABEL, description="A name of your own for the batch."
+    )
 
 
 def admit_batch(document: object, settings: Settings) -> tuple[list[NewJob], str]:
@@ -51,7 +68,7 @@ def _parts(document: object) -> tuple[Sequence[object], str]:
     problems = [
         Problem(f"/{escaped(name)}", "There is no such field; a batch has 'jobs' and 'label'.")
         for name in document
-        if name not in _FIELDS
+        if name not in BatchDocument.model_fields
     ]
     jobs: Any = document.get("jobs")
     label: Any = document.get("label", "")

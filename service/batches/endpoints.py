@@ -1,20 +1,20 @@
 """``/v1/batches``: submit, look at and cancel many jobs at once."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from fastapi import APIRouter, Depends, Path, Query, Response
+from pydantic import BaseModel, Field
 
 from jointplay.records.job_id import is_job_id
 from jointplay.service.batches.admission import admit_batch
-from jointplay.service.batches.schemas import AcceptedBatch, BatchResource, address
 from jointplay.service.body import JsonBatch
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
 from jointplay.service.idempotency import RepeatableRequest
-from jointplay.service.jobs.paging import PageQuery
-from jointplay.service.jobs.schemas import JobPage, JobResource
+from jointplay.service.jobs.listing import PageQuery
+from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.problems.document import clipped
-from jointplay.storage.catalogue import Batch, BatchNotFound
+from jointplay.storage.catalogue import Batch, BatchNotFound, JobState
 from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])
@@ -28,6 +28,43 @@ MADE: dict[int | str, dict[str, Any]] = {
     202: {"headers": {"Location": header("Path of the batch.")}}
 }
 BatchId = Annotated[str, Path(description="Id of the batch, as POST /v1/batches returned it.")]
+
+
+class BatchProgress(BaseModel):
+    """Progress of the whole batch."""
+
+    fraction: float = Field(ge=0, le=1, description="0 to 1, every job weighing the same.")
+
+
+class BatchResource(BaseModel):
+    """Jobs that were submitted together."""
+
+    id: str
+    label: str | None
+    created: Moment
+    jobs: int = Field(description="Number of jobs.")
+    states: dict[JobState, int] = Field(description="How many jobs are in each state.")
+    progress: BatchProgress
+    finished: bool = Field(description="Whether all jobs have ended, however they did.")
+    links: dict[str, str] = Field(description="Addresses of the batch and of its jobs.")
+
+    @classmethod
+    def of(cls, batch: Batch, **more: Any) -> Self:
+        """Show the catalogue's record."""
+        base = f"{router.prefix}/{batch.id}"
+        shown = {
+            "jobs": batch.count,
+            "progress": {"fraction": batch.fraction},
+            "finished": batch.finished,
+            "links": {"self": base, "jobs": f"{base}/jobs", "cancel": f"{base}/cancel"},
+        }
+        return cls.model_validate(vars(batch) | shown | more)
+
+
+class AcceptedBatch(BatchResource):
+    """A batch that was just queued."""
+
+    job_ids: list[str] = Field(description="Ids of its jobs, in the order of the request.")
 
 
 def _batch_of_the_path(catalogue: CatalogueDependency, batch_id: BatchId) -> Batch:
@@ -47,17 +84,7 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
     "",
     status_code=202,
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=MADE
-    | problems(
-        kinds.MALFORMED_JSON,
-        kinds.BODY_TOO_LARGE,
-        kinds.NOT_JSON,
-        kinds.INVALID_JOB,
-        kinds.LIMIT_EXCEEDED,
-        kinds.KEY_REUSED,
-        kinds.KEY_IN_FLIGHT,
-        kinds.INVALID_REQUEST,
-    ),
+    responses=MADE | problems(*kinds.OF_SUBMISSIONS),
 )
 def submit_batch(
     document: JsonBatch,
@@ -75,8 +102,9 @@ def submit_batch(
         jobs, label = admit_batch(document, settings)
         submitted = catalogue.submit_batch(jobs, label=label or None, key=key)
     wake_relay(settings.redis_url)
-    response.headers["Location"] = address(submitted.batch.id)
-    return AcceptedBatch.of(submitted.batch, job_ids=list(submitted.jobs))
+    accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
+    response.headers["Location"] = accepted.links["self"]
+    return accepted
 
 
 @router.get(
@@ -97,7 +125,7 @@ def list_jobs_of_batch(
     page = catalogue.jobs(
         limit=query.page_size, after=query.checked_token(), batch=batch.id, oldest_first=True
     )
-    return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
+    return JobPage.of(page)
 
 
 @router.post("/{batch_id}/cancel", status_code=202, responses=problems(kinds.UNKNOWN_BATCH))

@@ -32,17 +32,7 @@ MADE_OR_FOUND: dict[int | str, dict[str, Any]] = {
     "",
     status_code=202,
     openapi_extra={"requestBody": REQUEST_BODY},
-    responses=MADE_OR_FOUND
-    | problems(
-        kinds.MALFORMED_JSON,
-        kinds.BODY_TOO_LARGE,
-        kinds.NOT_JSON,
-        kinds.INVALID_JOB,
-        kinds.LIMIT_EXCEEDED,
-        kinds.KEY_REUSED,
-        kinds.KEY_IN_FLIGHT,
-        kinds.INVALID_REQUEST,
-    ),
+    responses=MADE_OR_FOUND | problems(*kinds.OF_SUBMISSIONS),
 )
 async def submit_job(
     document: JsonDocument,
@@ -78,13 +68,10 @@ def _submit(
 def list_jobs(catalogue: CatalogueDependency, query: Annotated[JobQuery, Query()]) -> JobPage:
     """List jobs, newest first; jobs that arrive in the meantime move no page."""
     page = catalogue.jobs(limit=query.page_size, after=query.checked_token(), **query.wanted())
-    return JobPage(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
+    return JobPage.of(page)
 
 
-@router.get(
-    "/{job_id}",
-    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.INVALID_REQUEST),
-)
+@router.get("/{job_id}", responses=problems(*kinds.OF_A_JOB, kinds.INVALID_REQUEST))
 async def show_job(
     job: JobOfThePath, patience: PatienceDependency, query: Annotated[WaitQuery, Query()]
 ) -> JobResource:
@@ -92,11 +79,7 @@ async def show_job(
     return JobResource.of(await patience.finished(job, query.wait))
 
 
-@router.post(
-    "/{job_id}/cancel",
-    status_code=202,
-    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB),
-)
+@router.post("/{job_id}/cancel", status_code=202, responses=problems(*kinds.OF_A_JOB))
 def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Ask for a job to be cancelled.
 
@@ -106,10 +89,7 @@ def cancel_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource
     return JobResource.of(catalogue.request_cancel(job.id))
 
 
-@router.delete(
-    "/{job_id}",
-    responses=problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.NOT_FINISHED),
-)
+@router.delete("/{job_id}", responses=problems(*kinds.OF_A_JOB, kinds.NOT_FINISHED))
 def delete_job(job: JobOfThePath, catalogue: CatalogueDependency) -> JobResource:
     """Delete a finished job and its results; from then on its addresses answer 410."""
     return JobResource.of(catalogue.delete(job.id))

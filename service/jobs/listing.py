@@ -1,12 +1,12 @@
-"""Filters of a list of jobs."""
+"""Lists of jobs: their pages, and their filters."""
 
 import re
 from datetime import UTC, datetime
 from typing import Annotated, Any
 
-from pydantic import AwareDatetime, BeforeValidator, Field
+from pydantic import AwareDatetime, BaseModel, BeforeValidator, ConfigDict, Field
 
-from jointplay.service.jobs.paging import PageQuery
+from jointplay.records.job_id import is_job_id
 from jointplay.service.problems import RequestRefused
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import JobState
@@ -20,6 +20,25 @@ def _written(moment: object) -> object:
 
 _DATE = re.compile(r"\d{4}-\d{2}-\d{2}[Tt ]", re.ASCII)  # and no number of seconds
 Moment = Annotated[AwareDatetime, BeforeValidator(_written)]
+
+
+class PageQuery(BaseModel):
+    """One page of the list of jobs."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    page_size: int = Field(default=50, ge=1, le=1000, description="Most jobs in one page.")
+    page_token: str | None = Field(default=None, description="next_page_token of the page before.")
+
+    def checked_token(self) -> str | None:
+        """Return the token, or refuse one that this service never gave."""
+        if self.page_token is not None and not is_job_id(self.page_token):
+            raise RequestRefused.of_parameter(
+                "page_token",
+                "The page_token is not one that this service gave.",
+                remedy="Give the next_page_token of a page, or leave it out.",
+            )
+        return self.page_token
 
 
 class JobQuery(PageQuery):
@@ -52,14 +71,8 @@ class JobQuery(PageQuery):
         if self.since is not None and self.before is not None and self.since > self.before:
             sentence = "'before' is earlier than 'since'; swap them."
             raise RequestRefused.of_parameter("before", sentence)
-        return {
-            "state": self.state,
-            "kind": self.kind,
-            "label": self.label,
-            "scene": self.scene,
-            "since": _epoch(self.since),
-            "before": _epoch(self.before),
-        }
+        filters = self.model_dump(exclude={"page_size", "page_token"})
+        return filters | {"since": _epoch(self.since), "before": _epoch(self.before)}
 
 
 def _epoch(moment: datetime | None) -> float | None:

@@ -1,16 +1,29 @@
 """Jobs as the API shows them."""
 
 from datetime import UTC, datetime
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from jointplay.records.job import ErrorClass
-from jointplay.service.jobs.results_of_kinds import results_of
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import Job, JobState
+from jointplay.storage.catalogue import JobPage as Page
 
 SECONDS: dict[str, Any] = {"unit": "s"}
+
+
+def moment(epoch_seconds: float) -> datetime:
+    """Return a time of the catalogue as it is shown."""
+    return datetime.fromtimestamp(epoch_seconds, UTC)
+
+
+def _moment_of(value: object) -> object:
+    return moment(value) if isinstance(value, float) else value
+
+
+Moment = Annotated[datetime, BeforeValidator(_moment_of)]
+"""A moment, made of the catalogue's epoch seconds."""
 
 
 class Progress(BaseModel):
@@ -51,10 +64,10 @@ class JobResource(BaseModel):
     )
     progress: Progress
     attempt: int = Field(description="Counts from 1; 0: never started.")
-    created: datetime
-    started: datetime | None
-    finished: datetime | None
-    expires: datetime | None = Field(
+    created: Moment
+    started: Moment | None
+    finished: Moment | None
+    expires: Moment | None = Field(
         description="When the job and its results go; null: they are kept until they are deleted."
     )
     error: JobError | None
@@ -67,27 +80,14 @@ class JobResource(BaseModel):
     @classmethod
     def of(cls, job: Job, **more: Any) -> Self:
         """Show the catalogue's record."""
-        return cls(
-            id=job.id,
-            kind=job.kind,
-            label=job.label,
-            batch=job.batch,
-            state=job.state,
-            activity=job.activity,
-            progress=Progress(
-                time=job.progress_time, fraction=job.progress_fraction, steps=job.steps
-            ),
-            attempt=job.attempt,
-            created=moment(job.created),
-            started=None if job.started is None else moment(job.started),
-            finished=None if job.finished is None else moment(job.finished),
-            expires=None if job.expires is None else moment(job.expires),
-            error=job.error and JobError.model_validate(job.error.document()),
-            links=_links(job),
-            job=job.spec,
-            solver_version=job.solver_version,
-            **more,
-        )
+        progress = {
+            "time": job.progress_time,
+            "fraction": job.progress_fraction,
+            "steps": job.steps,
+        }
+        error = job.error and job.error.document()
+        shown = {"progress": progress, "error": error, "links": _links(job), "job": job.spec}
+        return cls.model_validate(vars(job) | shown | more)
 
 
 class SubmittedJob(JobResource):
@@ -106,6 +106,11 @@ class JobPage(BaseModel):
         description="Give it as page_token for the jobs after these; null: there are no more."
     )
 
+    @classmethod
+    def of(cls, page: Page) -> Self:
+        """Show the catalogue's page."""
+        return cls(jobs=[JobResource.of(job) for job in page.jobs], next_page_token=page.next)
+
 
 def address(job_id: str) -> str:
     """Return the path of a job."""
@@ -118,9 +123,6 @@ def _links(job: Job) -> dict[str, str]:
     if job.batch is not None:
         links["batch"] = f"/v1/batches/{job.batch}"
     lacking = {"certificate"} if job.spec.get("certificate") is False else set()
-    return links | {name: f"{base}/{name}" for name in results_of(job) if name not in lacking}
-
-
-def moment(epoch_seconds: float) -> datetime:
-    """Return a time of the catalogue as it is shown."""
-    return datetime.fromtimestamp(epoch_seconds, UTC)
+    return links | {
+        name: f"{base}/{name}" for name in KINDS[job.kind].results if name not in lacking
+    }

@@ -1,11 +1,10 @@
 """From a document to a queued job."""
 
 import time
-from dataclasses import replace
+from datetime import UTC, datetime
 from typing import Any
 
-from jointplay.records.failure import InvalidInput
-from jointplay.service.jobs import request
+from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
@@ -17,6 +16,20 @@ REQUEST_BODY: dict[str, Any] = {
     "description": "What to compute, by its kind; all values in SI units.",
     "content": {"application/json": {"schema": {"$ref": "#/components/schemas/JobDocument"}}},
 }
+FIELDS: dict[str, dict[str, Any]] = {
+    "cache": {
+        "type": "boolean",
+        "default": True,
+        "description": "Whether an identical job that is queued, running or succeeded will do; "
+        "labels do not matter. Jobs of a batch are always its own.",
+    },
+    "expires": {
+        "anyOf": [{"type": "string", "format": "date-time"}, {"type": "null"}],
+        "description": "When the job and its results may be removed, RFC 3339 with an offset. "
+        "Default: as the service is set up, at first never.",
+    },
+}
+"""The schemas of the fields that a document may have beside those of its job."""
 
 
 def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
@@ -27,33 +40,43 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
     InvalidInput
         With every field that is wrong.
     """
-    keep = None if settings.keep is None else time.time() + settings.keep
-    document, wishes, problems = request.take(document, keep)
+    expires = None if settings.keep is None else time.time() + settings.keep
+    cache: object = True
+    problems = []
+    if isinstance(document, dict) and FIELDS.keys() & document.keys():
+        cache = document.get("cache", True)
+        if not isinstance(cache, bool):
+            problems.append(Problem("/cache", "'cache' is true or false."))
+        if document.get("expires") is not None:
+            expires = _to_come(document["expires"])
+            if expires is None:
+                sentence = (
+                    "'expires' is a moment to come, in RFC 3339 with its offset, such as "
+                    f"{datetime.now(UTC).year + 1}-01-01T00:00:00Z."
+                )
+                problems.append(Problem("/expires", sentence))
+        document = {name: value for name, value in document.items() if name not in FIELDS}
     try:
-        new = _admitted(document)
+        admission = admit(document)
     except InvalidInput as error:
         if not problems:
             raise
         raise InvalidInput([*problems, *error.problems]) from None
     if problems:
         raise InvalidInput(problems)
-    return replace(new, expires=wishes.expires), wishes.cache
-
-
-def _admitted(document: object) -> NewJob:
-    admission = admit(document)
-    study = admission if isinstance(admission, Study) else None
     scene = admission.job["scene"]
-    return NewJob(
+    new = NewJob(
         kind=admission.job["kind"],
         label=admission.job["label"] or None,
         spec=admission.job,
         digest=admission.digest,
         solver_version=SOLVER_VERSION,
         scene=scene.get("preset") or scene.get("name"),
-        blocks=((0, 1),) if study is None else study.blocks,
-        seal=study is not None,
+        expires=expires,
+        blocks=admission.blocks if isinstance(admission, Study) else ((0, 1),),
+        seal=isinstance(admission, Study),
     )
+    return new, cache is True
 
 
 def submit(
@@ -73,3 +96,14 @@ def submit(
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted
+
+
+def _to_come(text: object) -> float | None:
+    """Return the epoch seconds of a moment in the future; None where the text means none."""
+    try:
+        moment = datetime.fromisoformat(text) if isinstance(text, str) else None
+        if moment is None or moment.tzinfo is None or moment <= datetime.now(UTC):
+            return None
+        return moment.timestamp()
+    except (ValueError, OverflowError):
+        return None

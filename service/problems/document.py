@@ -5,7 +5,7 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from jointplay.service.problems.kinds import INVALID_REQUEST, Kind
+from jointplay.service.problems.kinds import INVALID_REQUEST, ProblemKind
 
 MEDIA_TYPE = "application/problem+json"
 _LONGEST_SENTENCE = 1000  # a client's own text may be quoted in it
@@ -45,7 +45,7 @@ class RequestRefused(Exception):
 
     def __init__(
         self,
-        kind: Kind,
+        kind: ProblemKind,
         detail: str,
         errors: Sequence[ErrorDetail] = (),
         headers: Mapping[str, str] | None = None,
@@ -61,7 +61,7 @@ class RequestRefused(Exception):
         cls,
         parameter: str,
         sentence: str,
-        kind: Kind = INVALID_REQUEST,
+        kind: ProblemKind = INVALID_REQUEST,
         *,
         remedy: str = "",
         headers: Mapping[str, str] | None = None,
@@ -78,7 +78,7 @@ def clipped(text: str) -> str:
     return text[: _LONGEST_SENTENCE - 1] + "…"
 
 
-def problems(*kinds: Kind) -> dict[int | str, dict[str, Any]]:
+def problems(*kinds: ProblemKind) -> dict[int | str, dict[str, Any]]:
     """Return the ``responses`` that an endpoint declares in the OpenAPI document."""
     titles: dict[int, list[str]] = {}
     for kind in kinds:

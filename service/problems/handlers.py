@@ -29,17 +29,7 @@ _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 
 def install(app: FastAPI) -> None:
     """Let ``app`` answer every exception with a problem document."""
-    for answered in (
-        RequestRefused,
-        RequestValidationError,
-        HTTPException,
-        MalformedJson,
-        InvalidInput,
-        KeyReused,
-        JobNotFinished,
-        OperationalError,
-        Exception,
-    ):
+    for answered in {*refusal.registry, Exception} - {object}:
         app.add_exception_handler(answered, _answer)
 
 

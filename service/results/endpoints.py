@@ -1,4 +1,4 @@
-"""``/v1/jobs/{id}/history`` and its siblings: numbers that a job has computed."""
+"""``/v1/jobs/{id}/history`` and its siblings: numbers that a run has computed."""
 
 from typing import Annotated
 
@@ -7,33 +7,31 @@ from fastapi import APIRouter, Query, Response
 from numpy.typing import NDArray
 
 from jointplay.records.certificate import certificate_document
-from jointplay.records.channel import by_name
-from jointplay.service.dependencies import (
-    NO_PARAMETERS,
-    JobOfThePath,
-)
+from jointplay.records.channel import TIME, by_name
+from jointplay.records.run import inside
+from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
-from jointplay.service.results import answers, schemas
-from jointplay.service.results.answers import columns_of
+from jointplay.service.results import schemas
 from jointplay.service.results.certificate_schema import Certificate
-from jointplay.service.results.negotiation import JSON, Form
+from jointplay.service.results.forms import AS_FILES, JSON, Column, Form, as_file
 from jointplay.service.results.queries import (
     ChannelsQuery,
     HistoryQuery,
+    Selection,
     Window,
+    check_points,
     check_size,
     chosen_channels,
 )
 from jointplay.service.results.schemas import as_json
-from jointplay.service.results.stores import StoreOfThePath, not_ready
-from jointplay.service.results.tables import AS_FILES, as_file
+from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
+from jointplay.storage.results import ResultReader
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",
     tags=["results"],
     responses=problems(*kinds.OF_RESULTS),
 )
-Floats = NDArray[np.float64]
 
 
 @router.get(
@@ -42,8 +40,8 @@ Floats = NDArray[np.float64]
     responses=AS_FILES | problems(kinds.NOT_ACCEPTABLE),
 )
 def show_history(
-    job: JobOfThePath,
-    store: StoreOfThePath,
+    results: ResultsOfThePath,
+    run: RunOfThePath,
     query: Annotated[HistoryQuery, Query()],
     form: Form,
 ) -> Response:
@@ -52,45 +50,137 @@ def show_history(
     With `points`, smallest and largest values of that many groups of samples, so that no peak is
     lost.  Accept chooses JSON, CSV, NPZ or a MATLAB file.
     """
-    answer = answers.history(store, query)
-    if form == JSON:
-        return as_json(answer)
-    return as_file(form, f"{job.id}-history", columns_of(answer), complete=store.complete)
+    file = f"{results.job.id}-history"
+    start, stop = query.checked()
+    names = chosen_channels(query.channels, run.channels)
+    first, last = run.between(start, stop)
+    if query.points is not None and last - first > query.points:
+        return _shown_as(form, file, _overview(run, names, first, last, query.points))
+    if last > first:
+        begin, end = (run.history([], at, at + 1)[0][0] for at in (first, last - 1))
+        check_size(last - first, len(names) + 1, "samples", float(end - begin))
+    time, columns = run.history(names, first, last)
+    history = schemas.History.model_construct(
+        complete=run.complete,
+        time=schemas.Series.of(TIME, values=time),
+        channels=_series(run, columns),
+    )
+    return _shown_as(form, file, history)
+
+
+def show_sections(job_id: str, run: ResultReader, selection: Selection, form: str) -> Response:
+    """Return channels at the Poincare sections of a run, in a window of time."""
+    names = chosen_channels(selection.channels, run.channels)
+    time, _ = run.sections([])
+    shown = inside(time, *selection.checked())
+    if shown.any():
+        check_size(int(shown.sum()), len(names) + 1, "sections", float(np.ptp(time[shown])))
+    _, columns = run.sections(names)
+    sections = schemas.Poincare.model_construct(
+        complete=run.complete,
+        time=schemas.Series.of(TIME, values=time[shown]),
+        channels=_series(run, {name: column[shown] for name, column in columns.items()}),
+        note=str(run.attributes.get("section_note", "")),
+    )
+    return _shown_as(form, f"{job_id}-poincare", sections)
 
 
 @router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])
-def show_peaks(store: StoreOfThePath) -> Response:
+def show_peaks(run: RunOfThePath) -> Response:
     """Return each channel's signed minimum and maximum, with their times."""
-    return as_json(answers.peaks(store))
+    described = by_name(run.channels)
+    found = {
+        name: schemas.Peak.model_construct(unit=described[name].unit, **vars(peak))
+        for name, peak in run.peaks().items()
+    }
+    return as_json(schemas.Peaks.model_construct(complete=run.complete, peaks=found))
 
 
 @router.get("/statistics", dependencies=[NO_PARAMETERS])
-def show_statistics(store: StoreOfThePath) -> schemas.Statistics:
+def show_statistics(run: RunOfThePath) -> schemas.Statistics:
     """Return the steps that the run took, and its energy ledger with the residual."""
-    summary = store.attributes.get("summary") or {}
-    return schemas.Statistics(complete=store.complete, **summary)
+    summary = run.attributes.get("summary") or {}
+    return schemas.Statistics(complete=run.complete, **summary)
 
 
 @router.get("/certificate", response_model=Certificate)
 def show_certificate(
-    job: JobOfThePath, store: StoreOfThePath, query: Annotated[ChannelsQuery, Query()]
+    results: ResultsOfThePath, run: RunOfThePath, query: Annotated[ChannelsQuery, Query()]
 ) -> Response:
     """Return how far the numbers can be believed: estimated errors, horizon, exponent, spread.
 
     It is made when the run ends; a job with `"certificate": false` has none.
     """
-    found = store.certificate()
-    if found is None and not store.sealed:
-        raise not_ready(job, "its certificate is made when it ends")
+    job = results.job
+    found = run.certificate()
+    if found is None and not run.sealed:
+        raise results.not_ready("its certificate is made when it ends")
     if found is None:
         raise RequestRefused(kinds.NO_RESULTS, f"Job {job.id} was computed without a certificate.")
-    names = chosen_channels(query.channels, list(by_name(store.channels)))
+    names = chosen_channels(query.channels, run.channels)
     instants = len(found.arrays["time"].values)
     check_size(instants, len(names), "instants", float(job.spec["duration"]))
-    return as_json(Certificate.model_validate(certificate_document(store, found, names)))
+    return as_json(Certificate.model_validate(certificate_document(run, found, names)))
 
 
 @router.get("/impacts", response_model=schemas.Impacts)
-def show_impacts(store: StoreOfThePath, window: Annotated[Window, Query()]) -> Response:
+def show_impacts(run: RunOfThePath, window: Annotated[Window, Query()]) -> Response:
     """Return the contacts in the clearance joints whose onset is in a window of time."""
-    return as_json(answers.impacts(store, window))
+    rows = run.impacts()
+    rows = rows[inside(rows["onset"], *window.checked())]
+    names = rows.dtype.names or ()
+    if len(rows):
+        check_size(len(rows), len(names), "impacts", float(np.ptp(rows["onset"])))
+    found = []
+    for row in rows.tolist():
+        values = dict(zip(names, row, strict=True))
+        values["joint"] = run.joints[values["joint"]]
+        found.append(schemas.Impact.model_construct(**values))
+    return as_json(schemas.Impacts.model_construct(complete=run.complete, impacts=found))
+
+
+def _overview(
+    run: ResultReader, names: list[str], first: int, last: int, points: int
+) -> schemas.Overview:
+    check_points(points, len(names))
+    time, found = run.extremes(names, first, last, points)
+    described = by_name(run.channels)
+    extremes = {
+        name: schemas.Extremes.of(described[name], minimum=pairs[:, 0], maximum=pairs[:, 1])
+        for name, pairs in found.items()
+    }
+    bins = schemas.Bins.model_construct(
+        unit="s", first=time[:, 0].tolist(), last=time[:, 1].tolist()
+    )
+    return schemas.Overview.model_construct(
+        complete=run.complete, samples=last - first, bins=bins, extremes=extremes
+    )
+
+
+def _series(
+    run: ResultReader, columns: dict[str, NDArray[np.float64]]
+) -> dict[str, schemas.Series]:
+    described = by_name(run.channels)
+    return {
+        name: schemas.Series.of(described[name], values=column) for name, column in columns.items()
+    }
+
+
+def _shown_as(form: str, name: str, answer: schemas.History | schemas.Overview) -> Response:
+    """Return an answer as JSON, or its columns as a file of a name."""
+    if form == JSON:
+        return as_json(answer)
+    if isinstance(answer, schemas.History):
+        series = {"time": answer.time} | answer.channels
+        shown = [(channel, one.unit, one.values, "") for channel, one in series.items()]
+    else:
+        bins = answer.bins
+        shown = [("time", bins.unit, bins.first, "first"), ("time", bins.unit, bins.last, "last")]
+        for channel, one in answer.extremes.items():
+            shown.append((channel, one.unit, one.minimum, "minimum"))
+            shown.append((channel, one.unit, one.maximum, "maximum"))
+    columns = [
+        Column(channel, unit, np.array(values, np.float64), part)
+        for channel, unit, values, part in shown
+    ]
+    return as_file(form, name, columns, complete=answer.complete)

@@ -7,38 +7,21 @@ from pydantic import Field
 
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
-from jointplay.service.dependencies import (
-    NO_PARAMETERS,
-    CatalogueDependency,
-    JobOfThePath,
-    SettingsDependency,
-)
-from jointplay.service.jobs.results_of_kinds import insist, is_study
+from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.jobs.schemas import address
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.problems.document import clipped
-from jointplay.service.results.queries import Selection, unknown_channels
+from jointplay.service.results.queries import TimeOrPoints, unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
-from jointplay.service.results.stores import open_store, open_study
-from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
 from jointplay.storage.results import ResultReader
-from jointplay.storage.settings import Settings
 from jointplay.storage.studies import StudyReader
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}/figures",
     tags=["results"],
-    responses=problems(
-        kinds.UNKNOWN_JOB,
-        kinds.EXPIRED_JOB,
-        kinds.WRONG_KIND,
-        kinds.NO_RESULTS,
-        kinds.RESULTS_NOT_READY,
-        kinds.INVALID_REQUEST,
-    ),
+    responses=problems(*kinds.OF_STORES),
 )
-
-
 _MEDIA_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {
@@ -51,18 +34,9 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 }
 
 
-class FigureSelection(Selection):
+class FigureSelection(TimeOrPoints):
     """Selection of what a figure shows."""
 
-    start: float | None = Field(
-        default=None,
-        description="Of a simulation: from this time on, in s. Of a study: first point.",
-    )
-    stop: float | None = Field(
-        default=None,
-        description="Of a simulation: up to this time, in s. Of a study: point before which to "
-        "end.",
-    )
     joints: str | None = Field(
         default=None,
         max_length=2000,
@@ -71,11 +45,9 @@ class FigureSelection(Selection):
 
 
 @router.get("", dependencies=[NO_PARAMETERS])
-def list_figures(
-    job: JobOfThePath, settings: SettingsDependency, catalogue: CatalogueDependency
-) -> Figures:
+def list_figures(results: ResultsOfThePath) -> Figures:
     """List the figures that can be drawn of what the job has stored, also as it runs."""
-    base = f"{address(job.id)}/figures"
+    base = f"{address(results.job.id)}/figures"
     return Figures(
         figures=[
             FigureLink(
@@ -84,7 +56,7 @@ def list_figures(
                 png=f"{base}/{one.name}.png",
                 svg=f"{base}/{one.name}.svg",
             )
-            for one in figures.available(_results(job, settings, catalogue))
+            for one in figures.available(_reader(results))
         ]
     )
 
@@ -95,9 +67,7 @@ def list_figures(
     responses=_DRAWN | problems(kinds.UNKNOWN_FIGURE, kinds.NOT_DRAWABLE, kinds.UNKNOWN_CHANNEL),
 )
 def draw_figure(
-    job: JobOfThePath,
-    settings: SettingsDependency,
-    catalogue: CatalogueDependency,
+    results: ResultsOfThePath,
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
     form: Annotated[str, Path(description="File type: png or svg.")],
     selection: Annotated[FigureSelection, Query()],
@@ -106,7 +76,7 @@ def draw_figure(
     if form not in _MEDIA_TYPES:
         sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
-    store = _results(job, settings, catalogue)
+    store = _reader(results)
     if isinstance(store, ResultReader):
         selection.checked()
     channels, joints = (
@@ -124,6 +94,6 @@ def draw_figure(
     return Response(picture, media_type=_MEDIA_TYPES[form])
 
 
-def _results(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader | StudyReader:
-    insist(job, "figures")
-    return open_study(job, settings) if is_study(job) else open_store(job, settings, catalogue)
+def _reader(results: ResultsOfJob) -> ResultReader | StudyReader:
+    results.insist("figures")
+    return results.study() if results.is_study else results.run()

@@ -1,7 +1,10 @@
 """Queries of results: channels and a window of time, within bounds."""
 
+from collections.abc import Iterable
+
 from pydantic import BaseModel, ConfigDict, Field
 
+from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 
@@ -46,6 +49,20 @@ class Selection(ChannelsQuery, Window):
     """Channels and a window of time."""
 
 
+class TimeOrPoints(Selection):
+    """Channels, and a part of the results: of a simulation by time, of a study by points."""
+
+    start: float | None = Field(
+        default=None,
+        description="Of a simulation: from this time on, in s. Of a study: first point.",
+    )
+    stop: float | None = Field(
+        default=None,
+        description="Of a simulation: up to this time, in s. Of a study: point before which to "
+        "end.",
+    )
+
+
 class HistoryQuery(Selection):
     """Channels, a window of time, and how finely it is shown."""
 
@@ -58,17 +75,19 @@ class HistoryQuery(Selection):
     )
 
 
-def chosen_channels(text: str | None, names: list[str]) -> list[str]:
+def chosen_channels(
+    text: str | None, described: Iterable[Channel], parameter: str = "channels"
+) -> list[str]:
     """Return the channels that a comma-separated list of names and globs means, or refuse."""
     try:
-        return choose(text, names)
+        return choose(text, [channel.name for channel in described])
     except NoSuchChannel as error:
-        raise unknown_channels(error) from None
+        raise unknown_channels(error, parameter) from None
 
 
-def unknown_channels(error: NoSuchChannel) -> RequestRefused:
+def unknown_channels(error: NoSuchChannel, parameter: str = "channels") -> RequestRefused:
     """Return the refusal of names or globs that match nothing."""
-    errors = [ErrorDetail(parameter="channels", detail=one) for one in error.sentences]
+    errors = [ErrorDetail(parameter=parameter, detail=one) for one in error.sentences]
     return RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
 
 

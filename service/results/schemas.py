@@ -1,10 +1,9 @@
 """Results as the API shows them. Where nothing was computed a value is null."""
 
-from typing import Any
+from typing import Any, Self, cast
 
 import numpy as np
 from fastapi import Response
-from numpy.typing import NDArray
 from pydantic import BaseModel, Field
 
 from jointplay.records.channel import Channel
@@ -32,18 +31,21 @@ class Described(BaseModel):
     unit: str
     long_name: str = Field(description="What the quantity is, in words.")
 
+    @classmethod
+    def of(cls, channel: Channel, **columns: Any) -> Self:
+        """Show columns of a quantity, without validating their numbers."""
+        values = {
+            name: column.tolist() if isinstance(column, np.ndarray) else column
+            for name, column in columns.items()
+        }
+        shown = cls.model_construct(unit=channel.unit, long_name=channel.long_name, **values)
+        return cast("Self", shown)
+
 
 class Series(Described):
     """Values of one quantity, one for each row."""
 
     values: Values
-
-    @classmethod
-    def of(cls, channel: Channel, values: NDArray[np.float64]) -> "Series":
-        """Show a column, without validating its numbers."""
-        return cls.model_construct(
-            unit=channel.unit, long_name=channel.long_name, values=values.tolist()
-        )
 
 
 class History(Partial):

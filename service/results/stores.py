@@ -3,14 +3,15 @@
 Stores can be read as they grow: what a job has committed, and nothing else.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from fastapi import Depends, Request
 
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
-from jointplay.service.jobs.results_of_kinds import insist, is_study
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import Catalogue, Job
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
@@ -20,52 +21,93 @@ from jointplay.storage.studies import StudyReader
 
 _OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
 _OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study
+Reader = TypeVar("Reader", ResultReader, StudyReader)
 
 
-def open_store(job: Job, settings: Settings, catalogue: Catalogue) -> ResultReader:
-    """Return the reader of a simulation's results as they are now.
+class ResultsOfJob:
+    """What a job has computed, as it is now."""
 
-    Raises
-    ------
-    RequestRefused
-        409 before the job has begun, 404 if it ended before anything was computed.
-    """
-    if job.attempt > 0:
-        sealed = sealed_of(job, settings)
+    def __init__(self, job: Job, settings: Settings, catalogue: Catalogue) -> None:
+        self.job, self.settings = job, settings
+        self._catalogue = catalogue
+        self._names = KINDS[job.kind].results
+        self.is_study = "history" not in self._names
+        """It has points, and not one history."""
+        self.sealed = (
+            settings.sealed_study(job.id)
+            if self.is_study
+            else settings.sealed_run(job.id, job.attempt)
+        )
+        """Where the sealed results are, or will be."""
+
+    def insist(self, result: str) -> None:
+        """Refuse with 404 what a job of this kind does not have."""
+        if result not in self._names:
+            addresses = ", ".join(f"/v1/jobs/{self.job.id}/{name}" for name in self._names)
+            raise RequestRefused(
+                kinds.WRONG_KIND,
+                f"Job {self.job.id} is of kind {self.job.kind} and has no {result}; "
+                f"it has {addresses}.",
+            )
+
+    def committed(self) -> tuple[int, int]:
+        """Return the attempt whose growing run counts, and how many samples it has committed.
+
+        Until an attempt has a restart point of its own, what counts is that of the one before.
+        """
+        (block, *_) = self._catalogue.blocks(self.job.id)
+        if block.checkpoint is None:
+            return self.job.attempt, block.watermark
+        return int(block.checkpoint.rpartition("-a")[2]), block.watermark
+
+    def run(self) -> ResultReader:
+        """Return the reader of a simulation's results.
+
+        Raises
+        ------
+        RequestRefused
+            409 before the job has begun, 404 if it ended before anything was computed.
+        """
+
+        def growing() -> ResultReader:
+            attempt, samples = self.committed()
+            return ResultReader(self.settings.running_run(self.job.id, attempt), samples)
+
+        return self._open(_sealed_run, growing, "its results can be read once it has begun")
+
+    def study(self) -> StudyReader:
+        """Return the reader of a study; it is refused as a run is."""
+        running = self.settings.running_study(self.job.id)
+        when = "its points can be read once the first ones are computed"
+        return self._open(_sealed_study, lambda: StudyReader(running), when)
+
+    def not_ready(self, when: str) -> RequestRefused:
+        """Return the refusal of what a running job has not yet; `when` says when it will."""
+        return RequestRefused(
+            kinds.RESULTS_NOT_READY,
+            f"Job {self.job.id} is {self.job.state} at {self.job.progress_fraction:.0%}; {when}.",
+            headers={"Retry-After": "1"},
+        )
+
+    def _open(
+        self, sealed: Callable[[StoredObject], Reader], growing: Callable[[], Reader], when: str
+    ) -> Reader:
         for _ in range(2):  # it may be sealed between the two looks
             try:
-                return _sealed(sealed)
+                return sealed(self.sealed)
             except NotAStore:
                 pass
-            attempt, samples = committed_so_far(job, catalogue)
             try:
-                growing = ResultReader(settings.running_run(job.id, attempt), samples)
+                reader = growing()
             except NotAStore:
                 continue
-            if not sealed.exists():
-                return growing
-    if job.state.terminal:
-        raise _nothing(job)
-    raise not_ready(job, "its results can be read once it has begun")
-
-
-def committed_so_far(job: Job, catalogue: Catalogue) -> tuple[int, int]:
-    """Return the attempt whose growing store counts, and how many samples are committed there.
-
-    Until an attempt has a restart point of its own, what counts is that of the one before.
-    """
-    (block, *_) = catalogue.blocks(job.id)
-    attempt = job.attempt
-    if block.checkpoint is not None:
-        attempt = int(block.checkpoint.rpartition("-a")[2])
-    return attempt, block.watermark
-
-
-def sealed_of(job: Job, settings: Settings) -> StoredObject:
-    """Return where the sealed results of a job are, or will be."""
-    if is_study(job):
-        return settings.sealed_study(job.id)
-    return settings.sealed_run(job.id, job.attempt)
+            if not self.sealed.exists():
+                return reader
+        if not self.job.state.terminal:
+            raise self.not_ready(when)
+        why = f" {self.job.error.detail}" if self.job.error else ""
+        sentence = f"Job {self.job.id} is {self.job.state} and computed nothing.{why}"
+        raise RequestRefused(kinds.NO_RESULTS, sentence)
 
 
 @lru_cache(maxsize=_OPEN_STORES)
@@ -74,47 +116,8 @@ def packed(source: StoredObject) -> Packed:
     return Packed(source)
 
 
-def open_study(job: Job, settings: Settings) -> StudyReader:
-    """Return the reader of a study as it is now.
-
-    Raises
-    ------
-    RequestRefused
-        409 before its first block has begun, 404 if it ended before that.
-    """
-    sealed = sealed_of(job, settings)
-    for _ in range(2):  # it may be sealed between the two looks
-        try:
-            return _sealed_study(sealed)
-        except NotAStore:
-            pass
-        try:
-            return StudyReader(settings.running_study(job.id))
-        except NotAStore:
-            pass
-    if job.state.terminal:
-        raise _nothing(job)
-    raise not_ready(job, "its points can be read once the first ones are computed")
-
-
-def not_ready(job: Job, when: str) -> RequestRefused:
-    """Return the refusal of what a running job has not yet; `when` says when it will."""
-    return RequestRefused(
-        kinds.RESULTS_NOT_READY,
-        f"Job {job.id} is {job.state} at {job.progress_fraction:.0%}; {when}.",
-        headers={"Retry-After": "1"},
-    )
-
-
-def _nothing(job: Job) -> RequestRefused:
-    why = f" {job.error.detail}" if job.error else ""
-    return RequestRefused(
-        kinds.NO_RESULTS, f"Job {job.id} is {job.state} and computed nothing.{why}"
-    )
-
-
 @lru_cache(maxsize=_OPEN_STORES)
-def _sealed(source: StoredObject) -> ResultReader:
+def _sealed_run(source: StoredObject) -> ResultReader:
     """Return a reader to be shared."""
     return ResultReader(packed(source))
 
@@ -124,14 +127,24 @@ def _sealed_study(source: StoredObject) -> StudyReader:
     return StudyReader(packed(source))
 
 
-def _store_of_the_path(
-    request: Request,
-    job: JobOfThePath,
-    settings: SettingsDependency,
-    catalogue: CatalogueDependency,
-) -> ResultReader:
-    insist(job, request.url.path.rpartition("/")[2])
-    return open_store(job, settings, catalogue)
+async def _results_of_the_path(
+    job: JobOfThePath, settings: SettingsDependency, catalogue: CatalogueDependency
+) -> ResultsOfJob:
+    return ResultsOfJob(job, settings, catalogue)
 
 
-StoreOfThePath = Annotated[ResultReader, Depends(_store_of_the_path)]
+ResultsOfThePath = Annotated[ResultsOfJob, Depends(_results_of_the_path)]
+
+
+def _run_of_the_path(request: Request, results: ResultsOfThePath) -> ResultReader:
+    results.insist(request.url.path.rpartition("/")[2])
+    return results.run()
+
+
+def _study_of_the_path(request: Request, results: ResultsOfThePath) -> StudyReader:
+    results.insist(request.url.path.rpartition("/")[2])
+    return results.study()
+
+
+RunOfThePath = Annotated[ResultReader, Depends(_run_of_the_path)]
+StudyOfThePath = Annotated[StudyReader, Depends(_study_of_the_path)]

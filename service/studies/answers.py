@@ -8,33 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel, by_name
+from jointplay.records.peak import PeakColumns
 from jointplay.records.point import PointStatus
+from jointplay.service.results.queries import chosen_channels
 from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
-from jointplay.service.studies.queries import (
-    BifurcationQuery,
-    SectionRange,
-    SweepQuery,
-    channels,
-    one_observable,
-    page,
-    points_of,
-    sections_of,
-)
+from jointplay.service.studies.queries import BifurcationQuery, SectionRange, SweepQuery, page
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.studies import StudyReader
 
 Floats = NDArray[np.float64]
 UNKNOWN = ("1", "")
+TIME = Channel("time", "s", "time since the start of the point's run")
 VERDICT = "verdict"
 _READ = 4_000_000
 
 
 def bifurcation(store: StudyReader, query: BifurcationQuery) -> schemas.Bifurcation:
     """Return an observable over the parameter."""
-    name = one_observable(store, query.observable)
-    window = sections_of(store, query)
-    points, following = page(points_of(store, query), len(window) + _columns(store))
+    observable = query.taken(store)
+    window = query.sections(store)
+    points, following = page(query.points(store), len(window) + _columns(store))
     (parameter,) = store.parameters
     directions: list[Any] | None = None
     if store.attributes["job"]["continuation"] == "both":
@@ -44,40 +38,34 @@ def bifurcation(store: StudyReader, query: BifurcationQuery) -> schemas.Bifurcat
         **_judged(store, points, following),
         parameter=parameter.name,
         directions=directions,
-        observable=name,
-        sections=_rows(store, points, window, [name])[name],
+        observable=observable.name,
+        sections=_rows(store, points, window, [observable])[observable.name],
     )
 
 
 def sections(store: StudyReader, query: SectionRange, chosen: str | None) -> schemas.Sections:
     """Return times and channels at the sections of points."""
-    names = channels("channels", chosen, [one.name for one in store.observables])
-    window = sections_of(store, query)
+    names = chosen_channels(chosen, store.observables)
+    window = query.sections(store)
     width = (len(names) + 1) * len(window) + _columns(store)
-    points, following = page(points_of(store, query), width)
-    rows = _rows(store, points, window, names)
+    points, following = page(query.points(store), width)
+    rows = _rows(store, points, window, [one for one in store.observables if one.name in names])
     return schemas.Sections.model_construct(
-        **_judged(store, points, following),
-        time=rows.pop(""),
-        channels={name: rows[name] for name in names},
+        **_judged(store, points, following), time=rows.pop(""), channels=rows
     )
 
 
 def sweep(store: StudyReader, query: SweepQuery) -> schemas.Sweep:
     """Return extremes over the parameters."""
-    names = channels("channel", query.channel, [one.name for one in store.channels])
-    points, following = page(points_of(store, query), 5 * len(names) + _columns(store))
+    names = chosen_channels(query.channel, store.channels, "channel")
+    points, following = page(query.points(store), 5 * len(names) + _columns(store))
     part = slice(points.start, points.stop)
     described = by_name(store.channels)
     peaks = {}
     for name in names:
-        found = store.peaks(name)
-        peaks[name] = schemas.PeakColumns.model_construct(
-            unit=described[name].unit,
-            long_name=described[name].long_name,
-            range=(found.maximum - found.minimum)[part].tolist(),
-            **{which: column[part].tolist() for which, column in found._asdict().items()},
-        )
+        found = PeakColumns(*(column[part] for column in store.peaks(name)))
+        ranges = found.maximum - found.minimum
+        peaks[name] = schemas.PeakColumns.of(described[name], range=ranges, **found._asdict())
     left_out = described.keys() - set(names)
     return schemas.Sweep.model_construct(**_points(store, points, following, left_out), peaks=peaks)
 
@@ -98,7 +86,7 @@ def _points(
         "start": points.start,
         "next_start": following,
         "values": {
-            one.name: Series.of(one, store.values[part, column])
+            one.name: Series.of(one, values=store.values[part, column])
             for column, one in enumerate(store.parameters)
         },
         "status": [PointStatus(code).name for code in store.status[part]],
@@ -136,33 +124,27 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
 def _described(store: StudyReader, columns: Mapping[str, Floats], part: slice) -> dict[str, Series]:
     outputs = {**OUTPUTS, **store.own_outputs}
     return {
-        name: Series.of(Channel(name, *outputs.get(name, UNKNOWN)), one[part])
+        name: Series.of(Channel(name, *outputs.get(name, UNKNOWN)), values=one[part])
         for name, one in columns.items()
         if name != VERDICT
     }
 
 
 def _rows(
-    store: StudyReader, points: range, window: range, names: list[str]
+    store: StudyReader, points: range, window: range, observables: list[Channel]
 ) -> dict[str, schemas.Rows]:
     """Return times, under the name "", and observables at sections that were recorded."""
-    described = by_name(store.observables)
-    described[""] = Channel("time", "s", "time since the start of the point's run")
-    values: dict[str, list[Any]] = {name: [] for name in ("", *names)}
+    names = [one.name for one in observables]
+    values: dict[str, list[Any]] = {}
     if len(points) == 1:  # of a long record, only the window is read
         time, columns = store.point_sections(points[0], names, window.start, window.stop)
-        for name, column in {"": time, **columns}.items():
-            values[name].append(column.tolist())
+        values = {name: [column.tolist()] for name, column in {"": time, **columns}.items()}
     else:
-        for name in values:
+        for name in ("", *names):
             read = partial(store.sections, name) if name else store.section_times
             values[name] = list(_recorded(store, points, window, read))
-    return {
-        name: schemas.Rows.model_construct(
-            unit=described[name].unit, long_name=described[name].long_name, values=rows
-        )
-        for name, rows in values.items()
-    }
+    described = {"": TIME, **by_name(observables)}
+    return {name: schemas.Rows.of(described[name], values=rows) for name, rows in values.items()}
 
 
 def _recorded(

@@ -1,11 +1,10 @@
 """Queries of a study: a range of points and of their sections, within bounds."""
 
-from collections.abc import Sequence
-
 from pydantic import BaseModel, ConfigDict, Field
 
-from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
-from jointplay.service.results.queries import MOST_VALUES, Selection, chosen_channels
+from jointplay.records.channel import Channel, by_name
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.results.queries import MOST_VALUES, TimeOrPoints, chosen_channels
 from jointplay.storage.studies import StudyReader
 
 
@@ -19,6 +18,10 @@ class PointRange(BaseModel):
         default=None, ge=0, description="Point before which to end; default: after the last."
     )
 
+    def points(self, store: StudyReader) -> range:
+        """Return the points that were asked for, or refuse a range outside the study."""
+        return _within(store.points, "point", self.start, self.stop, ("start", "stop"))
+
 
 class SectionRange(PointRange):
     """A range of points and, of each, a range of sections."""
@@ -30,6 +33,11 @@ class SectionRange(PointRange):
         default=None, ge=0, description="Section before which to end; default: after the last."
     )
 
+    def sections(self, store: StudyReader) -> range:
+        """Return the sections of each point that were asked for, or refuse others."""
+        names = ("section_start", "section_stop")
+        return _within(store.record, "section", self.section_start, self.section_stop, names)
+
 
 class BifurcationQuery(SectionRange):
     """One observable at the sections of a range of points."""
@@ -39,6 +47,15 @@ class BifurcationQuery(SectionRange):
         max_length=200,
         description="Channel that was taken at the sections; default: the first one.",
     )
+
+    def taken(self, store: StudyReader) -> Channel:
+        """Return the observable that is meant, or refuse one that was not recorded."""
+        described = by_name(store.observables)
+        if self.observable is None:
+            return store.observables[0]
+        if self.observable in described:
+            return described[self.observable]
+        return described[chosen_channels(self.observable, store.observables, "observable")[0]]
 
 
 class SweepQuery(PointRange):
@@ -51,18 +68,9 @@ class SweepQuery(PointRange):
     )
 
 
-class PoincareQuery(Selection):
+class PoincareQuery(TimeOrPoints):
     """Selection of Poincare sections: of a simulation by time, of a study by points."""
 
-    start: float | None = Field(
-        default=None,
-        description="Of a simulation: from this time on, in s. Of a study: first point.",
-    )
-    stop: float | None = Field(
-        default=None,
-        description="Of a simulation: up to this time, in s. Of a study: point before which to "
-        "end.",
-    )
     section_start: int | None = Field(
         default=None, ge=0, description="Of a study: first section of each point; default 0."
     )
@@ -70,27 +78,25 @@ class PoincareQuery(Selection):
         default=None, ge=0, description="Of a study: section before which to end."
     )
 
-    def window_of_time(self) -> Selection:
-        """Return the question to a simulation, or refuse what only studies have."""
+    def refuse_sections(self) -> None:
+        """Refuse of a simulation what only studies have."""
         for name in ("section_start", "section_stop"):
             if getattr(self, name) is not None:
                 raise RequestRefused.of_parameter(
                     name, f"A simulation has no {name}; choose by time, in s."
                 )
-        return Selection(channels=self.channels, start=self.start, stop=self.stop)
 
     def range_of_points(self) -> SectionRange:
         """Return the question to a study, or refuse points that are no whole numbers."""
         return SectionRange(
-            start=whole_point("start", self.start),
-            stop=whole_point("stop", self.stop),
+            start=_whole_point("start", self.start),
+            stop=_whole_point("stop", self.stop),
             section_start=self.section_start,
             section_stop=self.section_stop,
         )
 
 
-def whole_point(name: str, value: float | None) -> int | None:
-    """Return the index of a point, or refuse a number that is none."""
+def _whole_point(name: str, value: float | None) -> int | None:
     if value is None:
         return None
     if value < 0.0 or not value.is_integer():
@@ -98,17 +104,6 @@ def whole_point(name: str, value: float | None) -> int | None:
             name, f"{name} is {value:g}; points of a study are counted from 0."
         )
     return int(value)
-
-
-def points_of(store: StudyReader, query: PointRange) -> range:
-    """Return the points that were asked for, or refuse a range outside the study."""
-    return _within(store.points, "point", query.start, query.stop, ("start", "stop"))
-
-
-def sections_of(store: StudyReader, query: SectionRange) -> range:
-    """Return the sections of each point that were asked for, or refuse others."""
-    names = ("section_start", "section_stop")
-    return _within(store.record, "section", query.section_start, query.section_stop, names)
 
 
 def page(points: range, width: int) -> tuple[range, int | None]:
@@ -141,29 +136,6 @@ def page(points: range, width: int) -> tuple[range, int | None]:
     if len(points) <= most:
         return points, None
     return points[:most], points[most]
-
-
-def one_observable(store: StudyReader, name: str | None) -> str:
-    """Return the observable that is meant, or refuse one that was not recorded."""
-    names = [observable.name for observable in store.observables]
-    if name is None:
-        return names[0]
-    if name in names:
-        return name
-    return _chosen("observable", name, names)[0]
-
-
-def channels(parameter: str, text: str | None, names: Sequence[str]) -> list[str]:
-    """Return the channels that names and globs in a parameter mean, or refuse."""
-    return _chosen(parameter, text, list(names))
-
-
-def _chosen(parameter: str, text: str | None, names: list[str]) -> list[str]:
-    try:
-        return chosen_channels(text, names)
-    except RequestRefused as refused:
-        errors = [ErrorDetail(parameter=parameter, detail=one.detail) for one in refused.errors]
-        raise RequestRefused(refused.kind, refused.detail, errors) from None
 
 
 def _within(

@@ -6,18 +6,12 @@ from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
 
-from jointplay.service.dependencies import (
-    NO_PARAMETERS,
-    CatalogueDependency,
-    JobOfThePath,
-    SettingsDependency,
-)
+from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import ErrorDetail, RequestRefused, header, kinds, problems
 from jointplay.service.problems.document import clipped
+from jointplay.service.results.stores import ResultsOfThePath
 from jointplay.service.zarr import ranges
-from jointplay.service.zarr.content import Content
-from jointplay.service.zarr.keys import is_key
-from jointplay.service.zarr.views import content_of, former_content
+from jointplay.service.zarr.contents import Content, content_of, former_content, is_key
 from jointplay.storage.catalogue import Job
 
 router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
@@ -53,17 +47,13 @@ _SERVED: dict[int | str, dict[str, Any]] = {
 @router.get(
     "",
     dependencies=[NO_PARAMETERS],
-    responses=problems(
-        kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.NOT_FOUND, kinds.INVALID_REQUEST
-    ),
+    responses=problems(*kinds.OF_A_JOB, kinds.NOT_FOUND, kinds.INVALID_REQUEST),
 )
-def show_root(
-    job: JobOfThePath, catalogue: CatalogueDependency, settings: SettingsDependency
-) -> dict[str, Any]:
+def show_root(results: ResultsOfThePath) -> dict[str, Any]:
     """Return the metadata of the whole store, which Zarr clients read from `/zarr/zarr.json`."""
-    content = content_of(job, _DOCUMENT, catalogue, settings)
+    content = content_of(results, _DOCUMENT)
     if content is None:
-        raise _nothing_at(job, _DOCUMENT)
+        raise _nothing_at(results.job, _DOCUMENT)
     root: dict[str, Any] = json.loads(content.read(0, content.size))
     return root
 
@@ -74,19 +64,13 @@ def show_root(
     response_class=Response,
     responses=_SERVED
     | problems(
-        kinds.UNKNOWN_JOB,
-        kinds.EXPIRED_JOB,
-        kinds.NOT_FOUND,
-        kinds.RANGE_NOT_SATISFIABLE,
-        kinds.INVALID_REQUEST,
+        *kinds.OF_A_JOB, kinds.NOT_FOUND, kinds.RANGE_NOT_SATISFIABLE, kinds.INVALID_REQUEST
     ),
     dependencies=[NO_PARAMETERS],
 )
 def show_stored(
     request: Request,
-    job: JobOfThePath,
-    catalogue: CatalogueDependency,
-    settings: SettingsDependency,
+    results: ResultsOfThePath,
     key: Annotated[str, Path(description="Key of the Zarr store, such as `zarr.json`.")],
 ) -> Response:
     """Return one key of the job's Zarr v3 store, or a range of its bytes.
@@ -97,14 +81,14 @@ def show_stored(
     """
     # the router drops a newline after the key
     exact = request.scope["path"].endswith(f"/zarr/{key}")
-    content = content_of(job, key, catalogue, settings) if exact and is_key(key) else None
+    content = content_of(results, key) if exact and is_key(key) else None
     if content is None:
-        raise _nothing_at(job, key)
+        raise _nothing_at(results.job, key)
     try:
         try:
             return _answer(request, key, content)
         except ranges.Unsatisfiable:
-            former = former_content(job, key, content, catalogue, settings)
+            former = former_content(results, key, content)
             if former is None:
                 raise
             return _answer(request, key, former)

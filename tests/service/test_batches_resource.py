@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from jointplay.records.job import JobError
-from jointplay.service.batches.schemas import MOST_JOBS
+from jointplay.service.batches.admission import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
 from jointplay.storage.catalogue import BlockState
 from tests.service_in_thread import BIFURCATION

@@ -2,7 +2,7 @@
 
 import pytest
 
-from jointplay.service.estimates.prober import Prober
+from jointplay.service.prober import Prober
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun

@@ -1,17 +1,27 @@
-"""Columns of numbers in the forms that programs read: CSV, NPZ, MATLAB, Arrow."""
+"""Forms of an answer that programs read: JSON, CSV, NPZ, MATLAB or Arrow, as Accept asks."""
 
 import io
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, cast
+from importlib.util import find_spec
+from typing import Annotated, Any, Final, cast
 
 import numpy as np
-from fastapi import Response
+from fastapi import Depends, Request, Response
 from numpy.typing import NDArray
 
 from jointplay.records.text_tables import csv_lines
-from jointplay.service.results.negotiation import ARROW, CSV, FORMS, MATLAB, NPZ
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems.document import clipped
 
+JSON = "application/json"
+CSV = "text/csv"
+NPZ = "application/x-npz"
+MATLAB = "application/x-matlab-data"
+ARROW = "application/vnd.apache.arrow.stream"
+_EXTRA = (ARROW,) if find_spec("pyarrow") else ()  # comes with the extra `arrow`
+FORMS = (JSON, CSV, NPZ, MATLAB, *_EXTRA)
 _SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat", ARROW: "arrows"}
 _LONGEST_FIELD: Final = 63  # of a name in MATLAB
 _OF_A_PARENT: Final = "value"
@@ -124,3 +134,62 @@ def _field(name: str) -> str:
     """Make a name that MATLAB takes."""
     field = re.sub(r"\W", "_", name, flags=re.ASCII)
     return (field if field[:1].isalpha() else f"x{field}")[:_LONGEST_FIELD]
+
+
+def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
+    """Return the media type among those offered that an Accept header likes best.
+
+    Parameters
+    ----------
+    accept
+        The header's value; none takes anything.
+    offered
+        Media types; the first is preferred among equals.
+
+    Returns
+    -------
+    str | None
+        None if the header rules all of them out.
+    """
+    if accept is None or not accept.strip():
+        return offered[0]
+    weights: dict[str, float] = {}
+    for one in accept.lower().split(","):
+        media_range, *parameters = (part.strip() for part in one.split(";"))
+        weights[media_range] = _quality(parameters)
+
+    def weight(media_type: str) -> float:
+        whole_family = f"{media_type.partition('/')[0]}/*"
+        for media_range in (media_type, whole_family, "*/*"):
+            if media_range in weights:
+                return weights[media_range]
+        return 0.0
+
+    best = max(offered, key=weight)
+    return best if weight(best) > 0.0 else None
+
+
+def _quality(parameters: Sequence[str]) -> float:
+    for parameter in parameters:
+        name, _, value = parameter.partition("=")
+        if name.strip() == "q":
+            try:
+                return min(max(float(value), 0.0), 1.0)
+            except ValueError:
+                return 0.0
+    return 1.0
+
+
+async def _form(request: Request) -> str:
+    accept = ",".join(request.headers.getlist("accept")) or None
+    form = preferred(accept, FORMS)
+    if form is None:
+        raise RequestRefused(
+            kinds.NOT_ACCEPTABLE,
+            f"Accept is {clipped(accept or '')!r}; this answer is there as {', '.join(FORMS)}.",
+        )
+    return form
+
+
+Form = Annotated[str, Depends(_form)]
+"""Media type of the answer; refused with 406 if the client takes none that there is."""

@@ -6,13 +6,14 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Header, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, format_sse_event
+from pydantic import BaseModel, Field
 
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
-from jointplay.service.events.schemas import JobEvent, JobProgress
+from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.service.jobs.waiting import WatcherDependency
 from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.problems import kinds, problems
-from jointplay.storage.catalogue import Catalogue, Event, Job
+from jointplay.storage.catalogue import Catalogue, Event, Job, JobState
 
 _PAGE = 1000
 _QUIET = 15.0
@@ -40,11 +41,29 @@ STREAM: dict[int | str, dict[str, Any]] = {
 }
 
 
+class JobEvent(BaseModel):
+    """One thing that happened to a job; its number is the id of the event in the stream."""
+
+    seq: int = Field(description="Counts from 1 without gaps.")
+    type: str = Field(description="A state of the job, or claimed, compiling, released, lost.")
+    time: str = Field(description="When it happened, RFC 3339 in UTC.")
+    data: dict[str, Any] = Field(description="What belongs to it: block, attempt, error.")
+
+
+class JobProgress(BaseModel):
+    """Progress of a job now; these events have no number, and only the newest matters."""
+
+    state: JobState
+    activity: str | None
+    attempt: int
+    progress: Progress
+
+
 @router.get(
     "/{job_id}/events",
     response_class=Response,
     dependencies=[NO_PARAMETERS],
-    responses=STREAM | problems(kinds.UNKNOWN_JOB, kinds.EXPIRED_JOB, kinds.INVALID_REQUEST),
+    responses=STREAM | problems(*kinds.OF_A_JOB, kinds.INVALID_REQUEST),
 )
 async def show_events(
     job: JobOfThePath,
@@ -90,12 +109,13 @@ async def _stream(
                     break
                 last = page[-1].seq
                 yield b"".join(map(_of_history, page))
-            progress = JobProgress.of(status).model_dump_json()
-            yield format_sse_event(event="progress", data_str=progress)
+            progress = JobProgress.model_validate(vars(status) | {"progress": vars(status)})
+            yield format_sse_event(event="progress", data_str=progress.model_dump_json())
             if status.state.terminal:
                 return
 
 
 def _of_history(event: Event) -> bytes:
-    data = JobEvent.of(event).model_dump_json()
+    shown = JobEvent.model_validate(vars(event) | {"time": moment(event.time).isoformat()})
+    data = shown.model_dump_json()
     return format_sse_event(id=str(event.seq), event=event.type, data_str=data)

@@ -1,1 +1,0 @@
-"""``/v1/estimates``: what a job will cost, before anything is queued."""

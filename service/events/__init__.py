@@ -1,1 +1,0 @@
-"""``/v1/jobs/{id}/events``: streams of what happens to jobs."""

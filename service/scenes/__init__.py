@@ -1,1 +1,0 @@
-"""``/v1/scenes``: the mechanisms that a job can name."""
