@@ -2,7 +2,7 @@
 
 import jointplay
 from jointplay.client import Refused
-from jointplay.command_line.accuracy import print_accuracy
+from jointplay.command_line.accuracy import accuracy_lines
 from jointplay.solver.scene import presets
 
 
@@ -13,7 +13,7 @@ def main() -> None:
         except Refused:  # drivers prescribe every motion
             continue
         print(f"\n### {name}\n")
-        print_accuracy(job.accuracy)
+        print("\n".join(accuracy_lines(job.accuracy)))
 
 
 if __name__ == "__main__":

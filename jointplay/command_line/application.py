@@ -2,31 +2,35 @@
 
 import gc
 import sys
+from importlib import import_module
+from typing import Final
 
 import typer
 
-from jointplay.command_line import (
-    accuracy,
-    batch,
-    calibrate,
-    cancel,
-    certificate,
-    cite,
-    compare,
-    delete,
-    demo,
-    export,
-    ls,
-    openapi,
-    plot,
-    reproduce,
-    run_locally,
-    scene,
-    serve,
-    show,
-    submit,
-)
+from jointplay.command_line import scene
 from jointplay.command_line.exits import Exit, Stopped
+
+COMMANDS: Final = (
+    "run",
+    "accuracy",
+    "calibrate",
+    "demo",
+    "reproduce",
+    "serve",
+    "submit",
+    "batch",
+    "ls",
+    "show",
+    "cancel",
+    "delete",
+    "export",
+    "certificate",
+    "plot",
+    "compare",
+    "cite",
+    "openapi",
+)
+"""In the order of the help; each is the function of this name in the file of this name."""
 
 application = typer.Typer(
     name="jointplay",
@@ -37,37 +41,34 @@ application = typer.Typer(
     rich_markup_mode="markdown",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-application.command("run")(run_locally.run)
-application.command()(accuracy.accuracy)
-application.command()(calibrate.calibrate)
-application.command()(demo.demo)
-application.command()(reproduce.reproduce)
-application.command()(serve.serve)
-application.command()(submit.submit)
-application.command()(batch.batch)
-application.command()(ls.ls)
-application.command()(show.show)
-application.command()(cancel.cancel)
-application.command()(delete.delete)
-application.command()(export.export)
-application.command()(certificate.certificate)
-application.command()(plot.plot)
-application.command()(compare.compare)
-application.command()(cite.cite)
-application.command()(openapi.openapi)
+for name in COMMANDS:
+    application.command(name)(getattr(import_module(f"jointplay.command_line.{name}"), name))
 application.add_typer(scene.application, name="scene")
 
 OBJECTS_BETWEEN_COLLECTIONS = 500_000
 """A command imports and draws: most objects live on, and Python would look at them all, and again,
 for a seventh of the time of a short run. That many objects of no more use take some 50 MB."""
 
-_WRONG_PATH = (
-    FileNotFoundError,
-    FileExistsError,
-    IsADirectoryError,
-    NotADirectoryError,
-    PermissionError,
-)
+EXITS: Final = {
+    "Unreachable": Exit.UNREACHABLE,
+    "JobCancelled": Exit.CANCELLED,
+    "JobFailed": Exit.FAILED,
+    "ServiceFailure": Exit.FAILED,
+    "WrongSetting": Exit.BAD_INPUT,
+    "StartFailed": Exit.FAILED,
+    "ClientError": Exit.BAD_INPUT,
+    "InvalidInput": Exit.BAD_INPUT,
+    "MalformedJson": Exit.BAD_INPUT,
+    "FigureError": Exit.BAD_INPUT,
+    "ResultsError": Exit.BAD_INPUT,
+    "FileNotFoundError": Exit.BAD_INPUT,
+    "FileExistsError": Exit.BAD_INPUT,
+    "IsADirectoryError": Exit.BAD_INPUT,
+    "NotADirectoryError": Exit.BAD_INPUT,
+    "PermissionError": Exit.BAD_INPUT,
+    "OSError": Exit.FAILED,
+}
+"""By class of exception; by its name, so that nothing is loaded only to be compared with."""
 
 
 def run(arguments: list[str] | None = None) -> int:
@@ -79,11 +80,14 @@ def run(arguments: list[str] | None = None) -> int:
         return _reported(Exit.INTERRUPTED, "interrupted")
     except typer.TyperException as error:
         return _reported(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
+    except Stopped as error:
+        return _reported(error.code, str(error))
     except Exception as error:
-        classified = _classified(error)
-        if classified is None:
+        line = _line_of(error)
+        code = _exit_of(error)
+        if line is None or code is None:
             raise  # a fault of ours: the traceback is what helps
-        return _reported(*classified)
+        return _reported(code, line)
     if code == Exit.INTERRUPTED:  # typer's own way to say Ctrl-C
         return _reported(Exit.INTERRUPTED, "interrupted")
     return int(code or Exit.OK)
@@ -94,50 +98,18 @@ def _reported(code: Exit, line: str) -> int:
     return code
 
 
-def _classified(error: Exception) -> tuple[Exit, str] | None:
-    """Return exit code and line of a failure that is not a fault of the program."""
-    if isinstance(error, Stopped):
-        return error.code, str(error)
-    if isinstance(error, OSError) and error.filename is not None:
-        code = Exit.BAD_INPUT if isinstance(error, _WRONG_PATH) else Exit.FAILED
-        return code, f"{error.filename}: {error.strerror}."
-    return _bad_document(error) or _service_failure(error) or _bad_results(error)
-
-
-def _bad_document(error: Exception) -> tuple[Exit, str] | None:
-    from jointplay.records.failure import InvalidInput
-    from jointplay.records.strict_json import MalformedJson
-
-    if isinstance(error, InvalidInput):
-        return Exit.BAD_INPUT, _listed(error.problems)
-    if isinstance(error, MalformedJson):
-        return Exit.BAD_INPUT, _listed(error.flaws)
+def _exit_of(error: Exception) -> Exit | None:
+    for kind in type(error).__mro__:
+        ours = kind.__module__ == "builtins" or kind.__module__.startswith("jointplay.")
+        if ours and kind.__name__ in EXITS:
+            return EXITS[kind.__name__]
     return None
 
 
-def _service_failure(error: Exception) -> tuple[Exit, str] | None:
-    from jointplay.client import ClientError, JobCancelled, JobFailed, ServiceFailure, Unreachable
-    from jointplay.service.processes import StartFailed, WrongSetting
-
-    if isinstance(error, Unreachable):
-        return Exit.UNREACHABLE, str(error)
-    if isinstance(error, JobCancelled):
-        return Exit.CANCELLED, str(error)
-    if isinstance(error, JobFailed | ServiceFailure | StartFailed) and not isinstance(
-        error, WrongSetting
-    ):
-        return Exit.FAILED, str(error)
-    known = isinstance(error, ClientError | WrongSetting)
-    return (Exit.BAD_INPUT, str(error)) if known else None
-
-
-def _bad_results(error: Exception) -> tuple[Exit, str] | None:
-    from jointplay.figures import FigureError
-    from jointplay.storage.results import ResultsError
-
-    known = isinstance(error, FigureError | ResultsError)
-    return (Exit.BAD_INPUT, str(error)) if known else None
-
-
-def _listed(problems: tuple[tuple[str, str], ...]) -> str:
-    return "; ".join(f"{place}: {detail}" if place else detail for place, detail in problems)
+def _line_of(error: Exception) -> str | None:
+    """Return what is said of a failure; nothing where the system failed without naming a file."""
+    if isinstance(error, OSError):
+        return None if error.filename is None else f"{error.filename}: {error.strerror}."
+    problems = getattr(error, "problems", ()) or getattr(error, "flaws", ())
+    listed = [f"{place}: {detail}" if place else detail for place, detail in problems]
+    return "; ".join(listed) or str(error)

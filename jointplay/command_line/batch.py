@@ -1,14 +1,14 @@
 """``jointplay batch``: many jobs of a service at once."""
 
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection
+from jointplay.command_line.connection import connect
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.output import tell
 
 if TYPE_CHECKING:
     from jointplay.client import Batch
@@ -26,7 +26,7 @@ def batch(
     cancel: Annotated[bool, typer.Option("--cancel", help="Cancel the batch of this id.")] = False,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until all jobs are finished.")] = False,
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Queue all jobs of a file at a service, or none; or look at a batch by its id.
 
@@ -37,14 +37,14 @@ def batch(
     """
     from jointplay.records.job_id import is_job_id
 
-    with connection.connect(url) as client:
+    with connect(url) as client:
         known = is_job_id(source) and not Path(source).exists()
         if known:
             found = client.batch(source)
             if cancel:
                 found.cancel()
         elif cancel:
-            raise Stopped(Exit.BAD_INPUT, "--cancel takes the id of a batch.")
+            raise Stopped("--cancel takes the id of a batch.")
         else:
             jobs, own_label = _jobs_in(Path(source))
             found = client.submit_batch(jobs, label if label is not None else own_label)
@@ -52,12 +52,9 @@ def batch(
                 typer.echo(found.id)
         if wait:
             _wait_for(found)
-    if as_json:
-        print_json(found.to_document())
-    elif known or wait:
-        typer.echo(found.states)
+    tell(found.to_document(), [found.states] if known or wait else [], as_json=as_json)
     if wait:
-        _exit_of(found)
+        _check(found)
 
 
 def _jobs_in(path: Path) -> tuple[list[Any], str]:
@@ -68,8 +65,7 @@ def _jobs_in(path: Path) -> tuple[list[Any], str]:
     if isinstance(document, dict) and isinstance(document.get("jobs"), list):
         return document["jobs"], document.get("label", "")
     if not isinstance(document, list):
-        line = f"{path}: a batch is a list of jobs, or an object with a list of 'jobs'."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"{path}: a batch is a list of jobs, or an object with a list of 'jobs'.")
     return document, ""
 
 
@@ -81,12 +77,13 @@ def _wait_for(found: "Batch") -> None:
             found.wait(report=lambda batch: report(batch.fraction, batch.states))
         except KeyboardInterrupt:
             line = f"stopped waiting; the jobs go on: jointplay batch --wait {found.id}"
-            raise Stopped(Exit.INTERRUPTED, line) from None
+            raise Stopped(line, Exit.INTERRUPTED) from None
 
 
-def _exit_of(found: "Batch") -> None:
-    counts = Counter(found.counts)
-    if counts["failed"]:
-        raise Stopped(Exit.FAILED, f"{counts['failed']} of {found.size} jobs failed")
-    if counts["cancelled"]:
-        raise Stopped(Exit.CANCELLED, f"{counts['cancelled']} of {found.size} jobs were cancelled")
+def _check(found: "Batch") -> None:
+    for state, words, code in (
+        ("failed", "failed", Exit.FAILED),
+        ("cancelled", "were cancelled", Exit.CANCELLED),
+    ):
+        if count := found.counts.get(state):
+            raise Stopped(f"{count} of {found.size} jobs {words}", code)

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jointplay.command_line import job_document
 from jointplay.command_line.calibration_options import calibration_document
 from jointplay.command_line.compact_json import compact_json
 from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.options import PROCESSES, SET
 
 if TYPE_CHECKING:
     from jointplay.solver.calibration.outcome import Outcome
@@ -24,7 +24,7 @@ def calibrate(
             help="A calibration, or what one left (it is repeated); a scene with options.",
         ),
     ],
-    settings: job_document.SET = None,
+    settings: SET = None,
     fit: Annotated[
         list[str] | None,
         typer.Option(
@@ -50,9 +50,7 @@ def calibrate(
     factor: Annotated[
         float | None, typer.Option(help="How many times the best cost is equally good.")
     ] = None,
-    processes: Annotated[
-        int | None, typer.Option(min=1, max=1024, help="Default one for each core.")
-    ] = None,
+    processes: PROCESSES = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the JSON there.")
@@ -72,6 +70,7 @@ def calibrate(
     `jointplay calibrate seven-bar-press --fit stiffness=1e8:1e11:log --set clearance=5e-4
     --target A.normal_force@0:0.012=1020`
     """
+    from jointplay.command_line.calibration_table import calibration_lines
     from jointplay.solver.calibration.problem import admit_calibration
 
     calibration = admit_calibration(
@@ -87,13 +86,15 @@ def calibrate(
         )
     )
     outcome = _compute(calibration, processes)
-    _write(outcome, output, preset_out)
-    if as_json:
-        typer.echo(compact_json(outcome.document()))
-        return
-    from jointplay.command_line.calibration_table import lines
+    document = compact_json(outcome.document())
+    if output is not None:
+        output.write_text(document + "\n")
+    if preset_out is not None:
+        from jointplay.solver.calibration.fitted_scene import fitted_scene
 
-    for line in lines(outcome):
+        name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
+        preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")
+    for line in [document] if as_json else calibration_lines(outcome):
         typer.echo(line)
 
 
@@ -112,19 +113,9 @@ def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
             with measures(calibration, processes or cores()) as (fitted, every):
                 outcome = search.calibrate(calibration, fitted, every, report)
         except search.NothingFits as nothing:
-            raise Stopped(Exit.FAILED, str(nothing)) from None
+            raise Stopped(str(nothing), Exit.FAILED) from None
         except BrokenProcessPool:
             line = "a process that computed candidates died; nothing was found"
-            raise Stopped(Exit.FAILED, line) from None
+            raise Stopped(line, Exit.FAILED) from None
         report(1.0, f"{len(outcome.found.costs) + outcome.good.tried} candidates")
     return outcome
-
-
-def _write(outcome: "Outcome", output: Path | None, preset_out: Path | None) -> None:
-    if output is not None:
-        output.write_text(compact_json(outcome.document()) + "\n")
-    if preset_out is not None:
-        from jointplay.solver.calibration.fitted_scene import fitted_scene
-
-        name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
-        preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from jointplay.command_line import job_document
-from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.job_document import is_scene_file, job_document
 
 _STATISTICS = ("maximum", "minimum", "range", "maximum_time", "minimum_time")
 
@@ -23,47 +23,32 @@ def calibration_document(
 ) -> dict[str, Any]:
     """Return the calibration that ``source`` and the options describe; nothing is checked yet.
 
-    Parameters
-    ----------
-    source
-        Path of a calibration, of what one left (it is repeated), or of a scene; or a preset.
-    settings
-        ``name=value`` for parameters of the scene.
-    fits
-        ``name=min:max`` or ``name=min:max:log``.
-    targets
-        ``channel=value``, ``channel:statistic@from:to=value``; none: what the scene's source
-        reports.
-    duration
-        End of the windows that targets leave open, s.
-    search, spread
-        Fields of the document's parts of the same name; those that are None are left as they are.
+    ``source`` is the path of a calibration, of what one left (it is repeated), or of a scene; or
+    a preset.  The rest is as it was typed; without targets they are what the scene's source
+    reports.  ``search`` and ``spread`` are fields of the parts of that name; those that are None
+    are left as they are.
     """
     free = dict(map(_fit, fits))
-    whole = _whole(source)
-    given = job_document.job_document(source, settings=settings, options={})
+    whole = Path(source).is_file() and not is_scene_file(source)
+    given = job_document(source, settings=settings, options={})
     if whole:
         document = given.get("calibration", given)
         if settings and document is not given:
             line = f"{source} is what a calibration left; --set would make another one of it."
-            raise Stopped(Exit.BAD_INPUT, line)
+            raise Stopped(line)
         if targets:
             line = f"{source} has its targets already; --target makes them for a scene or a preset."
-            raise Stopped(Exit.BAD_INPUT, line)
+            raise Stopped(line)
     else:
         document = {"kind": "calibration", "scene": given["scene"], "parameters": {}}
         document["cases"] = _cases(given["scene"], targets, duration)
     if not isinstance(document, dict):
-        raise Stopped(Exit.BAD_INPUT, f"{source}: 'calibration' is a JSON object.")
+        raise Stopped(f"{source}: 'calibration' is a JSON object.")
     if free:
         parameters = document.get("parameters")
-        document["parameters"] = {
-            **(parameters if isinstance(parameters, dict) else {}),
-            **free,
-        }
+        document["parameters"] = (parameters if isinstance(parameters, dict) else {}) | free
     if not document.get("parameters"):
-        line = "Nothing may move: give --fit NAME=MIN:MAX, such as stiffness=1e8:1e11:log."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped("Nothing may move: give --fit NAME=MIN:MAX, such as stiffness=1e8:1e11:log.")
     for part, fields in (("search", search), ("spread", spread)):
         changed = {name: value for name, value in fields.items() if value is not None}
         before = document.get(part, {})
@@ -75,11 +60,6 @@ def calibration_document(
     return document
 
 
-def _whole(source: str) -> bool:
-    """Tell whether ``source`` is a document that is no scene."""
-    return Path(source).is_file() and not job_document.is_scene_file(source)
-
-
 def _cases(
     scene: dict[str, Any], targets: Sequence[str], duration: float | None
 ) -> list[dict[str, Any]]:
@@ -88,11 +68,10 @@ def _cases(
 
     if targets:
         return [{"targets": [_target(text, duration) for text in targets]}]
-    written = presets.document(scene["preset"]) if "preset" in scene else scene
-    cases = reported_cases(written)
+    cases = reported_cases(presets.document(scene["preset"]) if "preset" in scene else scene)
     if not cases:
         line = "The scene reports no numbers: give --target, such as A.normal_force@0:0.01=500."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(line)
     return cases
 
 
@@ -100,8 +79,7 @@ def _fit(text: str) -> tuple[str, dict[str, object]]:
     name, equals, bounds = text.partition("=")
     parts = bounds.split(":")
     if not (name and equals) or len(parts) not in (2, 3) or parts[2:] not in ([], ["log"]):
-        line = f"--fit {text}: write NAME=MIN:MAX, and :log after it for equal ratios."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"--fit {text}: write NAME=MIN:MAX, and :log after it for equal ratios.")
     low, high = (_number("--fit", part) for part in parts[:2])
     spacing = {"spacing": "log"} if parts[2:] else {}
     return name, {"minimum": low, "maximum": high, **spacing}
@@ -110,18 +88,17 @@ def _fit(text: str) -> tuple[str, dict[str, object]]:
 def _target(text: str, duration: float | None) -> dict[str, object]:
     """Return the target of ``channel[:statistic][@from:to]=value``."""
     place, equals, value = text.partition("=")
-    place, at, window = place.partition("@")
+    place, _, window = place.partition("@")
     channel, colon, statistic = place.partition(":")
-    start, _, stop = window.partition(":") if at else ("", "", "")
+    start, _, stop = window.partition(":")
     if not (channel and equals and value) or (colon and statistic not in _STATISTICS):
-        line = (
+        raise Stopped(
             f"--target {text}: write CHANNEL=VALUE, such as A.normal_force@0:0.01=500; after the"
             f" channel may come :{', :'.join(_STATISTICS[1:])}."
         )
-        raise Stopped(Exit.BAD_INPUT, line)
     if not stop and duration is None:
         line = f"--target {text}: give the window as CHANNEL@FROM:TO=VALUE, or a --duration."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(line)
     return {
         "channel": channel,
         "statistic": statistic or "maximum",
@@ -135,4 +112,4 @@ def _number(option: str, text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise Stopped(Exit.BAD_INPUT, f"{option}: {text!r} is not a number.") from None
+        raise Stopped(f"{option}: {text!r} is not a number.") from None

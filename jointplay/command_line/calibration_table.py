@@ -12,7 +12,7 @@ ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a f
 TOGETHER = 0.8  # correlation from which parameters are said to make up for one another
 
 
-def lines(outcome: "Outcome") -> Iterator[str]:
+def calibration_lines(outcome: "Outcome") -> Iterator[str]:
     """Yield the targets beside what was fitted, the parameters with their spread, and notes."""
     document = outcome.document()
     targets, parameters = document["targets"], document["parameters"]

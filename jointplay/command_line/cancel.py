@@ -4,14 +4,15 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import connect
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.output import tell
 
 
 def cancel(
     job_id: Annotated[str, typer.Argument(metavar="ID", help="Id of the job.")],
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Ask for a job to be cancelled; what it has computed stays readable.
 
@@ -19,9 +20,6 @@ def cancel(
 
     Example: `jointplay cancel 01M7YCD368E9VM5RM0B9JY3SGA`
     """
-    with connection.connect(url) as client:
+    with connect(url) as client:
         job = client.job(job_id).cancel()
-    if as_json:
-        print_json(job.to_document())
-    else:
-        typer.echo(f"{job_id}  {job.state}")
+    tell(job.to_document(), [f"{job_id}  {job.state}"], as_json=as_json)

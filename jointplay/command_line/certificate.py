@@ -4,37 +4,32 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import typer
-
-from jointplay.command_line import connection
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import job_of
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL
+from jointplay.command_line.output import tell
 
 if TYPE_CHECKING:
     from jointplay.client import Job
 
 
-def certificate(
-    results: connection.RESULTS,
-    as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
-) -> None:
+def certificate(results: RESULTS, as_json: AS_JSON = False, url: URL = DEFAULT_URL) -> None:
     """Print how far a simulation can be believed: its numbers, and until when each channel.
 
     With --json also the estimated errors over time, and the spreads beyond.
 
     Example: `jointplay certificate OUT`
     """
-    with connection.job_of(results, url) as job:
+    with job_of(results, url) as job:
         document = job.certificate
-    if as_json:
-        print_json(document)
-        return
-    channels = document["channels"]
+    tell(document, _lines(document), as_json=as_json)
+
+
+def _lines(document: dict[str, Any]) -> Iterator[str]:
     own = {name: one for name, one in document.items() if name not in ("time", "channels")}
     for name, value in _numbers("", own):
-        typer.echo(f"{name:32} {value}")
-    for name, channel in channels.items():
-        typer.echo(f"{name:32} until {channel['until']:.6g} s")
+        yield f"{name:32} {value}"
+    for name, channel in document["channels"].items():
+        yield f"{name:32} until {channel['until']:.6g} s"
 
 
 def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
@@ -48,8 +43,8 @@ def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
         yield name, f"{value:.7g}" if isinstance(value, float) else str(value)
 
 
-def print_headline(job: "Job") -> None:
-    """Print where a job's motion is converged, and its exponent, a line each, if it has any."""
+def headlines(job: "Job") -> Iterator[str]:
+    """Yield where a job's motion is converged, and its exponent, a line each, if it has any."""
     from jointplay.client import NotFound, ResultsNotReady
 
     try:
@@ -57,8 +52,8 @@ def print_headline(job: "Job") -> None:
     except (NotFound, ResultsNotReady):
         return
     spans = [f"{start:.4g} to {stop:.4g} s" for start, stop in document["converged"]]
-    typer.echo(f"converged {', '.join(spans)}")
+    yield f"converged {', '.join(spans)}"
     if (found := document.get("exponent")) is not None:
         error = math.inf if found["error"] is None else found["error"]
         spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"
-        typer.echo(f"exponent  {found['value']:.3g} ± {error:.2g} 1/s, {spread}")
+        yield f"exponent  {found['value']:.3g} ± {error:.2g} 1/s, {spread}"

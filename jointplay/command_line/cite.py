@@ -4,11 +4,17 @@ from typing import Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import job_of
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.output import tell
 
 TITLE = "jointplay: simulation of planar mechanisms whose joints have play"
 AUTHORS = "The jointplay developers"
+_ENTRY = f"""@software{{jointplay,
+  title = {{{TITLE}}},
+  author = {{{{{AUTHORS}}}}},
+  version = {{%s}},
+}}"""
 
 
 def cite(
@@ -17,32 +23,31 @@ def cite(
         typer.Argument(metavar="[OUT|ID]", help="A run's folder, or id of a job."),
     ] = None,
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Print what to cite: the program as BibTeX, and of a job its scene's source and its identity.
 
     Example: `jointplay cite 01M7YCD368E9VM5RM0B9JY3SGA`
     """
-    facts = _facts(results, url) if results is not None else {"version": _version()}
-    entry = _bibtex(facts["version"])
-    if as_json:
-        print_json(facts | {"bibtex": entry})
-        return
-    typer.echo(entry)
-    for name, value in facts.items():
-        if name != "version" and value:
-            typer.echo(f"{name}: {value}")
+    from importlib.metadata import version
+
+    facts: dict[str, Any] = {"version": version("jointplay")}
+    if results is not None:
+        facts |= _facts(results, url)
+    entry = _ENTRY % facts["version"]
+    lines = [f"{name}: {value}" for name, value in facts.items() if name != "version" and value]
+    tell(facts | {"bibtex": entry}, [entry, *lines], as_json=as_json)
 
 
 def _facts(results: str, url: str) -> dict[str, Any]:
     """Return what tells a result from every other one, and where its scene is from."""
     from jointplay.solver.scene import presets
 
-    with connection.job_of(results, url) as job:
+    with job_of(results, url) as job:
         name = job.job["scene"].get("preset")
         scene = presets.document(name) if name else job.job["scene"]
     return {
-        "version": job.solver_version or _version(),
+        **({"version": job.solver_version} if job.solver_version else {}),
         "job": results,
         "scene": job.scene_name,
         "source of the scene": scene.get("source"),
@@ -58,21 +63,3 @@ def _digest(job: dict[str, Any]) -> str:
     unlabelled = {name: value for name, value in job.items() if name != "label"}
     text = json.dumps(unlabelled, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _version() -> str:
-    from importlib.metadata import version
-
-    return version("jointplay")
-
-
-def _bibtex(version: str) -> str:
-    return "\n".join(
-        (
-            "@software{jointplay,",
-            f"  title = {{{TITLE}}},",
-            f"  author = {{{{{AUTHORS}}}}},",
-            f"  version = {{{version}}},",
-            "}",
-        )
-    )

@@ -1,36 +1,22 @@
 """``jointplay compare``: several runs over one another, and a table of their peaks."""
 
 import json
-from collections.abc import Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.drawing import Form
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.job_options import listed
-from jointplay.command_line.output import AS_JSON, print_json
-from jointplay.command_line.peaks import print_peaks, rows_of
+from jointplay.command_line.connection import job_of
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, form_of
+from jointplay.command_line.output import tell
+from jointplay.command_line.peaks import peak_rows, peak_table
 
 if TYPE_CHECKING:
-    from jointplay.client import Job, Peak
-    from jointplay.figures.overlay import Curve
+    from jointplay.client import Job
 
 _MOST_PANELS = 6
-
-
-@dataclass(frozen=True)
-class _Run:
-    """One run: what tells it from the others, and its peaks."""
-
-    name: str
-    job: "Job"
-    outputs: list[str]
-    peaks: "Mapping[str, Peak]"
 
 
 def compare(
@@ -47,64 +33,50 @@ def compare(
         Path, typer.Option("-o", "--output", metavar="FILE", help="The figure, .png or .svg.")
     ] = Path("comparison.png"),
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Draw channels of several simulations over one another, and print their peaks side by side.
 
     Example: `jointplay compare OUT1 OUT2 --channels displacement --stop 0.5 -o both.svg`
     """
-    from jointplay.figures.overlay import MOST_CURVES, draw_overlay
+    from jointplay.figures.overlay import MOST_CURVES, Curve, draw_overlay
 
-    form = _form_of(output)
+    form = form_of(output, f"{output}: a figure's name ends in .png or .svg.")
     if not 2 <= len(results) <= MOST_CURVES:
-        line = f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}.")
     with ExitStack() as stack:
-        jobs = [stack.enter_context(connection.job_of(one, url)) for one in results]
-        runs = [_run(name, job) for name, job in zip(results, jobs, strict=True)]
-        labels = _labels(runs)
-        names = _chosen(runs, listed(channels))
+        jobs = [stack.enter_context(job_of(one, url)) for one in results]
+        for name, job in zip(results, jobs, strict=True):
+            if job.is_study:
+                raise Stopped(f"{name} is a {job.kind}; compare simulations.")
+        peaks = [{row["channel"]: row for row in peak_rows(job.results.peaks())} for job in jobs]
+        common = [name for name in peaks[0] if all(name in one for one in peaks)]
+        labels = _labels(jobs) or results
+        names = _chosen(jobs, common, channels)
         drawn = names[:_MOST_PANELS]
-        curves = [
-            _curves(run, label, drawn, start, stop) for run, label in zip(runs, labels, strict=True)
-        ]
-        panels = {name: [of_run[name] for of_run in curves] for name in drawn}
+        panels: dict[str, list[Curve]] = {name: [] for name in drawn}
+        for job, label in zip(jobs, labels, strict=True):
+            window = job.window(drawn, start, stop)
+            for name, one in window.channels.items():
+                panels[name].append(Curve(label, one.unit, window.time, one.values))
         output.write_bytes(draw_overlay(panels, form))
-    table = _table(runs, labels, names)
-    if as_json:
-        print_json({"figure": str(output), "peaks": table})
-        return
-    print_peaks(table, "run")
-    typer.echo(output)
+    of_runs = list(zip(labels, peaks, strict=True))
+    table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
+    lines = [*peak_table(table, "run"), output]
+    tell({"figure": str(output), "peaks": table}, lines, as_json=as_json)
 
 
-def _form_of(path: Path) -> Form:
-    forms: dict[str, Form] = {".png": "png", ".svg": "svg"}
-    if path.suffix not in forms:
-        raise Stopped(Exit.BAD_INPUT, f"{path}: a figure's name ends in .png or .svg.")
-    return forms[path.suffix]
-
-
-def _run(name: str, job: "Job") -> _Run:
-    if job.is_study:
-        raise Stopped(Exit.BAD_INPUT, f"{name} is a {job.kind}; compare simulations.")
-    outputs = [one["name"] for one in job.job["scene"].get("outputs", [])]
-    return _Run(name, job, outputs, job.results.peaks())
-
-
-def _labels(runs: list[_Run]) -> list[str]:
+def _labels(jobs: list["Job"]) -> list[str] | None:
     """Tell runs apart by their own labels, else by the parameters in which they differ."""
-    own = [run.job.label or "" for run in runs]
-    if all(own) and len(set(own)) == len(own):
-        return own
-    facts = [_facts(run.job.job) for run in runs]
+    facts = [_facts(job.job) for job in jobs]
     differing = [name for name in facts[0] if len({json.dumps(one.get(name)) for one in facts}) > 1]
-    labels = [
+    by_facts = [
         " ".join(f"{name}={_short(one.get(name))}" for name in differing[:3]) for one in facts
     ]
-    if all(labels) and len(set(labels)) == len(labels):
-        return labels
-    return [run.name for run in runs]
+    for labels in ([job.label or "" for job in jobs], by_facts):
+        if all(labels) and len(set(labels)) == len(labels):
+            return labels
+    return None
 
 
 def _facts(job: dict[str, Any]) -> dict[str, Any]:
@@ -120,38 +92,18 @@ def _short(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _chosen(runs: list[_Run], wanted: list[str] | None) -> list[str]:
+def _chosen(jobs: list["Job"], common: list[str], wanted: str | None) -> list[str]:
     from jointplay.records.channel_choice import NoSuchChannel, choose
 
-    common = [name for name in runs[0].peaks if all(name in run.peaks for run in runs)]
     if not common:
-        raise Stopped(Exit.BAD_INPUT, "The runs have no channel in common.")
+        raise Stopped("The runs have no channel in common.")
     if wanted is not None:
         try:
-            return choose(",".join(wanted), common)
+            return choose(wanted, common)
         except NoSuchChannel as error:
-            raise Stopped(Exit.BAD_INPUT, " ".join(error.sentences)) from None
-    outputs = [name for run in runs for name in run.outputs if name in common]
-    first = [*dict.fromkeys(outputs), *(n for n in common if "." not in n and n not in outputs)]
-    first += [name for name in common if name.endswith(".normal_force")]
-    return first[:_MOST_PANELS] or common[:_MOST_PANELS]
-
-
-def _curves(
-    run: _Run, label: str, names: list[str], start: float | None, stop: float | None
-) -> "dict[str, Curve]":
-    from jointplay.figures.overlay import Curve
-
-    found = run.job.window(names, start, stop)
-    return {
-        name: Curve(label, one.unit, found.time, one.values) for name, one in found.channels.items()
-    }
-
-
-def _table(runs: list[_Run], labels: list[str], names: list[str]) -> list[dict[str, Any]]:
-    rows = [{row["channel"]: row for row in rows_of(run.peaks)} for run in runs]
-    return [
-        {"run": label, **of_run[name]}
-        for name in names
-        for of_run, label in zip(rows, labels, strict=True)
-    ]
+            raise Stopped(str(error)) from None
+    declared = [one["name"] for job in jobs for one in job.job["scene"].get("outputs", [])]
+    outputs = [name for name in declared if name in common]
+    first = dict.fromkeys([*outputs, *(name for name in common if "." not in name)])
+    first |= dict.fromkeys(name for name in common if name.endswith(".normal_force"))
+    return [*first][:_MOST_PANELS] or common[:_MOST_PANELS]

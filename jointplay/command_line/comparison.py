@@ -22,11 +22,8 @@ class Case:
 
     @property
     def label(self) -> str:
-        """Short name, such as ``clearance=0.0003 friction=0.01``."""
-        return " ".join(
-            f"{name}={value:g}" if isinstance(value, float) else f"{name}={value}"
-            for name, value in self.parameters.items()
-        )
+        """Short name."""
+        return label(self.parameters)
 
     @property
     def folder(self) -> str:
@@ -55,23 +52,12 @@ def cases_of(scene: Mapping[str, Any]) -> list[Case]:
     return list(cases.values())
 
 
-def document(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[dict[str, Any]]:
-    """Return every reported number beside ours.
-
-    Parameters
-    ----------
-    cases
-        What was run.
-    peaks
-        The peaks of each case by channel.
-    """
+def rows_of(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[dict[str, Any]]:
+    """Return every reported number beside ours; `peaks` are those of each case by channel."""
     return [
         {
-            "where": entry["where"],
+            **{name: entry[name] for name in ("where", "channel", "statistic", "unit")},
             "parameters": case.parameters,
-            "channel": entry["channel"],
-            "statistic": entry["statistic"],
-            "unit": entry["unit"],
             "reported": entry["value"],
             "ours": getattr(found[entry["channel"]], entry["statistic"]),
             "note": entry.get("note", ""),
@@ -81,24 +67,30 @@ def document(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> li
     ]
 
 
-def table(cases: Sequence[Case], peaks: Sequence[Mapping[str, "Peak"]]) -> list[str]:
-    """Return the lines of the table, and the notes below it; arguments as for `document`."""
-    rows = [("source", "case", "quantity", "reported", "ours", "ours/reported", "")]
-    notes: list[str] = []
-    labels = [case.label for case in cases for _ in case.reported]
-    for label, entry in zip(labels, document(cases, peaks), strict=True):
-        ours, note = entry["ours"], entry["note"]
-        if note and note not in notes:
-            notes.append(note)
-        rows.append(
-            (
-                entry["where"],
-                label,
-                f"{entry['statistic']} of {entry['channel']} [{entry['unit']}]",
-                f"{entry['reported']:g}",
-                f"{ours:.6g}",
-                f"{ours / entry['reported']:.4f}",
-                f"({notes.index(note) + 1})" if note else "",
-            )
+def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the lines of the table of `rows_of`, and the notes below it."""
+    head = ("source", "case", "quantity", "reported", "ours", "ours/reported", "")
+    notes = list(dict.fromkeys(row["note"] for row in rows if row["note"]))
+    lines = [
+        (
+            row["where"],
+            label(row["parameters"]),
+            f"{row['statistic']} of {row['channel']} [{row['unit']}]",
+            f"{row['reported']:g}",
+            f"{row['ours']:.6g}",
+            f"{row['ours'] / row['reported']:.4f}",
+            f"({notes.index(row['note']) + 1})" if row["note"] else "",
         )
-    return [*aligned(rows)] + [f"({number}) {note}" for number, note in enumerate(notes, 1)]
+        for row in rows
+    ]
+    return [*aligned([head, *lines])] + [
+        f"({number}) {note}" for number, note in enumerate(notes, 1)
+    ]
+
+
+def label(parameters: Mapping[str, float | str]) -> str:
+    """Return a short name of a case, such as ``clearance=0.0003 friction=0.01``."""
+    return " ".join(
+        f"{name}={value:g}" if isinstance(value, float) else f"{name}={value}"
+        for name, value in parameters.items()
+    )

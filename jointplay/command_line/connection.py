@@ -3,28 +3,12 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from jointplay.command_line.exits import Exit, Stopped
 
 if TYPE_CHECKING:
     from jointplay.client import Client, Job
-
-URL = Annotated[
-    str,
-    typer.Option(
-        "--url",
-        envvar="JOINTPLAY_URL",
-        help="Address of the service; JOINTPLAY_KEY is sent to it as a bearer token, for a proxy"
-        " that asks for one.",
-    ),
-]
-DEFAULT_URL = "http://127.0.0.1:8000"  # jointplay.client's, without loading it
-RESULTS = Annotated[
-    str, typer.Argument(metavar="OUT|ID", help="Folder of `jointplay run`, or id of a job.")
-]
 
 
 def connect(url: str) -> "Client":
@@ -54,4 +38,4 @@ def wait_for(job: "Job") -> None:
         job.wait(progress=True, check=False)
     except KeyboardInterrupt:
         line = f"stopped waiting; the job goes on: jointplay show --wait {job.id}"
-        raise Stopped(Exit.INTERRUPTED, line) from None
+        raise Stopped(line, Exit.INTERRUPTED) from None

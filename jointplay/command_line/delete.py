@@ -1,23 +1,24 @@
-"""``jointplay delete``: remove a finished job of a service."""
+"""``jointplay delete``: remove finished jobs of a service."""
 
 from typing import Annotated
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import connect
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.output import print_json
 
 
 def delete(
     job_ids: Annotated[list[str], typer.Argument(metavar="ID...", help="Ids of finished jobs.")],
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Delete finished jobs and their results; there is no way back.
 
     Example: `jointplay delete 01M7YCD368E9VM5RM0B9JY3SGA`
     """
-    with connection.connect(url) as client:
+    with connect(url) as client:
         for job_id in job_ids:
             client.job(job_id).delete()
             if not as_json:

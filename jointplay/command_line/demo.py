@@ -2,12 +2,13 @@
 
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import AS_JSON
+from jointplay.command_line.output import tell
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -31,11 +32,13 @@ def demo(
     Example: `jointplay demo seven-bar-press -o demo`
     """
     from jointplay.client import Client
-    from jointplay.command_line.comparison import cases_of, document, table
+    from jointplay.command_line.comparison import cases_of, rows_of, table
     from jointplay.service.processes import running_service
     from jointplay.solver.scene import presets
 
-    scene = _published(presets.document(preset, pointer="PRESET"))
+    scene = presets.document(preset, pointer="PRESET")
+    if not scene.get("reported"):
+        raise Stopped(f"{scene['name']} carries no reported numbers to be set beside ours.")
     cases = cases_of(scene)
     data = output / "service"
     shutil.rmtree(data, ignore_errors=True)  # what an earlier demo left
@@ -45,20 +48,10 @@ def demo(
         jobs = _finished([client.submit(case.job(preset)) for case in cases])
         peaks = [job.results.peaks() for job in jobs]
         _fetch_figures(cases, jobs, output)
-    if as_json:
-        facts = {"source": scene["source"], "figures": str(output)}
-        print_json(facts | {"comparison": document(cases, peaks)})
-        return
-    typer.echo(f"everything is stopped\n\nsource: {scene['source']}")
-    typer.echo("\n".join(table(cases, peaks)))
-    typer.echo(f"figures are in {output}/")
-
-
-def _published(scene: dict[str, Any]) -> dict[str, Any]:
-    if not scene.get("reported"):
-        line = f"{scene['name']} carries no reported numbers to be set beside ours."
-        raise Stopped(Exit.BAD_INPUT, line)
-    return scene
+    rows = rows_of(cases, peaks)
+    facts = {"source": scene["source"], "figures": str(output), "comparison": rows}
+    lines = [f"everything is stopped\n\nsource: {scene['source']}", *table(rows)]
+    tell(facts, [*lines, f"figures are in {output}/"], as_json=as_json)
 
 
 def _finished(jobs: list["Job"]) -> list["Job"]:
@@ -79,9 +72,8 @@ def _finished(jobs: list["Job"]) -> list["Job"]:
 def _fetch_figures(cases: list["Case"], jobs: list["Job"], output: Path) -> None:
     from jointplay.progress import progress
 
-    wanted = [
-        (case, job, name) for case, job in zip(cases, jobs, strict=True) for name in job.figures
-    ]
+    pairs = zip(cases, jobs, strict=True)
+    wanted = [(case, job, name) for case, job in pairs for name in job.figures]
     with progress("fetching figures") as report:
         for done, (case, job, name) in enumerate(wanted):
             report(done / len(wanted), f"{case.label}: {name}")

@@ -15,8 +15,8 @@ class Exit(IntEnum):
 
 
 class Stopped(Exception):
-    """Ends a command with one line on stderr and an exit code."""
+    """Ends a command with one line on stderr and an exit code: by default, the input is wrong."""
 
-    def __init__(self, code: Exit, line: str) -> None:
+    def __init__(self, line: str, code: Exit = Exit.BAD_INPUT) -> None:
         super().__init__(line)
         self.code = code

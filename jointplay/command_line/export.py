@@ -6,12 +6,13 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line import connection
+from jointplay.command_line.connection import job_of
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
+from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL
 
 
 def export(
-    results: connection.RESULTS,
+    results: RESULTS,
     table: Annotated[
         Table | None,
         typer.Option(
@@ -23,13 +24,8 @@ def export(
         str | None,
         typer.Option(metavar="A,B", help="Names or globs such as 'slider7.*'; default all."),
     ] = None,
-    start: Annotated[
-        float | None,
-        typer.Option(metavar="SECONDS", help="From this time; first point of a study."),
-    ] = None,
-    stop: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
-    ] = None,
+    start: START = None,
+    stop: STOP = None,
     points: Annotated[
         int | None,
         typer.Option(
@@ -43,7 +39,7 @@ def export(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Default: stdout.")
     ] = None,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Write a table of a job with 17 significant digits: by default channels, or sections.
 
@@ -54,7 +50,7 @@ def export(
     """
     asked = Asked(table, channels, start, stop, points, "json" if as_json else form)
     asked.check()
-    with connection.job_of(results, url) as job:
+    with job_of(results, url) as job:
         text = text_of(job, asked)
         if output is None:
             sys.stdout.writelines(text.pieces)

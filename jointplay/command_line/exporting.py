@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.job_options import listed
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import listed
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -32,13 +32,11 @@ class Asked(NamedTuple):
         """Refuse windows that are none, with `Stopped`."""
         for option, time in (("--start", self.start), ("--stop", self.stop)):
             if time is not None and not math.isfinite(time):
-                raise Stopped(Exit.BAD_INPUT, f"{option} {time}: give a time in seconds.")
+                raise Stopped(f"{option} {time}: give a time in seconds.")
         if self.start is not None and self.stop is not None and self.start > self.stop:
-            line = f"--stop {self.stop:g} is before --start {self.start:g}; swap them."
-            raise Stopped(Exit.BAD_INPUT, line)
+            raise Stopped(f"--stop {self.stop:g} is before --start {self.start:g}; swap them.")
         if self.points is not None and self.table not in (None, "history"):
-            line = f"--points is of a history; {self.table} is written as it is."
-            raise Stopped(Exit.BAD_INPUT, line)
+            raise Stopped(f"--points is of a history; {self.table} is written as it is.")
 
 
 class Text(NamedTuple):
@@ -53,92 +51,85 @@ def text_of(job: "Job", asked: Asked) -> Text:
     known = _OF_STUDIES if job.is_study else _OF_SIMULATIONS
     if asked.table is not None and asked.table not in known:
         what = "a study" if job.is_study else "a simulation"
-        line = f"--table {asked.table}: {what} has {', '.join(known)}."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"--table {asked.table}: {what} has {', '.join(known)}.")
     if job.is_study:
         return _study(job, asked)
+    channels = listed(asked.channels)
     if asked.table in ("peaks", "impacts"):
         return _rows(job, asked)
     if asked.table == "poincare":
-        return _channels(job.results.sections(listed(asked.channels)).dataset(), asked)
+        return _channels(job.results.sections(channels).dataset(), asked)
     if asked.points is not None:
-        window = job.window(listed(asked.channels), asked.start, asked.stop, points=asked.points)
+        window = job.window(channels, asked.start, asked.stop, points=asked.points)
         asked = asked._replace(channels=None, start=None, stop=None)
         return _channels(window.dataset(), asked)
-    source = job.results.source(listed(asked.channels), asked.start, asked.stop)
-    return _channels(source, asked)
-
-
-def point_range(points: int, start: float | None, stop: float | None) -> range:
-    """Return the points that --start and --stop mean for a study."""
-    for option, value in (("--start", start), ("--stop", stop)):
-        if value is not None and (value < 0 or value != int(value)):
-            line = f"{option} {value:g}: points of a study are counted from 0."
-            raise Stopped(Exit.BAD_INPUT, line)
-    chosen = range(points)[
-        None if start is None else int(start) : None if stop is None else int(stop)
-    ]
-    if not chosen:
-        line = f"There is no such point; the study has points 0 to {points - 1}."
-        raise Stopped(Exit.BAD_INPUT, line)
-    return chosen
+    return _channels(job.results.source(channels, asked.start, asked.stop), asked)
 
 
 def _channels(source: "Source", asked: Asked) -> Text:
-    from jointplay.exports import run as formats
+    from jointplay.exports.run import csv_lines, json_pieces
 
     names = _chosen(asked.channels, [channel.name for channel in source.channels])
     window = asked.start, asked.stop
     first, last = source.between(*window)
     if first == last:
-        raise Stopped(Exit.BAD_INPUT, "There are no samples in this window of time.")
+        raise Stopped("There are no samples in this window of time.")
     values = (last - first) * (len(names) + 1)
     if asked.form == "json":
-        return Text(formats.json_pieces(source, names, *window), values)
-    return Text(formats.csv_lines(source, names, *window, _comments(source)), values)
+        return Text(json_pieces(source, names, *window), values)
+    return Text(csv_lines(source, names, *window, _comments(source)), values)
 
 
 def _rows(job: "Job", asked: Asked) -> Text:
     """Return peaks or impacts: tables that are small."""
-    from jointplay.command_line.impacts import impact_lines, impact_rows
     from jointplay.command_line.output import json_text
-    from jointplay.command_line.peaks import peak_lines, rows_of
+    from jointplay.command_line.peaks import impact_lines, impact_rows, peak_lines, peak_rows
 
     if asked.table == "peaks":
         peaks = job.results.peaks()
         names = _chosen(asked.channels, list(peaks))
-        rows = rows_of({name: peaks[name] for name in names})
-        if asked.form == "json":
-            document = {"peaks": rows}
-            return Text(iter([json_text(document) + "\n"]), len(rows))
-        return Text(peak_lines(rows), 5 * len(rows))
-    impacts = impact_rows(job.results.impacts(), asked.start, asked.stop)
+        rows, lines = peak_rows({name: peaks[name] for name in names}), peak_lines
+    else:
+        rows, lines = impact_rows(job.results.impacts(), asked.start, asked.stop), impact_lines
     if asked.form == "json":
-        return Text(iter([json_text({"impacts": impacts}) + "\n"]), len(impacts))
-    return Text(impact_lines(impacts), 6 * len(impacts))
+        return Text(iter([json_text({asked.table: rows}) + "\n"]), len(rows))
+    return Text(lines(rows), 6 * len(rows))
 
 
 def _study(job: "Job", asked: Asked) -> Text:
-    from jointplay.command_line.study_summary import units
-    from jointplay.exports import study as formats
+    from jointplay.command_line.summary import units
+    from jointplay.exports.study import point_json, point_lines, section_json, section_lines
 
     wanted = listed(asked.channels)
     source = job.study(wanted, wanted)
-    chosen = point_range(source.points, asked.start, asked.stop)
+    chosen = _point_range(source.points, asked.start, asked.stop)
     if asked.points is not None:
-        raise Stopped(Exit.BAD_INPUT, "--points is of simulations; this is a study.")
-    if asked.table == "points" or not source.observables:
-        names = _chosen(asked.channels, [one.name for one in source.channels])
+        raise Stopped("--points is of simulations; this is a study.")
+    of_points = asked.table == "points" or not source.observables
+    offered = source.channels if of_points else source.observables
+    names = _chosen(asked.channels, [one.name for one in offered])
+    comments = _comments(source)
+    if of_points:
         values = len(chosen) * (4 * len(names) + len(source.parameters) + 3)
         if asked.form == "json":
-            return Text(formats.point_json(source, names, chosen, units(source)), values)
-        lines = formats.point_lines(source, names, chosen, units(source), _comments(source))
-        return Text(lines, values)
-    names = _chosen(asked.channels, [one.name for one in source.observables])
+            return Text(point_json(source, names, chosen, units(source)), values)
+        return Text(point_lines(source, names, chosen, units(source), comments), values)
     values = int(source.counts[chosen.start : chosen.stop].sum()) * (len(names) + 3)
     if asked.form == "json":
-        return Text(formats.section_json(source, names, chosen), values)
-    return Text(formats.section_lines(source, names, chosen, _comments(source)), values)
+        return Text(section_json(source, names, chosen), values)
+    return Text(section_lines(source, names, chosen, comments), values)
+
+
+def _point_range(points: int, start: float | None, stop: float | None) -> range:
+    """Return the points that --start and --stop mean for a study."""
+    for option, value in (("--start", start), ("--stop", stop)):
+        if value is not None and (value < 0 or value != int(value)):
+            raise Stopped(f"{option} {value:g}: points of a study are counted from 0.")
+    last = points if stop is None else min(int(stop), points)
+    chosen = range(int(start or 0), last)
+    if not chosen:
+        raise Stopped(f"There is no such point; the study has points 0 to {points - 1}.")
+    return chosen
 
 
 def _comments(source: "Source | StudySource") -> list[str]:
@@ -154,4 +145,4 @@ def _chosen(channels: str | None, names: list[str]) -> list[str]:
     try:
         return choose(channels, names)
     except NoSuchChannel as error:
-        raise Stopped(Exit.BAD_INPUT, f"--channels: {error}") from None
+        raise Stopped(f"--channels: {error}") from None

@@ -2,26 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.exits import Stopped
 from jointplay.command_line.job_options import fields_of
-
-JOB = Annotated[
-    str,
-    typer.Argument(
-        metavar="JOB.json|SCENE.json|PRESET",
-        help="A job document, a scene document, or the name of a preset (`jointplay scene list`).",
-    ),
-]
-SET = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set", metavar="NAME=VALUE", help="Set a parameter of the scene, in SI units; repeatable."
-    ),
-]
 
 
 def job_document(
@@ -29,14 +13,8 @@ def job_document(
 ) -> dict[str, Any]:
     """Return the job that ``source`` and the options describe; nothing is checked yet.
 
-    Parameters
-    ----------
-    source
-        Path of a job or scene document, or name of a preset.
-    settings
-        ``name=value`` for parameters of the scene.
-    options
-        As `with_job_options` gives them; fields of the job that are None are left as they are.
+    ``source`` is the path of a job or scene document, or the name of a preset; settings are
+    ``name=value``; options as `with_job_options` gives them, those that are None left as they are.
     """
     from jointplay.scene_choice import NotAScene, with_parameters
 
@@ -44,7 +22,7 @@ def job_document(
     changed = fields_of(options)
     if is_whole and "kind" in changed:
         line = f"{source} is a job already; --{changed['kind']} makes one of a scene or a preset."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(line)
     if "tolerance" in changed:
         job.pop("accuracy", None)
     if "accuracy" in changed:
@@ -56,40 +34,36 @@ def job_document(
         try:
             job["scene"] = with_parameters(scene, dict(map(_setting, settings)))
         except NotAScene as error:
-            raise Stopped(Exit.BAD_INPUT, f"--set {error}") from None
+            raise Stopped(f"--set {error}") from None
     return job
 
 
-def read_document(path: Path) -> dict[str, Any]:
+def _read(path: Path) -> dict[str, Any]:
     """Read a JSON object from a file, strictly."""
     from jointplay.records.strict_json import parse
 
     document = parse(path.read_bytes())
     if not isinstance(document, dict):
-        raise Stopped(Exit.BAD_INPUT, f"{path}: a job or a scene is a JSON object.")
+        raise Stopped(f"{path}: a job or a scene is a JSON object.")
     return document
 
 
 def is_scene_file(source: str) -> bool:
     """Tell whether ``source`` is the file of a scene, and not of a job or a preset."""
     path = Path(source)
-    return path.is_file() and _is_scene(read_document(path))
-
-
-def _is_scene(document: dict[str, Any]) -> bool:
-    return "bodies" in document
+    return path.is_file() and "bodies" in _read(path)
 
 
 def _job_of(source: str) -> tuple[dict[str, Any], bool]:
     """Return the job, and whether it was given whole and not made of a scene."""
     path = Path(source)
     if path.is_file():
-        document = read_document(path)
-        if _is_scene(document):
+        document = _read(path)
+        if "bodies" in document:
             return {"kind": "simulate", "scene": document}, False
         return document, True
     if source.endswith(".json") or "/" in source:
-        raise Stopped(Exit.BAD_INPUT, f"There is no file {source}.")
+        raise Stopped(f"There is no file {source}.")
     return {"kind": "simulate", "scene": {"preset": source}}, False
 
 
@@ -98,7 +72,7 @@ def _setting(text: str) -> tuple[str, object]:
 
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        raise Stopped(Exit.BAD_INPUT, f"--set {text}: write NAME=VALUE, such as clearance=5e-4.")
+        raise Stopped(f"--set {text}: write NAME=VALUE, such as clearance=5e-4.")
     try:
         return name, parse(value.encode())
     except MalformedJson:

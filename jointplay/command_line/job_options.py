@@ -6,38 +6,28 @@ from typing import Annotated, Any, Final, TypeVar
 
 import typer
 
-from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import listed
 from jointplay.job_fields import KINDS, help_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_SHORT: Final[dict[str, Any]] = {
-    "bifurcation": Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME=FROM:TO:COUNT",
-            help="A bifurcation diagram over a parameter; append `:log` for equal ratios.",
-        ),
-    ],
-    "sweep": Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME=FROM:TO:COUNT",
-            help="Extremes over a parameter, or NAME=A,B,C; repeat it for every combination.",
-        ),
-    ],
-    "poincare": Annotated[
-        bool | None, typer.Option("--poincare", help="Poincaré sections over many periods.")
-    ],
-    "ensemble": Annotated[
-        int | None, typer.Option(metavar="MEMBERS", help="Sections of many perturbed starts.")
-    ],
-    "accuracy-study": Annotated[
-        bool | None,
-        typer.Option("--accuracy-study", help="What every method and tolerance costs and buys."),
-    ],
+_SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
+    "bifurcation": (
+        str,
+        "NAME=FROM:TO:COUNT",
+        "A bifurcation diagram over a parameter; append `:log` for equal ratios.",
+    ),
+    "sweep": (
+        list[str],
+        "NAME=FROM:TO:COUNT",
+        "Extremes over a parameter, or NAME=A,B,C; repeat it for every combination.",
+    ),
+    "poincare": (bool, None, "Poincaré sections over many periods."),
+    "ensemble": (int, "MEMBERS", "Sections of many perturbed starts."),
+    "accuracy-study": (bool, None, "What every method and tolerance costs and buys."),
 }
-"""By kind: the option that asks for it, with what its documents must have."""
+"""By kind: type, metavar and help of the option that asks for it, with what it must have."""
 _IN_SHORT: Final = ("parameter", "values", "grid", "points", "members")
 """Fields that those options stand for, or that only a document can give, as it can flags."""
 _HELP: Final = {
@@ -64,6 +54,12 @@ def _fields() -> dict[str, dict[str, Any]]:
 FIELDS: Final = _fields()
 
 
+def _short_option(kind: str) -> Any:
+    form, metavar, text = _SHORT[kind]
+    names = [f"--{kind}"] if form is bool else []  # without one, typer adds the contrary
+    return Annotated[form | None, typer.Option(*names, metavar=metavar, help=text)]
+
+
 def _option(name: str) -> Any:
     """Return the type of a field's option, as typer reads it."""
     field = FIELDS[name]
@@ -81,8 +77,8 @@ def with_job_options(*only: str) -> Callable[[Command], Command]:
 
     They come as keywords; `fields_of` makes fields of a job of them.
     """
-    kinds = {} if only else {kind.replace("-", "_"): option for kind, option in _SHORT.items()}
-    chosen = kinds | {name: _option(name) for name in (only or FIELDS)}
+    chosen = {} if only else {kind.replace("-", "_"): _short_option(kind) for kind in _SHORT}
+    chosen |= {name: _option(name) for name in (only or FIELDS)}
 
     def extend(command: Command) -> Command:
         own = [p for p in signature(command).parameters.values() if p.kind != p.VAR_KEYWORD]
@@ -103,8 +99,7 @@ def fields_of(options: Mapping[str, Any]) -> dict[str, Any]:
     given = {name: value for name, value in options.items() if value not in (None, [], False)}
     kinds = [kind for kind in _SHORT if kind.replace("-", "_") in given]
     if len(kinds) > 1:
-        line = f"--{kinds[0]} and --{kinds[1]} are two jobs; give one."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"--{kinds[0]} and --{kinds[1]} are two jobs; give one.")
     found: dict[str, Any] = {"kind": kinds[0]} if kinds else {}
     if "bifurcation" in given:
         found["parameter"], found["values"] = _values("--bifurcation", given["bifurcation"])
@@ -131,21 +126,16 @@ def _value(name: str, given: Any) -> Any:
     return parts if form == "names" else given
 
 
-def listed(text: str | None) -> list[str] | None:
-    """Return the parts of a comma-separated list."""
-    return None if text is None else [part.strip() for part in text.split(",")]
-
-
 def _values(option: str, text: str) -> tuple[str, object]:
     """Return name and values of ``name=from:to:count``, ``…:log`` or ``name=a,b,c``."""
     name, equals, values = text.partition("=")
-    if not (name and equals and values):
-        raise _wrong(option, text)
-    if ":" not in values:
-        return name, [_number(option, part) for part in values.split(",")]
     parts = values.split(":")
-    if len(parts) not in (3, 4) or parts[3:] not in ([], ["log"], ["linear"]):
-        raise _wrong(option, text)
+    known = len(parts) in (1, 3, 4) and parts[3:] in ([], ["log"], ["linear"])
+    if not (name and equals and values and known):
+        line = f"{option} {text}: write NAME=FROM:TO:COUNT, such as clearance=1e-4:1e-3:200."
+        raise Stopped(line)
+    if len(parts) == 1:
+        return name, [_number(option, part) for part in values.split(",")]
     start, stop, count = (_number(option, part) for part in parts[:3])
     spacing = {"spacing": parts[3]} if parts[3:] else {}
     return name, {"from": start, "to": stop, "count": count, **spacing}
@@ -154,8 +144,7 @@ def _values(option: str, text: str) -> tuple[str, object]:
 def _section(text: str) -> dict[str, object]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        line = f"--section {text}: write crank_angle=0.5, onset=A or A.eccentricity_x=0:up."
-        raise Stopped(Exit.BAD_INPUT, line)
+        raise Stopped(f"--section {text}: write crank_angle=0.5, onset=A or A.eccentricity_x=0:up.")
     if name == "onset":
         return {"onset": value}
     if name == "crank_angle":
@@ -172,9 +161,4 @@ def _number(option: str, text: str) -> object:
             return kind(text)
         except ValueError:
             pass
-    raise Stopped(Exit.BAD_INPUT, f"{option}: {text!r} is not a number.")
-
-
-def _wrong(option: str, text: str) -> Stopped:
-    line = f"{option} {text}: write NAME=FROM:TO:COUNT, such as clearance=1e-4:1e-3:200."
-    return Stopped(Exit.BAD_INPUT, line)
+    raise Stopped(f"{option}: {text!r} is not a number.")

@@ -2,13 +2,17 @@
 
 from datetime import datetime
 from itertools import islice
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import connect
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.output import tell
+
+if TYPE_CHECKING:
+    from jointplay.client import Job
 
 
 def ls(
@@ -29,7 +33,7 @@ def ls(
         str | None, typer.Option(metavar="ID", help="The jobs of a batch, in their order.")
     ] = None,
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """List the jobs of a service, newest first: id, state, progress, when, kind, label.
 
@@ -37,18 +41,18 @@ def ls(
     """
     chosen = {"state": state, "kind": kind, "label": label, "scene": scene}
     if batch is not None and (any(chosen.values()) or since or before):
-        raise Stopped(Exit.BAD_INPUT, "--batch lists all jobs of a batch; leave the filters out.")
-    with connection.connect(url) as client:
+        raise Stopped("--batch lists all jobs of a batch; leave the filters out.")
+    with connect(url) as client:
         if batch is None:
             found = client.jobs(**chosen, since=since, before=before)
         else:
             found = client.batch(batch).jobs()
         jobs = list(islice(found, count))
-    if as_json:
-        print_json({"jobs": [job.to_document() for job in jobs]})
-        return
-    for job in jobs:
-        created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
-        done = f"{job.progress.fraction:.0%}"
-        row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
-        typer.echo(f"{row}  {job.label or job.scene_name}")
+    tell({"jobs": [job.to_document() for job in jobs]}, map(_row, jobs), as_json=as_json)
+
+
+def _row(job: "Job") -> str:
+    created = job.created.astimezone().strftime("%Y-%m-%d %H:%M:%S")
+    done = f"{job.progress.fraction:.0%}"
+    row = f"{job.id}  {job.state:10} {done:>4}  {created}  {job.kind:11}"
+    return f"{row}  {job.label or job.scene_name}"

@@ -20,8 +20,6 @@ def openapi(
     from jointplay.service.app import create_app
 
     text = json.dumps(create_app().openapi(), indent=2, sort_keys=True)
-    if output is None:
-        typer.echo(text)
-    else:
+    if output is not None:
         output.write_text(text + "\n")
-        typer.echo(output)
+    typer.echo(text if output is None else output)

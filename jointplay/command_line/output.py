@@ -1,13 +1,20 @@
-"""Output of commands: one JSON document for programs, aligned tables for people."""
+"""Output of commands: one JSON document for programs, lines and aligned tables for people."""
 
 import json
 import math
-from collections.abc import Iterator, Sequence
-from typing import Annotated, Any
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
 
 import typer
 
-AS_JSON = Annotated[bool, typer.Option("--json", help="Print one JSON document instead.")]
+from jointplay.command_line.exits import Stopped
+
+
+def tell(document: object, lines: Iterable[object], *, as_json: bool) -> None:
+    """Print what a command found: the document, or else the lines."""
+    for line in [json_text(document)] if as_json else lines:
+        typer.echo(line)
 
 
 def print_json(document: object) -> None:
@@ -34,3 +41,12 @@ def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     for row in rows:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         yield "  ".join(cells).rstrip()
+
+
+def make_folder(output: Path) -> None:
+    """Make a folder for results, which must not be there yet."""
+    try:
+        output.mkdir(parents=True)
+    except FileExistsError:
+        line = f"{output} exists already; results are never overwritten, name another folder."
+        raise Stopped(line) from None

@@ -1,22 +1,18 @@
-"""Peaks of channels as a table."""
+"""Peaks of channels, and impacts, as rows of a table."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from jointplay.command_line.output import aligned
 
 if TYPE_CHECKING:
-    from jointplay.client import Peak
+    from jointplay.client import Impacts, Peak
     from jointplay.records.run import Source
 
-
 Row = dict[str, Any]
-"""Extremes of one channel: its name, its unit and the numbers of a peak."""
 
 
-def rows_of(peaks: Mapping[str, "Peak"]) -> list[Row]:
+def peak_rows(peaks: Mapping[str, "Peak"]) -> list[Row]:
     """Return the peaks of a simulation, in the order of the channels."""
     from jointplay.records.peak import PEAK
 
@@ -24,6 +20,40 @@ def rows_of(peaks: Mapping[str, "Peak"]) -> list[Row]:
         {"channel": name, "unit": one.unit, **{part: getattr(one, part) for part in PEAK}}
         for name, one in peaks.items()
     ]
+
+
+def impact_rows(impacts: "Impacts", start: float | None, stop: float | None) -> list[Row]:
+    """Return the contacts that begin from ``start`` to ``stop`` [s], in order of release."""
+    from jointplay.records.impact import IMPACT_UNITS
+    from jointplay.records.run import inside
+
+    names = ("joint", *IMPACT_UNITS)
+    columns = (impacts.joint, *(getattr(impacts, name).tolist() for name in IMPACT_UNITS))
+    rows = (dict(zip(names, row, strict=True)) for row in zip(*columns, strict=True))
+    shown = inside(impacts.onset, start, stop)
+    return [row for row, is_shown in zip(rows, shown, strict=True) if is_shown]
+
+
+def peak_lines(rows: Sequence[Row]) -> Iterator[str]:
+    """Yield peaks as lines of CSV."""
+    from jointplay.records.peak import PEAK
+
+    units = {name: described.get("units", "") for name, described in PEAK.items()}
+    return _lines(rows, {"channel": "", "unit": "", **units})
+
+
+def impact_lines(rows: Sequence[Row]) -> Iterator[str]:
+    """Yield impacts as lines of CSV, with 17 significant digits."""
+    from jointplay.records.impact import IMPACT_UNITS
+
+    return _lines(rows, {"joint": "", **IMPACT_UNITS})
+
+
+def _lines(rows: Sequence[Row], units: Mapping[str, str]) -> Iterator[str]:
+    from jointplay.records.text_tables import csv_lines
+
+    titles = [f"{name} [{unit}]" if unit else name for name, unit in units.items()]
+    return csv_lines(titles, [[[row[name] for row in rows] for name in units]])
 
 
 def headline(source: "Source") -> list[str]:
@@ -34,8 +64,8 @@ def headline(source: "Source") -> list[str]:
     return [name for name in outputs + forces if name in stored] or stored
 
 
-def print_peaks(rows: Sequence[Row], *names: str) -> None:
-    """Print one line for each row: its channel and what else names it, then its numbers."""
+def peak_table(rows: Sequence[Row], *names: str) -> Iterator[str]:
+    """Yield one line for each row: its channel and what else names it, then its numbers."""
     if not rows:
         return
     columns = ("channel", *names)
@@ -45,14 +75,4 @@ def print_peaks(rows: Sequence[Row], *names: str) -> None:
         low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
         high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
         table.append([*(row[name] for name in columns), f"{low}  {high}  {row['unit']}"])
-    for line in aligned(table):
-        typer.echo(line)
-
-
-def peak_lines(rows: Sequence[Row]) -> Iterator[str]:
-    """Yield the peaks as lines of CSV."""
-    from jointplay.records.text_tables import csv_lines
-
-    names = ("channel", "unit", "minimum", "minimum_time", "maximum", "maximum_time")
-    titles = [f"{name} [s]" if name.endswith("_time") else name for name in names]
-    yield from csv_lines(titles, [[[row[name] for row in rows] for name in names]])
+    yield from aligned(table)

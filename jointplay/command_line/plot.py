@@ -1,19 +1,28 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
-from jointplay.command_line import connection
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.job_options import listed
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.connection import job_of
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.options import (
+    AS_JSON,
+    DEFAULT_URL,
+    RESULTS,
+    START,
+    STOP,
+    URL,
+    Form,
+    listed,
+)
+from jointplay.command_line.output import tell
 from jointplay.progress import progress
 
 
 def plot(
-    results: connection.RESULTS,
+    results: RESULTS,
     names: Annotated[
         list[str] | None,
         typer.Argument(metavar="[FIGURE]...", help="Figures or channels; default all figures."),
@@ -24,19 +33,14 @@ def plot(
     joints: Annotated[
         str | None, typer.Option(metavar="A,B", help="Joints that the figures show.")
     ] = None,
-    start: Annotated[
-        float | None,
-        typer.Option(metavar="SECONDS", help="From this time; first point of a study."),
-    ] = None,
-    stop: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
-    ] = None,
+    start: START = None,
+    stop: STOP = None,
     folder: Annotated[
         Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the files go.")
     ] = Path(),
-    form: Annotated[Literal["png", "svg"], typer.Option("--format", help="File type.")] = "png",
+    form: Annotated[Form, typer.Option("--format", help="File type.")] = "png",
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
 ) -> None:
     """Draw figures: those of the job's mechanism, of a study, or of any channel.
 
@@ -46,9 +50,9 @@ def plot(
     chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop}
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
-        raise Stopped(Exit.BAD_INPUT, f"--{given[0]} chooses what a figure shows; name the figure.")
+        raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
     written = []
-    with connection.job_of(results, url) as job, progress("figures") as report:
+    with job_of(results, url) as job, progress("figures") as report:
         wanted = names or job.figures
         folder.mkdir(parents=True, exist_ok=True)
         for done, name in enumerate(wanted):
@@ -65,8 +69,4 @@ def plot(
             path.write_bytes(picture.content)
             written.append({"name": name, "path": str(path)})
         report(1.0, "")
-    if as_json:
-        print_json({"figures": written})
-        return
-    for one in written:
-        typer.echo(one["path"])
+    tell({"figures": written}, [one["path"] for one in written], as_json=as_json)

@@ -6,7 +6,8 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.options import AS_JSON, PROCESSES
+from jointplay.command_line.output import make_folder, tell
 
 
 def reproduce(
@@ -17,9 +18,7 @@ def reproduce(
     quick: Annotated[
         bool, typer.Option("--quick", help="Little of everything, in seconds: to see it work.")
     ] = False,
-    processes: Annotated[
-        int | None, typer.Option(min=1, max=1024, help="Default one for each core.")
-    ] = None,
+    processes: PROCESSES = None,
     as_json: AS_JSON = False,
 ) -> None:
     """Compute the published figures of the press again, and set every printed number beside ours.
@@ -37,22 +36,17 @@ def reproduce(
     from jointplay.progress import progress
     from jointplay.solver.runs.processes import Interrupted
 
-    try:
-        output.mkdir(parents=True)
-    except FileExistsError:
-        line = f"{output} exists already; results are never overwritten, name another folder."
-        raise Stopped(Exit.BAD_INPUT, line) from None
+    make_folder(output)
     try:
         with progress("reproducing") as report:
             page = whole(output, QUICK if quick else FULL, processes, report)
     except Interrupted:
         line = f"interrupted; {output} has no report, remove it before you start again."
-        raise Stopped(Exit.INTERRUPTED, line) from None
+        raise Stopped(line, Exit.INTERRUPTED) from None
     except RunFailed as error:
-        raise Stopped(Exit.FAILED, str(error)) from None
+        raise Stopped(str(error), Exit.FAILED) from None
     except BrokenProcessPool:
-        raise Stopped(Exit.FAILED, "a process that computed a part of it died.") from None
-    if as_json:
-        print_json({"report": str(page), "runs": str(output / "runs")})
-        return
-    typer.echo(f"the report is {page}; results of all jobs are in {output / 'runs'}/")
+        raise Stopped("a process that computed a part of it died.", Exit.FAILED) from None
+    runs = output / "runs"
+    line = f"the report is {page}; results of all jobs are in {runs}/"
+    tell({"report": str(page), "runs": str(runs)}, [line], as_json=as_json)

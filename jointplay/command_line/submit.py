@@ -1,28 +1,34 @@
 """``jointplay submit``: give a job to a service."""
 
+from collections.abc import Iterator
 from dataclasses import asdict
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line import connection, job_document
+from jointplay.command_line.connection import connect, wait_for
+from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.output import AS_JSON, print_json
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, JOB, SET, URL, WAIT
+from jointplay.command_line.output import print_json, tell
+
+if TYPE_CHECKING:
+    from jointplay.client import Estimate
 
 
 @with_job_options()
 def submit(
-    source: job_document.JOB,
-    settings: job_document.SET = None,
+    source: JOB,
+    settings: SET = None,
     anew: Annotated[
         bool, typer.Option("--anew", help="Compute it even if an identical job is there.")
     ] = False,
     estimate: Annotated[
         bool, typer.Option("--estimate", help="Only say what it will cost; queue nothing.")
     ] = False,
-    wait: Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")] = False,
+    wait: WAIT = False,
     as_json: AS_JSON = False,
-    url: connection.URL = connection.DEFAULT_URL,
+    url: URL = DEFAULT_URL,
     **options: Any,
 ) -> None:
     """Queue a job at a service and print its id; an identical one is not computed again.
@@ -32,16 +38,13 @@ def submit(
     Examples: `jointplay submit seven-bar-press --set clearance=3e-4 --duration 2 --wait`,
     `jointplay submit seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --wait`
     """
-    from jointplay.command_line.connection import wait_for
-    from jointplay.command_line.estimate import print_estimate
-
-    job = job_document.job_document(source, settings=settings, options=options)
+    job = job_document(source, settings=settings, options=options)
     if anew:
         job["cache"] = False
-    with connection.connect(url) as client:
+    with connect(url) as client:
         if estimate:
             cost = client.estimate(job)
-            print_json(asdict(cost)) if as_json else print_estimate(cost)
+            tell(asdict(cost), _lines(cost), as_json=as_json)
             return
         queued = client.submit(job)
         if not as_json:
@@ -52,3 +55,19 @@ def submit(
             print_json(queued.to_document())
         if wait:
             queued.check()
+
+
+def _lines(estimate: "Estimate") -> Iterator[str]:
+    """Yield time, steps and bytes, and what else is known of a job before it runs."""
+    from jointplay.progress import duration
+
+    seconds = estimate.seconds
+    time = duration(seconds) if seconds >= 10 else f"{seconds:.2g} s"
+    yield f"computing  {time} of one core, {estimate.steps:.3g} steps"
+    yield f"results    {estimate.bytes / 1e6:.3g} MB"
+    if estimate.points > 1:
+        yield f"points     {estimate.points} in {estimate.blocks} blocks"
+    if estimate.cached:
+        yield "an identical job is there already: submitting it costs nothing"
+    if estimate.failure is not None:
+        yield f"it will end early: {estimate.failure}"

@@ -1,8 +1,8 @@
-"""A second process that draws figures: it loads matplotlib while the job is computed.
+"""All figures of a job into files, with a second process that shares the work.
 
-Loading takes as long as drawing half of the figures of a short run, and computing that leaves a
-core free.  Both processes claim figures one by one from a pipe, a byte a figure, as `make` hands
-out its jobs.
+It loads matplotlib while the job is computed: loading takes as long as drawing half of the figures
+of a short run, and computing that leaves a core free.  Both processes claim figures one by one from
+a pipe, a byte a figure, as `make` hands out its jobs.
 """
 
 import json
@@ -13,17 +13,49 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, cast
+from typing import IO, TYPE_CHECKING, Final, cast
 
+from jointplay.progress import progress
 from jointplay.solver.runs.processes import cores
 
 if TYPE_CHECKING:
+    from jointplay.client import Job
     from jointplay.solver.kinds import Admission, Study
 
-PROGRAM = "jointplay.local.drawing_program"
+_SLOWEST: Final = ("certificate", "spectrum", "phase-portrait", "outputs", "contact-force", "orbit")
+"""Figures that take longest to draw, begun first."""
 _FEW = 3
 """Figures that one process has drawn before it would have shared them."""
 _LONGEST = 60.0  # s without a figure, after which a process is lost
+
+
+def draw_all(job: "Job", folder: Path, second: "DrawingProcess | None" = None) -> None:
+    """Draw every kind of figure that the results allow into a folder, made if it is missing.
+
+    A single output is not drawn once more on its own: the figure of all outputs shows it.  With a
+    second process, which draws some of them, the job is one in a folder.
+    """
+    from jointplay import figures
+
+    rank = {name: place for place, name in enumerate(_SLOWEST)}
+    known = {**figures.ROSTER, **figures.STUDY_ROSTER}
+    names = [name for name in job.figures if name in known]
+    names.sort(key=lambda name: rank.get(name, len(rank)))
+    folder.mkdir(parents=True, exist_ok=True)
+    with progress("figures") as report:
+        drawn: set[int] = set()
+        for place in () if second is None else second.share(Path(job.id), folder, names):
+            report(place / len(names), names[place])
+            with suppress(Exception):  # drawn again below, it says why
+                job.figure(names[place]).save(folder / names[place])
+                drawn.add(place)
+        if second is not None:
+            drawn |= second.drawn()
+        for place, name in enumerate(names):
+            if place not in drawn:
+                report(place / len(names), name)
+                job.figure(name).save(folder / name)
+        report(1.0, "")
 
 
 class DrawingProcess:
@@ -39,7 +71,7 @@ class DrawingProcess:
             self._queue = opened.enter_context(open(queue, "rb", 0))
             self._offers = opened.enter_context(open(offers, "wb", 0))
             self._process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-P", "-m", PROGRAM, str(queue)],
+                [sys.executable, "-P", "-m", "jointplay.local.drawing_program", str(queue)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,  # the caller tries again, and reports
@@ -58,17 +90,7 @@ class DrawingProcess:
         return self._process.pid
 
     def share(self, results: Path, folder: Path, names: Sequence[str]) -> Iterator[int]:
-        """Offer figures to both processes, and yield which of them the caller is to draw.
-
-        Parameters
-        ----------
-        results
-            Folder of a run.
-        folder
-            Where figures go.
-        names
-            Of figures, those that take longest first.
-        """
+        """Offer figures of the run in `results` to both processes; yield which to draw here."""
         self._offers.write(bytes(range(len(names))))
         self._offers.close()
         order = {"results": str(results), "folder": str(folder), "names": list(names)}

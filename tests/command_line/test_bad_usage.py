@@ -1,11 +1,17 @@
 """Whatever is typed wrong: exit code 2 and one line that names the field and what is right."""
 
+import builtins
 import json
 
 import pytest
 
+from jointplay import client, figures
+from jointplay.command_line.application import EXITS
+from jointplay.records import failure, strict_json
+from jointplay.service import processes
 from jointplay.service.processes.folder_lock import FolderLock
 from jointplay.solver.scene import presets
+from jointplay.storage import results
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
 TIMED = [*PRESS, "--duration", "2"]
@@ -148,3 +154,10 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
     assert ended.code == 2
     assert "jointplay: /joints/A" in ended.line()
     assert "nowhere" in ended.line()
+
+
+def test_exit_codes_are_of_exceptions_that_there_are():
+    """They are named and not imported: a name that nothing has would never be met."""
+    places = (builtins, client, failure, strict_json, processes, figures, results)
+    unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
+    assert unknown == []

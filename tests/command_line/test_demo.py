@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from jointplay.client import Peak
-from jointplay.command_line.comparison import cases_of, table
+from jointplay.command_line.comparison import cases_of, rows_of, table
 from jointplay.solver.scene import presets
 
 README = (Path(__file__).parents[2] / "README.md").read_text()
@@ -70,7 +70,7 @@ def test_the_table_has_a_line_for_every_published_number():
         }
         for case in cases
     ]
-    lines = [line for line in table(cases, peaks) if "imum of " in line]
+    lines = [line for line in table(rows_of(cases, peaks)) if "imum of " in line]
     assert len(lines) == len(scene["reported"])
     for line, entry in zip(lines, scene["reported"], strict=True):
         assert f"{entry['value']:g}" in line

@@ -2,14 +2,14 @@
 
 import typer
 
-from jointplay.command_line.scene import check, draw, listing, show
+from jointplay.command_line.scene import check, draw, presets
 
 application = typer.Typer(
     help="Look at mechanisms: the presets, and scene documents of your own.",
     no_args_is_help=True,
     rich_markup_mode="markdown",
 )
-application.command("list")(listing.list_scenes)
-application.command("show")(show.show)
+application.command("list")(presets.list_presets)
+application.command("show")(presets.show)
 application.command("check")(check.check)
 application.command("draw")(draw.draw)

@@ -4,18 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
-import typer
-
-from jointplay.command_line import job_document
+from jointplay.command_line.job_document import is_scene_file, job_document
 
 if TYPE_CHECKING:
-    from jointplay.records.failure import InvalidInput
+    from jointplay.records.failure import InvalidInput, Problem
     from jointplay.solver.kinds import Admission
     from jointplay.solver.mechanics.assembly import Assembly
-
-SCENE: Any = typer.Argument(
-    metavar="SCENE.json|PRESET", help="A scene document, or the name of a preset."
-)
 
 
 @dataclass(frozen=True)
@@ -29,6 +23,11 @@ class AssembledScene:
     assembly: "Assembly"
     admission: "Admission | None"
     refusal: "InvalidInput | None"
+
+    @property
+    def problems(self) -> "list[Problem]":
+        """What keeps it from being run."""
+        return [] if self.refusal is None else list(self.refusal.problems)
 
     def pose(self) -> dict[str, tuple[float, float, float]]:
         """Return x, y [m] and theta [rad] of every body at t = 0."""
@@ -52,13 +51,13 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
     from jointplay.solver.kinds import admit
     from jointplay.solver.mechanics.assembly import assemble
 
-    given = job_document.job_document(source, settings=settings, options={})
+    given = job_document(source, settings=settings, options={})
     job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
     job |= {"scene": given["scene"]} if "scene" in given else {}
     try:
         admission = cast("Admission", admit(job))
     except InvalidInput as error:
-        return _refused(job, error, is_scene=job_document.is_scene_file(source))
+        return _refused(job, error, is_scene=is_scene_file(source))
     return AssembledScene(admission.scene_document(), assemble(admission.scene), admission, None)
 
 

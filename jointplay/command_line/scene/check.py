@@ -1,17 +1,13 @@
 """``jointplay scene check``: whether a mechanism can be put together and move."""
 
-from typing import Annotated
+from collections.abc import Iterator
 
-import typer
-
-from jointplay.command_line import job_document
-from jointplay.command_line.output import AS_JSON, print_json
-from jointplay.command_line.scene.assembled import SCENE, AssembledScene, assemble_scene
+from jointplay.command_line.options import AS_JSON, SCENE, SET
+from jointplay.command_line.output import tell
+from jointplay.command_line.scene.assembled import AssembledScene, assemble_scene
 
 
-def check(
-    source: Annotated[str, SCENE], settings: job_document.SET = None, as_json: AS_JSON = False
-) -> None:
+def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None:
     """Check a mechanism before it is run: freedom, redundant constraints, assembly.
 
     Of a mechanism that cannot be run the same is printed, and why; then the exit code is 2.
@@ -23,29 +19,25 @@ def check(
     scene = assemble_scene(source, settings or ())
     assembly, admission = scene.assembly, scene.admission
     joints = list(clearances(scene.document))
-    if as_json:
-        print_json(
-            {
-                "scene": scene.document["name"],
-                "bodies": list(scene.document["bodies"]),
-                "joints_with_clearance": joints,
-                "freedom": assembly.freedom_with_play,
-                "ideal_freedom": assembly.freedom,
-                "redundant": assembly.redundant_with_play,
-                "ideal_redundant": assembly.redundant,
-                "residual": assembly.residual,
-                "period": None if admission is None else admission.period,
-                "channels": None if admission is None else len(admission.channels),
-                "problems": [] if scene.refusal is None else list(scene.refusal.problems),
-            }
-        )
-    else:
-        _print(scene, joints)
+    document = {
+        "scene": scene.document["name"],
+        "bodies": list(scene.document["bodies"]),
+        "joints_with_clearance": joints,
+        "freedom": assembly.freedom_with_play,
+        "ideal_freedom": assembly.freedom,
+        "redundant": assembly.redundant_with_play,
+        "ideal_redundant": assembly.redundant,
+        "residual": assembly.residual,
+        "period": None if admission is None else admission.period,
+        "channels": None if admission is None else len(admission.channels),
+        "problems": scene.problems,
+    }
+    tell(document, _lines(scene, joints), as_json=as_json)
     if scene.refusal is not None:
         raise scene.refusal
 
 
-def _print(scene: AssembledScene, joints: list[str]) -> None:
+def _lines(scene: AssembledScene, joints: list[str]) -> Iterator[str]:
     assembly, admission = scene.assembly, scene.admission
     lines = {
         "scene": scene.document["name"],
@@ -60,4 +52,4 @@ def _print(scene: AssembledScene, joints: list[str]) -> None:
         lines["period"] = f"{period:g} s" if period else f"none: {admission.section_note}"
         lines["channels"] = str(len(admission.channels))
     for name, value in lines.items():
-        typer.echo(f"{name:22} {value}")
+        yield f"{name:22} {value}"

@@ -5,16 +5,14 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line import job_document
-from jointplay.command_line.drawing import Form
-from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.output import AS_JSON, print_json
-from jointplay.command_line.scene.assembled import SCENE, assemble_scene
+from jointplay.command_line.options import AS_JSON, SCENE, SET, form_of
+from jointplay.command_line.output import tell
+from jointplay.command_line.scene.assembled import assemble_scene
 
 
 def draw(
-    source: Annotated[str, SCENE],
-    settings: job_document.SET = None,
+    source: SCENE,
+    settings: SET = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg; default NAME.png."),
@@ -32,14 +30,8 @@ def draw(
 
     scene = assemble_scene(source, settings or ())
     file = output or Path(f"{scene.document['name']}.png")
-    if file.suffix not in {".png", ".svg"}:
-        raise Stopped(Exit.BAD_INPUT, f"-o {file}: name a file that ends in .png or .svg.")
-    form: Form = "svg" if file.suffix == ".svg" else "png"
+    form = form_of(file, f"-o {file}: name a file that ends in .png or .svg.")
     file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
-    if as_json:
-        problems = [] if scene.refusal is None else list(scene.refusal.problems)
-        print_json({"figure": str(file), "problems": problems})
-    else:
-        typer.echo(file)
+    tell({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
     if scene.refusal is not None:
         typer.echo(f"jointplay: drawn, but it cannot be run. {scene.refusal}", err=True)

@@ -9,9 +9,8 @@ import pytest
 
 import jointplay
 from jointplay import jobs
-from jointplay.command_line.drawing import draw_all
 from jointplay.local import drawing_process
-from jointplay.local.drawing_process import DrawingProcess
+from jointplay.local.drawing_process import DrawingProcess, draw_all
 from jointplay.solver.kinds import admit
 from jointplay.storage.packed import pack
 from tests.stores import files_of

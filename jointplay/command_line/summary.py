@@ -1,24 +1,40 @@
-"""Summary of a study: a few lines and a table of its points."""
+"""Summary of what a job came to: a document for programs, lines for people."""
 
 from collections import Counter
-from pathlib import Path
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import typer
+from jointplay.command_line.peaks import peak_rows
 
 if TYPE_CHECKING:
+    from jointplay.client import Job
     from jointplay.records.study import StudySource
 
 _MOST_FAILURES = 5
 
 
-def write_points(source: "StudySource", table: Path) -> None:
-    """Write what has one value a point as comma-separated values."""
-    from jointplay.exports import study as study_export
+def results_of(job: "Job") -> dict[str, Any]:
+    """Return what is there so far: statistics and peaks, or the points of a study; else None."""
+    from jointplay.client import NotFound, ResultsNotReady
 
-    channels = [channel.name for channel in source.channels]
-    everything = range(source.points)
-    table.write_text("".join(study_export.point_lines(source, channels, everything, units(source))))
+    found: dict[str, Any] = dict.fromkeys(("statistics", "peaks", "points", "accuracy"))
+    try:
+        if "accuracy" in job.links:
+            found["accuracy"] = job.accuracy
+        elif job.is_study:
+            found["points"] = job.study(sections=(0, 1))
+        elif job.is_finished:
+            found["statistics"] = job.statistics
+            found["peaks"] = peak_rows(job.results.peaks())
+    except (ResultsNotReady, NotFound):
+        pass
+    return found
+
+
+def document_of(job: "Job", found: dict[str, Any]) -> dict[str, Any]:
+    """Return a job with its results as one document."""
+    points = None if found["points"] is None else summary_of(found["points"])
+    return {"job": job.to_document(), **found, "points": points}
 
 
 def summary_of(source: "StudySource") -> dict[str, Any]:
@@ -34,8 +50,7 @@ def summary_of(source: "StudySource") -> dict[str, Any]:
         "status": {word: counts[word] for word in PointStatus.__members__},
         "verdicts": None if verdicts is None else dict(verdicts.most_common()),
         "failures": [
-            {"point": point, "code": one.code, "detail": one.detail, "time": one.time}
-            for point, one in source.failures.items()
+            {"point": point, **failure._asdict()} for point, failure in source.failures.items()
         ],
     }
 
@@ -48,8 +63,8 @@ def units(source: "StudySource") -> dict[str, str]:
     return {name: unit for name, (unit, _) in {**OUTPUTS, **own}.items()}
 
 
-def print_points(source: "StudySource") -> None:
-    """Print how many points ended in which way, the verdicts, the extremes, the first failures."""
+def study_lines(source: "StudySource") -> Iterator[str]:
+    """Yield how many points ended in which way, the verdicts, extremes, and first failures."""
     import numpy as np
 
     from jointplay.records.point import PointStatus
@@ -58,13 +73,13 @@ def print_points(source: "StudySource") -> None:
     for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):
         if counts is not None:
             listed = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
-            typer.echo(f"{heading:9} {listed}")
+            yield f"{heading:9} {listed}"
     done = source.status == PointStatus.done
     width = max((len(channel.name) for channel in source.channels), default=0)
     for channel in source.channels if done.any() else ():
         peaks = source.peaks(channel.name)
         low, high = peaks.minimum[done], peaks.maximum[done]
-        typer.echo(
+        yield (
             f"{channel.name:{width}}  minimum {np.nanmin(low):.6g} to {np.nanmax(low):.6g},"
             f"  maximum {np.nanmin(high):.6g} to {np.nanmax(high):.6g} {channel.unit}"
         )
@@ -74,6 +89,6 @@ def print_points(source: "StudySource") -> None:
             for parameter, value in zip(source.parameters, source.values[point], strict=True)
         )
         where = f"point {point}" + (f" ({values})" if values else "")
-        typer.echo(f"failed    {where}: {failure.detail}")
+        yield f"failed    {where}: {failure.detail}"
     if len(source.failures) > _MOST_FAILURES:
-        typer.echo(f"          and {len(source.failures) - _MOST_FAILURES} more")
+        yield f"          and {len(source.failures) - _MOST_FAILURES} more"

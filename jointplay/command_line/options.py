@@ -1,0 +1,64 @@
+"""Arguments and options that several commands have."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from jointplay.command_line.exits import Stopped
+
+DEFAULT_URL = "http://127.0.0.1:8000"  # jointplay.client's, without loading it
+URL = Annotated[
+    str,
+    typer.Option(
+        "--url",
+        envvar="JOINTPLAY_URL",
+        help="Address of the service; JOINTPLAY_KEY is sent to it as a bearer token, for a proxy"
+        " that asks for one.",
+    ),
+]
+AS_JSON = Annotated[bool, typer.Option("--json", help="Print one JSON document instead.")]
+WAIT = Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")]
+PROCESSES = Annotated[int | None, typer.Option(min=1, max=1024, help="Default one for each core.")]
+
+JOB = Annotated[
+    str,
+    typer.Argument(
+        metavar="JOB.json|SCENE.json|PRESET",
+        help="A job document, a scene document, or the name of a preset (`jointplay scene list`).",
+    ),
+]
+SCENE = Annotated[
+    str,
+    typer.Argument(metavar="SCENE.json|PRESET", help="A scene document, or the name of a preset."),
+]
+SET = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="NAME=VALUE", help="Set a parameter of the scene, in SI units; repeatable."
+    ),
+]
+
+RESULTS = Annotated[
+    str, typer.Argument(metavar="OUT|ID", help="Folder of `jointplay run`, or id of a job.")
+]
+START = Annotated[
+    float | None, typer.Option(metavar="SECONDS", help="From this time; first point of a study.")
+]
+STOP = Annotated[
+    float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
+]
+Form = Literal["png", "svg"]
+
+
+def listed(text: str | None) -> list[str] | None:
+    """Return the parts of a comma-separated list."""
+    return None if text is None else [part.strip() for part in text.split(",")]
+
+
+def form_of(path: Path, otherwise: str) -> Form:
+    """Return the form of a figure by the name of its file; `otherwise` is said of other names."""
+    forms: dict[str, Form] = {".png": "png", ".svg": "svg"}
+    if path.suffix not in forms:
+        raise Stopped(otherwise)
+    return forms[path.suffix]
