@@ -10,7 +10,7 @@ from jointplay.figures import horizon, page, scene_facts
 from jointplay.figures.errors import NotDrawable, at_most
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import CertificateLike, Source, inside
+from jointplay.records.run import CertificateRecord, Source, inside
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,7 +22,7 @@ _SMALLEST = 1e-12
 """Share of the largest error that a panel shows: errors below are drawn there."""
 
 
-def _of(source: Source) -> CertificateLike:
+def _of(source: Source) -> CertificateRecord:
     certificate = source.certificate()
     if certificate is None or not len(certificate.arrays["time"].values):
         raise NotDrawable("These results have no certificate with errors over time.")

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.run import CertificateLike, Floats, Source
+from jointplay.records.run import CertificateRecord, Floats, Source
 
 COST: Final = ("steps", "rejections", "onsets", "smallest_step", "solver_seconds")
 EXTREMES: Final = ("lowest_minimum", "highest_minimum", "lowest_maximum", "highest_maximum")
@@ -17,7 +17,7 @@ HISTOGRAM: Final = ("edges", "share", "spread")
 
 
 def certificate_document(
-    source: Source, certificate: CertificateLike, names: Sequence[str] | None = None
+    source: Source, certificate: CertificateRecord, names: Sequence[str] | None = None
 ) -> dict[str, Any]:
     """Return the document of some channels, by default of all; None where nothing is known.
 
@@ -52,7 +52,7 @@ def certificate_document(
     }
 
 
-def converged(certificate: CertificateLike, time: Floats) -> NDArray[np.bool_]:
+def converged(certificate: CertificateRecord, time: Floats) -> NDArray[np.bool_]:
     """Tell at which times [s] the motion is converged."""
     spans = certificate.attributes["converged"]
     inside = [(start <= time) & (time <= stop) for start, stop in spans]
@@ -60,7 +60,7 @@ def converged(certificate: CertificateLike, time: Floats) -> NDArray[np.bool_]:
 
 
 def _of_channel(
-    certificate: CertificateLike, column: int, known: NDArray[np.bool_]
+    certificate: CertificateRecord, column: int, known: NDArray[np.bool_]
 ) -> Mapping[str, Any]:
     arrays = {name: array.values for name, array in certificate.arrays.items()}
     error = np.where(known, arrays["error"][:, column], np.nan)

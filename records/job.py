@@ -1,12 +1,21 @@
-"""A job's progress, and the error that ended it."""
+"""A job's id and progress, and the error that ended it."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, Self
+from typing import Any, Final, Literal, Self
 
 ErrorClass = Literal["user", "solver", "platform", "limit"]
 """Remedy: another document (user), another tolerance or method (solver), the operator (platform),
 a smaller job (limit)."""
+
+
+_JOB_ID: Final = re.compile("[0-9A-HJKMNP-TV-Z]{26}")
+
+
+def is_job_id(text: str) -> bool:
+    """Tell whether a text is written as the ids of jobs and batches are: they sort by time."""
+    return _JOB_ID.fullmatch(text) is not None
 
 
 @dataclass(frozen=True)

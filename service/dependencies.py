@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
-from jointplay.records.job_id import is_job_id
+from jointplay.records.job import is_job_id
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.problems.document import clipped
 from jointplay.storage.catalogue import Catalogue, Job, JobNotFound

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.records.run import CertificateRecord, LabelledArray
 from jointplay.solver.runs.certificate.certificate import Certificate
-from jointplay.storage.results import Appendix, SmallArray
 
 IN_ITS_UNIT = "in the unit of its channel"
 EXTREMES = ("lowest minimum", "highest minimum", "lowest maximum", "highest maximum")
 
 
-def appendix_of(certificate: Certificate) -> Appendix:
+def record_of(certificate: Certificate) -> CertificateRecord:
     """Return what a store keeps of a certificate."""
     columns = {
         "time": (certificate.time, ("instant",), "s", "time"),
@@ -45,10 +45,10 @@ def appendix_of(certificate: Certificate) -> Appendix:
         ),
     }
     arrays = {
-        name: SmallArray(values, dimensions, _meaning(unit, long_name))
+        name: LabelledArray(values, dimensions, _meaning(unit, long_name))
         for name, (values, dimensions, unit, long_name) in columns.items()
     }
-    return Appendix(_finite(certificate.facts), arrays)
+    return CertificateRecord(_finite(certificate.facts), arrays)
 
 
 def _meaning(unit: str | None, long_name: str) -> dict[str, Any]:

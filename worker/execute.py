@@ -16,7 +16,7 @@ from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import ResultLayout, ResultWriter
-from jointplay.worker.certificates import appendix_of
+from jointplay.worker.certificates import record_of
 
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
 _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
@@ -206,11 +206,11 @@ def _seal(
     *,
     complete: bool,
 ) -> None:
-    appendix = None if certificate is None else appendix_of(certificate)
+    record = None if certificate is None else record_of(certificate)
     writer.seal(
         target,
         peaks=summary.peaks,
         summary=summary.statistics,
         complete=complete,
-        certificate=appendix,
+        certificate=record,
     )

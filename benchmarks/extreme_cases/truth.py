@@ -11,7 +11,7 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.simulate import Simulation
-from jointplay.worker.certificates import appendix_of
+from jointplay.worker.certificates import record_of
 
 Floats = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ def coverage_of(job: dict[str, Any]) -> Coverage | None:
     time = certificate.time
     if not len(time):
         return None
-    within = converged(appendix_of(certificate), time)
+    within = converged(record_of(certificate), time)
     step = float(time[1])
     index = np.round(time[within] / step).astype(int)
     plain = job | {"certificate": False, "output_step": step}

@@ -13,8 +13,8 @@ from jointplay.client.results import Form, Impacts, Peak, Store
 from jointplay.client.window import Window, floats
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
-from jointplay.records.run_in_memory import Dataset
-from jointplay.records.study_in_memory import StudyDataset
+from jointplay.records.run import Dataset
+from jointplay.records.study import StudyDataset
 
 _Times = tuple[float | None, float | None]
 

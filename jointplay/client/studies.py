@@ -13,7 +13,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
-from jointplay.records.study_in_memory import StudyDataset
+from jointplay.records.study import StudyDataset
 
 Document = dict[str, Any]
 

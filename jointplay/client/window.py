@@ -7,8 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from jointplay.records.channel import Channel
-from jointplay.records.run import Floats
-from jointplay.records.run_in_memory import Dataset
+from jointplay.records.run import Dataset, Floats
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ def batch(
 
     Example: `jointplay batch jobs.json --label "friction" --wait`
     """
-    from jointplay.records.job_id import is_job_id
+    from jointplay.records.job import is_job_id
 
     with connect(url) as client:
         known = is_job_id(source) and not Path(source).exists()

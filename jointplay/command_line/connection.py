@@ -21,7 +21,7 @@ def connect(url: str) -> "Client":
 @contextmanager
 def job_of(results: str, url: str) -> Iterator["Job"]:
     """Give the job that ``OUT|ID`` means: in a folder, or of the service at ``url``."""
-    from jointplay.records.job_id import is_job_id
+    from jointplay.records.job import is_job_id
 
     if Path(results).exists() or not is_job_id(results):
         from jointplay.local import load

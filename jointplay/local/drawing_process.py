@@ -138,7 +138,7 @@ def _figures(admission: "Admission | Study") -> int:
 
     from jointplay import figures
     from jointplay.records.channel import Channel
-    from jointplay.records.run_in_memory import Dataset
+    from jointplay.records.run import Dataset
     from jointplay.solver.kinds import Admission
 
     if not isinstance(admission, Admission):

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Self
 from fastapi import APIRouter, Depends, Path, Query, Response
 from pydantic import BaseModel, Field
 
-from jointplay.records.job_id import is_job_id
+from jointplay.records.job import is_job_id
 from jointplay.service.batches.admission import admit_batch
 from jointplay.service.body import JsonBatch
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import AwareDatetime, BaseModel, BeforeValidator, ConfigDict, Field
 
-from jointplay.records.job_id import is_job_id
+from jointplay.records.job import is_job_id
 from jointplay.service.problems import RequestRefused
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue import JobState

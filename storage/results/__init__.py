@@ -15,14 +15,11 @@ from jointplay.storage.errors import (
     StoreSealed,
     UnknownChannel,
 )
-from jointplay.storage.results.certificate_group import Appendix, SmallArray
-from jointplay.storage.results.layout import ResultLayout
-from jointplay.storage.results.partition import Partition
+from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
 
 __all__ = [
-    "Appendix",
     "CheckpointMismatch",
     "CorruptStore",
     "InvalidAppend",
@@ -33,7 +30,6 @@ __all__ = [
     "ResultReader",
     "ResultWriter",
     "ResultsError",
-    "SmallArray",
     "StoreExists",
     "StoreSealed",
     "UnknownChannel",

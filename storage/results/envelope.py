@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
-from jointplay.storage.results.metadata import FILE
+from jointplay.storage.results.metadata import DOUBLE, FILE
 from jointplay.storage.results.pyramid import ARRAY, GROUP
 
 Floats = NDArray[np.float64]
@@ -18,7 +18,6 @@ Column = Callable[[int, int], Floats]
 
 _LEAST: Final = 4
 """Buckets of a bin: with fewer, bins that begin with a bucket would be much too wide."""
-_DOUBLE: Final = np.dtype("<f8")
 
 
 class StoredLevel:
@@ -68,7 +67,7 @@ class StoredLevel:
             index = self._indices[file] = shards.unpack_index(packed)
         offset, length = index[column]
         content = self._files.read(key, offset, offset + length)
-        return shards.decompress(content, _DOUBLE).reshape(-1, 2)
+        return shards.decompress(content, DOUBLE).reshape(-1, 2)
 
 
 class Envelope:

@@ -112,5 +112,5 @@ class GrowingTable:
 
     def _contents(self) -> Iterator[bytes]:
         """Encode the waiting rows of each column, in the order of `shard_keys`."""
-        for column, rows in zip(self.table.columns, self.pending(), strict=True):
-            yield shards.encode(rows, self.table.chunk_rows, self._shard_rows, column.fill)
+        for rows in self.pending():
+            yield shards.encode(rows, self.table.chunk_rows, self._shard_rows)

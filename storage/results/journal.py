@@ -6,7 +6,7 @@ next one. So no generation holds more than the buffers of the tables.
 
 A generation begins with a line of JSON: how many rows of each table are in shards, and how many
 bytes a row takes. Then follows, for each checkpoint and table, a frame: the number of new rows
-and their columns. `storage.results.waiting` reads it for those who follow a growing store.
+and their columns. `storage.results.waiting` reads it.
 """
 
 import hashlib
@@ -17,18 +17,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
-import numpy as np
-
-from jointplay.records.checkpoint import ForeignCheckpoint, UnusableCheckpoint, decode, encode
+from jointplay.records.checkpoint import encode
 from jointplay.storage.durable import sync
-from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results.growing_table import GrowingTable
 
-FOLDER: Final = PARTS
 _KEPT_GENERATIONS: Final = 3
 ROWS: Final = struct.Struct("<Q")
-_KIND: Final = "growing results"
+KIND: Final = "growing results"
 
 
 class Journal:
@@ -43,7 +39,7 @@ class Journal:
     """
 
     def __init__(self, root: Path, layout_digest: str) -> None:
-        self._folder = root / FOLDER
+        self._folder = root / PARTS
         self._layout_digest = layout_digest
         self._generation = 0
         self._size = 0
@@ -87,7 +83,7 @@ class Journal:
             "sha256": self._hash.hexdigest(),
             "durable": durable,
         }
-        return encode(_KIND, self._layout_digest, token, {})
+        return encode(KIND, self._layout_digest, token, {})
 
     def _begin(self, durable: list[int]) -> None:
         self._generation += 1
@@ -101,53 +97,6 @@ class Journal:
         return self._folder / f"{generation:08d}"
 
 
-class Checkpoint:
-    """A checkpoint read back.
-
-    Raises
-    ------
-    CheckpointMismatch
-        The bytes are no checkpoint of a store with this layout.
-    """
-
-    def __init__(self, content: bytes, layout_digest: str) -> None:
-        try:
-            token, _ = decode(content, _KIND, layout_digest)
-        except ForeignCheckpoint as error:
-            raise CheckpointMismatch(
-                "the checkpoint belongs to a store with other channels, counts or joints"
-            ) from error
-        except UnusableCheckpoint as error:
-            raise CheckpointMismatch("these bytes are no checkpoint of a results store") from error
-        self.generation: int = token["generation"]
-        self.durable: list[int] = token["durable"]
-        self._size: int = token["size"]
-        self._sha256: str = token["sha256"]
-
-    def replay(self, root: Path, tables: Sequence[GrowingTable]) -> None:
-        """Append the rows that waited at the checkpoint, from the journal below `root`.
-
-        Raises
-        ------
-        CheckpointMismatch
-            The journal is not there.
-        CorruptStore
-            It is not the one that the checkpoint describes.
-        """
-        path = root / FOLDER / f"{self.generation:08d}"
-        try:
-            with path.open("rb") as file:
-                content = file.read(self._size)
-        except FileNotFoundError as error:
-            raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
-        if hashlib.sha256(content).hexdigest() != self._sha256:
-            raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
-        view = memoryview(content)[content.find(b"\n") + 1 :]
-        while view:
-            for table in tables:
-                view = _replay_frame(view, table)
-
-
 def _header(tables: Sequence[GrowingTable]) -> bytes:
     row_bytes = [sum(c.dtype.itemsize for c in table.table.columns) for table in tables]
     known = {"durable": [table.durable for table in tables], "row_bytes": row_bytes}
@@ -157,15 +106,3 @@ def _header(tables: Sequence[GrowingTable]) -> bytes:
 def _frame(table: GrowingTable, first: int) -> list[bytes]:
     columns = [column.tobytes() for column in table.pending(first)]
     return [ROWS.pack(table.rows - first), *columns]
-
-
-def _replay_frame(view: memoryview, table: GrowingTable) -> memoryview:
-    (rows,) = ROWS.unpack_from(view)
-    view = view[ROWS.size :]
-    columns = []
-    for column in table.table.columns:
-        size = rows * column.dtype.itemsize
-        columns.append(np.frombuffer(view[:size], column.dtype))
-        view = view[size:]
-    table.append(columns)
-    return view

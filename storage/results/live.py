@@ -5,7 +5,7 @@ committed. The last shard, which is not full yet, is made of the rows that wait 
 """
 
 import json
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -15,10 +15,8 @@ from jointplay.storage.errors import NotAStore
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import SCHEMA_VERSION
-from jointplay.storage.results.metadata import FILE, Document, group, serialise
+from jointplay.storage.results.metadata import DOUBLE, FILE, Document, documents, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
-
-_DOUBLE: Final = np.dtype("<f8")
 
 
 class LiveStore:
@@ -41,24 +39,15 @@ class LiveStore:
         self.files = files
         root = root_of(files)
         self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
-        self._attributes: dict[str, Any] = root["attributes"]
-        self._columns = columns_of(self._attributes)
+        self._columns = columns_of(root["attributes"])
         self._waiting = committed(files, samples, root)
+        shown = {path: self._shown(path) for path in self._members}
+        self._documents = documents(root["attributes"], shown)
 
     def document(self, key: str) -> bytes | None:
         """Give a zarr.json, or None where there is no group or array."""
-        path = key.removesuffix(FILE).rstrip("/")
-        if path and path not in self._members:
-            return None
-        shown = {name: self._shown(name) for name in self._members}
-        node = {**shown[path]} if path else None
-        if node is not None and node["node_type"] == "array":
-            return serialise(node)
-        below = {name.removeprefix(f"{path}/"): one for name, one in shown.items()}
-        if path:
-            below = {k: one for k, one in below.items() if f"{path}/{k}" in shown}
-        attributes = self._attributes if node is None else node["attributes"]
-        return serialise(group(attributes, below))
+        found = self._documents.get(key)
+        return None if found is None else serialise(found)
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk that is not on the disk yet, or None if it has no row.
@@ -77,11 +66,10 @@ class LiveStore:
         if int(place) != waiting.durable // shard_rows or waiting.rows == waiting.durable:
             return None
         rows = waiting.columns[names.index(name)]
-        fill = shards.fill(rows.dtype)
         if shard_rows == chunk_rows:
-            return shards.encode(rows, chunk_rows, shard_rows, fill)
+            return shards.encode(rows, chunk_rows, shard_rows)
         chunks = [rows[i : i + chunk_rows] for i in range(0, shard_rows, chunk_rows)]
-        return shards.loose(chunks, chunk_rows, fill)
+        return shards.loose(chunks, chunk_rows)
 
     def _shown(self, name: str) -> Document:
         document = self._members[name]
@@ -100,7 +88,7 @@ def loosened(array: Document | None, content: bytes) -> bytes | None:
         return None
     dtype = np.dtype(array["data_type"])
     chunks = shards.chunks_of(content, shard_rows // chunk_rows, dtype)
-    return shards.loose(chunks, chunk_rows, shards.fill(dtype))
+    return shards.loose(chunks, chunk_rows)
 
 
 def shape_of(array: Document) -> tuple[int, int]:
@@ -152,7 +140,7 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
     Without the journal of that moment only whole shards count.
     """
     columns = columns_of(root["attributes"])
-    sampled = [_DOUBLE] * len(columns[""])
+    sampled = [DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
     found = waiting_rows(files.folder, samples, dtypes)
     if found is not None:

@@ -8,56 +8,37 @@ cannot list a folder (over HTTP) show an empty dataset.
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
-from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
 
-from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.shards import COMPRESSION_LEVEL, COMPRESSOR, fill
-from jointplay.storage.results.tables import Column, Table, tables
 
 Document = dict[str, Any]
 
 FILE: Final = "zarr.json"
+DOUBLE: Final = np.dtype("<f8")
 _BYTES_CODEC: Final = {"name": "bytes", "configuration": {"endian": "little"}}
 
 
-def documents(
-    layout: ResultLayout,
-    rows: Sequence[int],
-    attributes: Mapping[str, Any],
-    more: Mapping[str, Document] = MappingProxyType({}),
-) -> dict[str, Document]:
-    """Make every document of a store by its key; the root's comes last.
+def documents(attributes: Mapping[str, Any], nodes: Mapping[str, Document]) -> dict[str, Document]:
+    """Make every document of a store by its key: of arrays, then of groups, the root's last.
 
     Parameters
     ----------
-    layout
-        Columns and root attributes.
-    rows
-        Rows that each of `tables(layout)` shows.
     attributes
-        Root attributes that the layout does not know.
-    more
-        Nodes that no table has, by path.
+        Of the root.
+    nodes
+        Arrays, and groups without their members, by path.
     """
-    written: dict[str, Document] = {f"{path}/{FILE}": node for path, node in more.items()}
-    members: dict[str, Document] = dict(more)
-    groups: dict[str, Document] = {}
-    for table, count in zip(tables(layout), rows, strict=True):
-        arrays = {column.name: _column(column, table, count) for column in table.columns}
-        written |= {f"{table.key(name)}/{FILE}": array for name, array in arrays.items()}
-        if table.group:
-            groups[table.group] = group(table.attributes, arrays)
-            members[table.group] = group(table.attributes, {})
-            members |= {table.key(name): array for name, array in arrays.items()}
-            written[f"{table.group}/{FILE}"] = groups[table.group]
-        else:
-            members |= arrays
-            own = table.attributes
-    written[FILE] = group({**layout.attributes, **own, **attributes}, members)
-    return written
+    arrays = {path: node for path, node in nodes.items() if node["node_type"] == "array"}
+    written = {f"{path}/{FILE}": array for path, array in arrays.items()}
+    for path, node in nodes.items():
+        if node["node_type"] == "group":
+            begin = f"{path}/"
+            below = {p.removeprefix(begin): one for p, one in arrays.items() if p.startswith(begin)}
+            written[begin + FILE] = group(node["attributes"], below)
+    return written | {FILE: group(attributes, nodes)}
 
 
 def serialise(document: Mapping[str, Any]) -> bytes:
@@ -138,15 +119,3 @@ def group(attributes: Mapping[str, Any], members: Mapping[str, Document]) -> Doc
 @cache
 def _name(dtype: np.dtype[Any]) -> str:
     return dtype.name  # numpy spells it anew each time, which is most of the cost of a document
-
-
-def _column(column: Column, table: Table, rows: int) -> Document:
-    whole_chunks = table.chunk_rows == table.shard_rows
-    return array(
-        [rows],
-        [table.chunk_rows],
-        column.dtype,
-        [table.dimension],
-        column.attributes,
-        shard=None if whole_chunks else [table.shard_rows],
-    )

@@ -18,6 +18,7 @@ from jointplay.storage.packed.running import Running
 from jointplay.storage.results import metadata, shards
 from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.metadata import DOUBLE
 from jointplay.storage.results.tables import Column, Table
 
 GROUP: Final = "pyramid"
@@ -26,7 +27,6 @@ ARRAY: Final = "extremes"
 FACTOR: Final = 16
 """Buckets of one level that make a bucket of the next."""
 
-_DOUBLE: Final = np.dtype("<f8")
 _FEWEST: Final = 16  # buckets of the coarsest level
 
 Columns = Sequence[NDArray[Any]]
@@ -48,7 +48,7 @@ class Level(GrowingTable):
     def __init__(self, layout: ResultLayout, size: int, files: Running) -> None:
         names = [*(channel.name for channel in layout.channels), TIME]
         columns = tuple(
-            Column(f"{name} {extreme}", _DOUBLE, {})
+            Column(f"{name} {extreme}", DOUBLE, {})
             for name in names
             for extreme in ("minimum", "maximum")
         )
@@ -68,7 +68,7 @@ class Level(GrowingTable):
         return f"{self.table.key(ARRAY)}/{metadata.FILE}", metadata.array(
             [self.capacity, width],
             [rows, 2],
-            _DOUBLE,
+            DOUBLE,
             ["bucket", "extreme"],
             {"long_name": f"minimum and maximum of each column in buckets of {self.size} samples"},
             shard=[rows, width],

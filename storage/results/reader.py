@@ -13,17 +13,15 @@ from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK, Peak
+from jointplay.records.run import CertificateRecord, Columns, Floats
 from jointplay.storage.errors import NotAStore, UnknownChannel
 from jointplay.storage.packed import Files, Packed, Running, files_at
 from jointplay.storage.packed.zarr_store import FilesStore
-from jointplay.storage.results import manifest
-from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix, read_appendix
+from jointplay.storage.results import certificate_group, manifest
 from jointplay.storage.results.envelope import Envelope
 from jointplay.storage.results.live import columns_of, committed, root_of, rows_in_shards
 from jointplay.storage.results.metadata import Document
 from jointplay.storage.results.waiting import Waiting
-
-Floats = NDArray[np.float64]
 
 
 class ResultReader:
@@ -73,7 +71,7 @@ class ResultReader:
 
     def history(
         self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
-    ) -> tuple[Floats, dict[str, Floats]]:
+    ) -> Columns:
         """Read samples `start` to `stop` - 1 of some channels (default: all, to the end).
 
         Returns
@@ -90,7 +88,7 @@ class ResultReader:
 
     def blocks(
         self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
-    ) -> Iterator[tuple[Floats, dict[str, Floats]]]:
+    ) -> Iterator[Columns]:
         """As `history`, in consecutive pieces of at most one chunk, in bounded memory."""
         names = self._names(channels)
         start, stop = self._window(start, stop)
@@ -103,7 +101,7 @@ class ResultReader:
 
     def extremes(
         self, channels: Sequence[str] | None, start: int, stop: int, points: int
-    ) -> tuple[Floats, dict[str, Floats]]:
+    ) -> Columns:
         """Find smallest and largest values of samples `start` to `stop` - 1 in bins.
 
         Exact: no sample is left out. Long histories have them ready in their pyramid.
@@ -149,7 +147,7 @@ class ResultReader:
         last = self.samples if stop is None else self._first_sample_from(stop, after=True)
         return first, max(first, last)
 
-    def sections(self, channels: Sequence[str] | None = None) -> tuple[Floats, dict[str, Floats]]:
+    def sections(self, channels: Sequence[str] | None = None) -> Columns:
         """Read the Poincare sections: (m,) times [s] and by channel (m,) values."""
         return self._read("poincare", channels, 0, self._rows("poincare"))
 
@@ -177,9 +175,9 @@ class ResultReader:
             for name, *values in zip(self.attributes["channels"], *columns, strict=True)
         }
 
-    def certificate(self) -> Appendix | None:
+    def certificate(self) -> CertificateRecord | None:
         """Read what is known of the rows' errors; none before the store is sealed, or at all."""
-        return read_appendix(self._root, CERTIFICATE) if self.sealed else None
+        return certificate_group.read(self._root) if self.sealed else None
 
     def verify(self) -> None:
         """Compare every file with the manifest.
@@ -246,9 +244,7 @@ class ResultReader:
         column = len(self.attributes["channels"])
         return levels[-1].size, levels[-1].read(column, 0, levels[-1].buckets)[:, 1].copy()
 
-    def _read(
-        self, group: str, channels: Sequence[str] | None, start: int, stop: int
-    ) -> tuple[Floats, dict[str, Floats]]:
+    def _read(self, group: str, channels: Sequence[str] | None, start: int, stop: int) -> Columns:
         names = self._names(channels)
         stop = max(start, stop)
         time = self._column(group, TIME, start, stop)

@@ -26,7 +26,7 @@ _uncompressed: Final = blosc.Blosc(cname=COMPRESSOR, clevel=0, shuffle=blosc.NOS
 blosc.use_threads = False
 
 
-def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) -> bytes:
+def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int) -> bytes:
     """Encode rows as one file.
 
     Parameters
@@ -35,8 +35,6 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
         (k,) with 1 <= k <= `shard_rows`, little-endian.
     chunk_rows, shard_rows
         As in `Table`; equal means that the file is one plain chunk without an index.
-    fill
-        Value that fills the last chunk up.
 
     Returns
     -------
@@ -46,26 +44,30 @@ def encode(rows: NDArray[Any], chunk_rows: int, shard_rows: int, fill: float) ->
         CRC-32C of the index.
     """
     if chunk_rows == shard_rows:
-        return _chunk(rows, chunk_rows, fill)
+        return compress(filled(rows, [chunk_rows]))
     return pack(
         [
-            _chunk(rows[first : first + chunk_rows], chunk_rows, fill) if first < len(rows) else b""
+            compress(filled(rows[first : first + chunk_rows], [chunk_rows]))
+            if first < len(rows)
+            else b""
             for first in range(0, shard_rows, chunk_rows)
         ]
     )
 
 
-def pack(chunks: Sequence[bytes], offset: int = 0) -> bytes:
-    """Put compressed chunks, empty where there is none, into one file with its index.
-
-    `offset` is how many bytes will stand before them.
-    """
+def pack(chunks: Sequence[bytes]) -> bytes:
+    """Put compressed chunks, empty where there is none, into one file with its index."""
     index: list[int] = []
+    offset = 0
     for chunk in chunks:
         index += (offset, len(chunk)) if chunk else (_ABSENT, _ABSENT)
         offset += len(chunk)
+    return b"".join((*chunks, _packed_index(index)))
+
+
+def _packed_index(index: Sequence[int]) -> bytes:
     packed = struct.pack(f"<{len(index)}Q", *index)
-    return b"".join((*chunks, packed, struct.pack("<I", google_crc32c.value(packed))))
+    return packed + struct.pack("<I", google_crc32c.value(packed))
 
 
 def index_bytes(chunks: int) -> int:
@@ -97,7 +99,7 @@ def chunks_of(content: bytes, chunks: int, dtype: np.dtype[Any]) -> list[NDArray
     return [decompress(content[o : o + length], dtype) for o, length in index]
 
 
-def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int, fill: float) -> bytes:
+def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int) -> bytes:
     """Encode a shard that is still growing.
 
     Chunks are not compressed and stand at offsets that do not depend on how full the shard is,
@@ -108,18 +110,16 @@ def loose(chunks: Sequence[NDArray[Any]], chunk_rows: int, fill: float) -> bytes
     ----------
     chunks
         Rows of each chunk of the shard: the last ones may be short or empty.
-    chunk_rows, fill
+    chunk_rows
         As for `encode`.
     """
-    encoded = [_padded(rows, chunk_rows, fill) for rows in chunks]
+    encoded = [bytes(_uncompressed.encode(filled(rows, [chunk_rows]))) for rows in chunks]
     slot = max(len(one) for one in encoded)
     begin = len(chunks) * slot + index_bytes(len(chunks))
     index: list[int] = []
     for position, rows in enumerate(chunks):
         index += (begin + position * slot, slot) if len(rows) else (_ABSENT, _ABSENT)
-    packed = struct.pack(f"<{len(index)}Q", *index)
-    crc = struct.pack("<I", google_crc32c.value(packed))
-    return b"".join((bytes(begin), *encoded, packed, crc))
+    return b"".join((bytes(begin), *encoded, _packed_index(index)))
 
 
 def decompress(content: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
@@ -127,12 +127,6 @@ def decompress(content: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
     if not content:
         return np.empty(0, dtype)
     return np.frombuffer(_codec.decode(content), dtype)
-
-
-def _padded(rows: NDArray[Any], chunk_rows: int, fill: float) -> bytes:
-    whole = np.full(chunk_rows, fill, rows.dtype)
-    whole[: len(rows)] = rows
-    return bytes(_uncompressed.encode(whole))
 
 
 def compress(chunk: NDArray[Any]) -> bytes:
@@ -148,7 +142,10 @@ def fill(dtype: np.dtype[Any]) -> float | int:
     return {"f": float("nan"), "i": -1, "u": 0}[dtype.kind]
 
 
-def _chunk(rows: NDArray[Any], chunk_rows: int, fill: float) -> bytes:
-    if len(rows) < chunk_rows:
-        rows = np.concatenate([rows, np.full(chunk_rows - len(rows), fill, dtype=rows.dtype)])
-    return compress(rows)
+def filled(values: NDArray[Any], shape: Sequence[int]) -> NDArray[Any]:
+    """Return a whole chunk that begins with some values; the rest is filled up."""
+    if values.shape == tuple(shape):
+        return values
+    whole = np.full(shape, fill(values.dtype), values.dtype)
+    whole[tuple(slice(length) for length in values.shape)] = values
+    return whole

@@ -4,32 +4,27 @@ A table is a Zarr group whose arrays all have one dimension of the same length. 
 written in shards; a shard is one file an array, and is written once.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from jointplay.records.impact import IMPACT, MEASURED
 from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK
+from jointplay.storage.results import metadata
 from jointplay.storage.results.layout import SCHEMA_VERSION, ResultLayout
-from jointplay.storage.results.shards import fill
-
-_DOUBLE: Final = np.dtype("<f8")
+from jointplay.storage.results.metadata import DOUBLE, Document
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(NamedTuple):
     """One array of a table."""
 
     name: str
     dtype: np.dtype[Any]
     attributes: dict[str, Any]
-
-    @property
-    def fill(self) -> float | int:
-        """Value of rows that were not written."""
-        return fill(self.dtype)
 
 
 @dataclass(frozen=True)
@@ -53,13 +48,23 @@ class Table:
         """Path of an array inside the store."""
         return f"{self.group}/{name}" if self.group else name
 
+    def arrays(self, rows: int) -> dict[str, Document]:
+        """Make the documents of the arrays by path."""
+        shard = None if self.chunk_rows == self.shard_rows else [self.shard_rows]
+        return {
+            self.key(name): metadata.array(
+                [rows], [self.chunk_rows], dtype, [self.dimension], attributes, shard=shard
+            )
+            for name, dtype, attributes in self.columns
+        }
+
 
 def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
     """History, sections, impacts and peaks of a layout."""
     sampled = (
-        *(Column(channel.name, _DOUBLE, channel.attributes) for channel in layout.channels),
+        *(Column(channel.name, DOUBLE, channel.attributes) for channel in layout.channels),
         # last, because readers take its shard for the sign that all others are there
-        Column(TIME, _DOUBLE, {"units": "s", "long_name": "time"}),
+        Column(TIME, DOUBLE, {"units": "s", "long_name": "time"}),
     )
     in_time = {"coordinates": TIME}  # makes xarray take `time` for a coordinate
     about = {
@@ -68,7 +73,7 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
         "joints": list(layout.joints),
         "complete": False,
     }
-    peaks = tuple(Column(name, _DOUBLE, meaning) for name, meaning in PEAK.items())
+    peaks = tuple(Column(name, DOUBLE, meaning) for name, meaning in PEAK.items())
     channels = {
         "channels": [channel.name for channel in layout.channels],
         "channel_units": [channel.unit for channel in layout.channels],
@@ -92,6 +97,36 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
         table("impacts", "impact", impacts, None, {}),
         table("peaks", "channel", peaks, len(layout.channels), channels),
     )
+
+
+def documents(
+    layout: ResultLayout,
+    rows: Sequence[int],
+    attributes: Mapping[str, Any],
+    more: Mapping[str, Document] = MappingProxyType({}),
+) -> dict[str, Document]:
+    """Make every document of a store by its key.
+
+    Parameters
+    ----------
+    layout
+        Columns and root attributes.
+    rows
+        Rows that each of `tables(layout)` shows.
+    attributes
+        Root attributes that the layout does not know.
+    more
+        Nodes that no table has, by path.
+    """
+    nodes = dict(more)
+    root: dict[str, Any] = {}
+    for table, count in zip(tables(layout), rows, strict=True):
+        if table.group:
+            nodes[table.group] = metadata.group(table.attributes, {})
+        else:
+            root = table.attributes
+        nodes |= table.arrays(count)
+    return metadata.documents({**layout.attributes, **root, **attributes}, nodes)
 
 
 def _impact_columns(joints: tuple[str, ...]) -> tuple[Column, ...]:

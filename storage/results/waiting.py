@@ -3,16 +3,67 @@
 They are in the journal, whose last checkpoint says how far the run is committed.
 """
 
+import hashlib
 import json
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.storage.results.journal import FOLDER, ROWS
+from jointplay.records.checkpoint import ForeignCheckpoint, UnusableCheckpoint, decode
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore
+from jointplay.storage.packed.running import PARTS
+from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.journal import KIND, ROWS
+
+
+class Checkpoint:
+    """A checkpoint read back.
+
+    Raises
+    ------
+    CheckpointMismatch
+        The bytes are no checkpoint of a store with this layout.
+    """
+
+    def __init__(self, content: bytes, layout_digest: str) -> None:
+        try:
+            token, _ = decode(content, KIND, layout_digest)
+        except ForeignCheckpoint as error:
+            raise CheckpointMismatch(
+                "the checkpoint belongs to a store with other channels, counts or joints"
+            ) from error
+        except UnusableCheckpoint as error:
+            raise CheckpointMismatch("these bytes are no checkpoint of a results store") from error
+        self.durable: list[int] = token["durable"]
+        self._token = token
+
+    def replay(self, root: Path, tables: Sequence[GrowingTable]) -> None:
+        """Append the rows that waited at the checkpoint, from the journal below `root`.
+
+        Raises
+        ------
+        CheckpointMismatch
+            The journal is not there.
+        CorruptStore
+            It is not the one that the checkpoint describes.
+        """
+        path = root / PARTS / f"{self._token['generation']:08d}"
+        try:
+            with path.open("rb") as file:
+                content = file.read(self._token["size"])
+        except FileNotFoundError as error:
+            raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
+        if hashlib.sha256(content).hexdigest() != self._token["sha256"]:
+            raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
+        _, frames = _read(content)
+        for position, table in enumerate(tables):
+            dtypes = [column.dtype for column in table.table.columns]
+            table.append(_columns(content, [one[position] for one in frames], dtypes))
 
 
 @dataclass(frozen=True)
@@ -49,17 +100,14 @@ def waiting_rows(
         removed, or replaced by a later one.
     """
     try:
-        paths = sorted((root / FOLDER).iterdir(), reverse=True)
+        paths = sorted((root / PARTS).iterdir(), reverse=True)
     except FileNotFoundError:
         return None
     for path in paths:
-        try:
-            content = path.read_bytes()
-        except FileNotFoundError:
-            continue
-        found = _at(content, samples, dtypes)
-        if found is not None:
-            return found
+        with suppress(FileNotFoundError):
+            found = _at(path.read_bytes(), samples, dtypes)
+            if found is not None:
+                return found
     return None
 
 
@@ -67,44 +115,52 @@ def _at(
     content: bytes, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
 ) -> list[Waiting] | None:
     """Find the last checkpoint of a generation that has this many samples."""
-    begin = content.find(b"\n") + 1
-    if not begin:
+    durable, frames = _read(content)
+    if not frames:
         return None
-    known = json.loads(content[:begin])
-    durable: list[int] = known["durable"]
-    counts = [0] * len(durable)
-    pieces: list[list[tuple[int, int]]] = [[] for _ in durable]  # (offset, rows) of frames
-    reached: list[int] | None = None
-    offset = begin
-    while counts[0] + durable[0] <= samples:
-        for table, row_bytes in enumerate(known["row_bytes"]):
-            if offset + ROWS.size > len(content):
-                break
-            (rows,) = ROWS.unpack_from(content, offset)
-            offset += ROWS.size
-            pieces[table].append((offset, rows))
-            counts[table] += rows
-            offset += rows * row_bytes
-        else:
-            if offset <= len(content):
-                if counts[0] + durable[0] == samples:
-                    reached = [len(one) for one in pieces]
-                continue
-        break  # the next checkpoint is being written
-    if reached is None:
+    rows = durable[0] + np.cumsum([frame[0].rows for frame in frames])
+    reached = int(np.searchsorted(rows, samples, side="right"))
+    if not reached or rows[reached - 1] != samples:
         return None
     return [
-        Waiting(durable[table], _columns(content, pieces[table][: reached[table]], wanted))
+        Waiting(durable[table], _columns(content, [one[table] for one in frames[:reached]], wanted))
         for table, wanted in enumerate(dtypes)
     ]
 
 
+class _Frame(NamedTuple):
+    """Rows of one table at one checkpoint: where in the file their columns begin."""
+
+    offset: int
+    rows: int
+
+
+def _read(content: bytes) -> tuple[list[int], list[list[_Frame]]]:
+    """Find rows in shards by table, and the frames, one a table, of every whole checkpoint."""
+    offset = content.find(b"\n") + 1
+    if not offset:
+        return [], []
+    known = json.loads(content[:offset])
+    found: list[list[_Frame]] = []
+    while True:
+        frames: list[_Frame] = []
+        for size in known["row_bytes"]:
+            begin = offset + ROWS.size
+            if begin > len(content):
+                return known["durable"], found
+            (rows,) = ROWS.unpack_from(content, offset)
+            frames.append(_Frame(begin, rows))
+            offset = begin + rows * size
+        if offset > len(content):  # it is being written
+            return known["durable"], found
+        found.append(frames)
+
+
 def _columns(
-    content: bytes, frames: Sequence[tuple[int, int]], dtypes: Sequence[np.dtype[Any]]
+    content: bytes, frames: Sequence[_Frame], dtypes: Sequence[np.dtype[Any]]
 ) -> tuple[NDArray[Any], ...]:
     found: list[list[NDArray[Any]]] = [[] for _ in dtypes]
-    for begin, rows in frames:
-        offset = begin
+    for offset, rows in frames:
         for column, dtype in zip(found, dtypes, strict=True):
             column.append(np.frombuffer(content, dtype, rows, offset))
             offset += rows * dtype.itemsize

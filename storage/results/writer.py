@@ -10,17 +10,18 @@ from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
+from jointplay.records.run import CertificateRecord
 from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.packed import Running, pack
 from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import manifest, metadata
-from jointplay.storage.results.certificate_group import CERTIFICATE, Appendix
+from jointplay.storage.results import certificate_group, manifest, metadata
 from jointplay.storage.results.growing_table import GrowingTable
-from jointplay.storage.results.journal import Checkpoint, Journal
+from jointplay.storage.results.journal import Journal
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.pyramid import Pyramid
-from jointplay.storage.results.tables import tables
+from jointplay.storage.results.tables import documents, tables
+from jointplay.storage.results.waiting import Checkpoint
 
 _NO_PEAK: Final = Peak(*[float("nan")] * 4)
 
@@ -195,7 +196,7 @@ class ResultWriter:
         peaks: Mapping[str, Peak],
         summary: Mapping[str, Any],
         complete: bool = True,
-        certificate: Appendix | None = None,
+        certificate: CertificateRecord | None = None,
     ) -> None:
         """Finish the store: packed, durable and never to change when this returns.
 
@@ -243,7 +244,7 @@ class ResultWriter:
             "impacts": self.impacts,
             "summary": dict(summary),
         }
-        more = {} if certificate is None else certificate.documents(CERTIFICATE)
+        more = {} if certificate is None else certificate_group.nodes(certificate)
         try:
             metadata.serialise(attributes)
             metadata.serialise(more)
@@ -259,14 +260,14 @@ class ResultWriter:
         self._peaks.append(list(rows.T))
         self._pyramid.close()
         shown = [table.rows for table in self._tables]
-        documents = metadata.documents(self._layout, shown, attributes, more)
+        nodes = documents(self._layout, shown, attributes, more)
 
         def entries() -> Iterator[tuple[str, bytes]]:
             for table in self._growing:
                 yield from table.files()
             if certificate is not None:
-                yield from certificate.chunks(CERTIFICATE).items()
-            for key, document in (self._pyramid.documents() | documents).items():
+                yield from certificate_group.chunks(certificate)
+            for key, document in (self._pyramid.documents() | nodes).items():
                 yield key, metadata.serialise(document)
 
         try:
@@ -286,8 +287,8 @@ class ResultWriter:
         """
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
-        documents = metadata.documents(layout, shown, {})
-        groups = {key: one for key, one in documents.items() if one["node_type"] == "group"}
+        nodes = documents(layout, shown, {})
+        groups = {key: one for key, one in nodes.items() if one["node_type"] == "group"}
         shown_now = (self._pyramid.documents() | groups).items()
         self._files.write_documents((key, metadata.serialise(one)) for key, one in shown_now)
 

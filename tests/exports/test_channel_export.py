@@ -15,7 +15,7 @@ from jointplay.exports.run import csv_lines, json_pieces
 from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.impact import IMPACT
-from jointplay.records.run_in_memory import Dataset
+from jointplay.records.run import Dataset
 from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
 from tests.stores import target
 

@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
-from jointplay.records.run_in_memory import Dataset
+from jointplay.records.run import Dataset
 
 CLEARANCES = {"left": 5e-4, "right": 2e-4}
 SCENE = {

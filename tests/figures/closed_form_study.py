@@ -5,7 +5,7 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure, PointStatus
-from jointplay.records.study_in_memory import StudyDataset
+from jointplay.records.study import StudyDataset
 
 VERDICTS = ("undecided", "periodic", "quasi-periodic", "chaotic")
 SCENE = {"name": "logistic", "bodies": {}, "joints": {"left": {"clearance": {}}}}

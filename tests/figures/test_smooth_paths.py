@@ -9,7 +9,7 @@ from test_every_figure import drawn_with
 from jointplay.figures import Selection
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
-from jointplay.records.run_in_memory import Dataset
+from jointplay.records.run import Dataset
 
 
 def thrown(samples, contacts=()):

@@ -8,7 +8,7 @@ from jointplay import figures
 from jointplay.figures import Selection, page
 from jointplay.figures.quantity import per_hertz
 from jointplay.records.channel import Channel
-from jointplay.records.run_in_memory import Dataset
+from jointplay.records.run import Dataset
 
 PERIOD = 0.5  # s, of the drivers
 

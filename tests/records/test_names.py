@@ -11,9 +11,10 @@ from zarr.storage import ZipStore
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.names import GROUPS, RESERVED_OUTPUTS, STORED
+from jointplay.records.run import CertificateRecord, LabelledArray
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene import presets
-from jointplay.storage.results import Appendix, Partition, ResultWriter, SmallArray, pyramid
+from jointplay.storage.results import Partition, ResultWriter, pyramid
 from jointplay.worker.execute import layout_of
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 from tests.stores import target
@@ -58,9 +59,9 @@ def test_every_name_that_a_store_uses_is_reserved(tmp_path):
     run = MadeUpRun(made_up_layout(100, 2, partition=long_enough), made_up_impacts(3))
     writer = ResultWriter.create(tmp_path / "store", run.layout)
     run.append(writer, 0.0, 1.0)
-    some = {"error": SmallArray(np.zeros(1), ("instant",), {})}
+    some = {"error": LabelledArray(np.zeros(1), ("instant",), {})}
     there = target(tmp_path / "store")
-    writer.seal(there, peaks=run.peaks, summary={}, certificate=Appendix({}, some))
+    writer.seal(there, peaks=run.peaks, summary={}, certificate=CertificateRecord({}, some))
     root = zarr.open_group(ZipStore(tmp_path / "store.zip", mode="r"), mode="r")
     assert {*root.group_keys(), pyramid.GROUP} == {*GROUPS}
     channels = {channel.name for channel in run.layout.channels}

@@ -14,13 +14,13 @@ LONG = 32 * 16_384  # a whole shard of the default partition
 @pytest.mark.parametrize("chunk_rows", [16_384, LONG])
 def test_threads_do_not_show_in_the_bytes(chunk_rows):
     rows = np.cumsum(np.random.default_rng(0).normal(size=LONG))
-    here = shards.encode(rows, chunk_rows, LONG, np.nan)
+    here = shards.encode(rows, chunk_rows, LONG)
     with ThreadPoolExecutor(1) as elsewhere:
-        assert elsewhere.submit(shards.encode, rows, chunk_rows, LONG, np.nan).result() == here
+        assert elsewhere.submit(shards.encode, rows, chunk_rows, LONG).result() == here
     before = blosc.get_nthreads()
     blosc.set_nthreads(1 if before > 1 else 4)
     try:
-        assert shards.encode(rows, chunk_rows, LONG, np.nan) == here
+        assert shards.encode(rows, chunk_rows, LONG) == here
     finally:
         blosc.set_nthreads(before)
 

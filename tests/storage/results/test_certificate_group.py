@@ -1,4 +1,4 @@
-"""Groups of small arrays that a store gets when it is sealed."""
+"""The certificate of a run in its store: small arrays that it gets when it is sealed."""
 
 import numpy as np
 import pytest
@@ -7,21 +7,20 @@ from made_up_runs import MadeUpRun, made_up_layout, target
 from zarr.storage import ZipStore
 
 from jointplay.records.impact import IMPACT
+from jointplay.records.run import CertificateRecord, LabelledArray
 from jointplay.storage.results import (
-    Appendix,
     InvalidAppend,
     ResultReader,
     ResultWriter,
-    SmallArray,
 )
 
 TABLE = np.array([[1.0, np.nan], [np.inf, -0.0], [3.0, 4.0]])
-APPENDIX = Appendix(
+CERTIFICATE = CertificateRecord(
     {"horizon": 0.5, "converged": [[0.0, 0.5]], "exponent": None},
     {
-        "error": SmallArray(TABLE, ("instant", "channel"), {"long_name": "estimated error"}),
-        "time": SmallArray(np.arange(3.0), ("instant",), {"units": "s"}),
-        "nothing": SmallArray(np.zeros((0, 2)), ("edge", "channel"), {}),
+        "error": LabelledArray(TABLE, ("instant", "channel"), {"long_name": "estimated error"}),
+        "time": LabelledArray(np.arange(3.0), ("instant",), {"units": "s"}),
+        "nothing": LabelledArray(np.zeros((0, 2)), ("edge", "channel"), {}),
     },
 )
 
@@ -37,19 +36,19 @@ def sealed(folder, certificate):
 
 
 def test_it_is_read_as_it_was_written(tmp_path):
-    reader = sealed(tmp_path, APPENDIX)
+    reader = sealed(tmp_path, CERTIFICATE)
     reader.verify()
     found = reader.certificate()
-    assert found.attributes == APPENDIX.attributes
-    assert set(found.arrays) == set(APPENDIX.arrays)
-    for name, array in APPENDIX.arrays.items():
+    assert found.attributes == CERTIFICATE.attributes
+    assert set(found.arrays) == set(CERTIFICATE.arrays)
+    for name, array in CERTIFICATE.arrays.items():
         assert found.arrays[name].values.tobytes() == array.values.tobytes()
         assert found.arrays[name].dimensions == array.dimensions
         assert found.arrays[name].attributes == array.attributes
 
 
 def test_stock_zarr_reads_it_alone(tmp_path):
-    sealed(tmp_path, APPENDIX)
+    sealed(tmp_path, CERTIFICATE)
     group = zarr.open_group(ZipStore(tmp_path / "store.zip"), path="certificate", mode="r")
     assert group.attrs["horizon"] == 0.5
     np.testing.assert_array_equal(group["error"][:], TABLE)
@@ -63,4 +62,4 @@ def test_a_store_without_one_has_none(tmp_path):
 
 def test_a_document_that_json_cannot_carry_is_refused(tmp_path):
     with pytest.raises(InvalidAppend, match="certificate must be finite"):
-        sealed(tmp_path, Appendix({"horizon": float("nan")}, {}))
+        sealed(tmp_path, CertificateRecord({"horizon": float("nan")}, {}))
