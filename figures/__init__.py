@@ -8,18 +8,25 @@ does not load matplotlib; drawing does, without pyplot or a change of the caller
 >>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from jointplay.figures import page, scene_facts, study_facts
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.contact_force import CONTACT_FORCE
-from jointplay.figures.errors import FigureError, NotDrawable, UnknownFigure
-from jointplay.figures.kind import FigureKind, RunFigure, Selection, StudyFigure, is_study, select
+from jointplay.figures.kind import (
+    FigureError,
+    FigureKind,
+    NotDrawable,
+    RunFigure,
+    Selection,
+    StudyFigure,
+    UnknownFigure,
+    is_study,
+    select,
+)
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
 from jointplay.figures.orbit import ORBIT
 from jointplay.figures.page import Form, warm_up
@@ -29,11 +36,9 @@ from jointplay.figures.spectrum import SPECTRUM
 from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
 from jointplay.figures.work_precision import WORK_PRECISION
+from jointplay.records.channel import by_name
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 __all__ = [
     "ROSTER",
@@ -93,8 +98,8 @@ def available(source: Source | StudySource) -> tuple[Listed, ...]:
     roster = _roster(source).values()
     listed = [Listed(kind.name, kind.title) for kind in roster if _drawable(kind, source)]
     if not is_study(source):
-        named = {channel.name: channel.long_name for channel in source.channels}
-        listed += [Listed(name, named[name]) for name in scene_facts.outputs(source)]
+        named = by_name(source.channels)
+        listed += [Listed(name, named[name].long_name) for name in scene_facts.outputs(source)]
     return tuple(listed)
 
 
@@ -114,7 +119,9 @@ def required(
     return kind.channels(source, selection)
 
 
-def draw(source: Source | StudySource, name: str, selection: Selection | None = None) -> Figure:
+def draw(
+    source: Source | StudySource, name: str, selection: Selection | None = None
+) -> page.Figure:
     """Draw a figure.
 
     Parameters
@@ -167,12 +174,11 @@ def _find(
 def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | None:
     """Give the figure that the name of a channel stands for."""
     if not is_study(source):
-        stored = any(channel.name == name for channel in source.channels)
-        return TIME_HISTORY if stored else None
-    if source.kind == "bifurcation" and any(one.name == name for one in source.observables):
+        return TIME_HISTORY if name in by_name(source.channels) else None
+    if source.kind == "bifurcation" and name in by_name(source.observables):
         return BIFURCATION
     over_points = (*source.channels, *study_facts.statistics(source))
-    return SWEEP if any(one.name == name for one in over_points) else None
+    return SWEEP if name in by_name(over_points) else None
 
 
 def _roster(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:

@@ -1,23 +1,16 @@
 """Bifurcation diagram: what an observable does at the sections, for every value of a parameter."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jointplay.figures import marks, page, study_facts
-from jointplay.figures.errors import NotDrawable, at_most
-from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
 from jointplay.figures.study_facts import Group
+from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_PANELS = 6
 _FIRST_PANELS = 4
@@ -26,7 +19,6 @@ _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _EXPONENT_HEIGHT = 20.0
 _STRIP_HEIGHT = 7.0
-_AXIS_HEIGHT = 8.0
 
 
 @dataclass(frozen=True)
@@ -44,35 +36,27 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
     if source.kind != "bifurcation":
         raise NotDrawable("A bifurcation diagram is drawn of a job of kind bifurcation.")
     study_facts.chosen_points(source, selection)
-    names = study_facts.chosen_observables(source, selection)
+    names = study_facts.known(selection.channels, source.observables)
     if names:
         return at_most(_MOST_PANELS, names)
     positions = [position for position, _ in study_facts.observed_pairs(source)]
     return tuple(positions or [one.name for one in source.observables])[:_FIRST_PANELS]
 
 
-def _draw(source: StudySource, selection: Selection) -> Figure:
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     points = study_facts.chosen_points(source, selection)
-    everything = Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
     verdicts = study_facts.by_verdict(source)
     directions = study_facts.directions(source)
-    diagram = _Diagram(
-        source,
-        points,
-        ParameterAxis.of(source, 0, points),
-        directions or verdicts or (everything,),
-    )
+    groups = directions or verdicts or (study_facts.everything(source),)
+    diagram = _Diagram(source, points, ParameterAxis.of(source, 0, points), groups)
     heights = [_SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT] * len(names)
     if has_exponent := "lyapunov" in source.indicators:
         heights.append(_EXPONENT_HEIGHT)
     if has_strip := bool(directions and verdicts):
         heights.append(_STRIP_HEIGHT)
     entries = _legend(diagram, verdicts if has_strip else ())
-    rows = -(-len(entries) // page.LEGEND_COLUMNS)
-    height = sum(heights) + _AXIS_HEIGHT + rows * page.LEGEND_HEIGHT
-    figure, grid = page.panels(len(heights), 1, height, share_x=True, row_heights=heights)
-    panels = [row[0] for row in grid]
+    figure, panels = page.stack(heights, page.legend_rows(entries))
     for axes, name in zip(panels, names, strict=False):
         _sections(axes, diagram, name)
     if has_exponent:
@@ -81,17 +65,15 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
         _verdicts(panels[-1], diagram, directions, verdicts)
     for axes in panels:
         diagram.axis.dress(axes)
-    panels[-1].set_xlabel(diagram.axis.label)
-    figure.align_ylabels()
-    if entries:
-        page.legend_of_marks(figure, entries)
+    page.finish_stack(figure, panels, diagram.axis.label)
+    page.legend_of_marks(figure, entries)
     return figure
 
 
-def _sections(axes: Axes, diagram: _Diagram, name: str) -> None:
+def _sections(axes: page.Axes, diagram: _Diagram, name: str) -> None:
     """Draw one observable at the sections of every value."""
     rows = marks.sections(diagram.source, name, diagram.points)
-    shown = scale(study_facts.described(diagram.source.observables, name).unit, rows)
+    shown = scale(by_name(diagram.source.observables)[name].unit, rows)
     size = marks.size(int(np.count_nonzero(np.isfinite(rows))))
     for group in diagram.groups:
         members = group.members[diagram.points]
@@ -100,7 +82,7 @@ def _sections(axes: Axes, diagram: _Diagram, name: str) -> None:
     axes.set_ylabel(page.in_two_lines(shown.label(name)))
 
 
-def _exponents(axes: Axes, diagram: _Diagram) -> None:
+def _exponents(axes: page.Axes, diagram: _Diagram) -> None:
     """Draw the largest Lyapunov exponent with its uncertainty."""
     exponents = diagram.source.indicators["lyapunov"][diagram.points]
     errors = diagram.source.indicators.get("lyapunov_error")
@@ -122,7 +104,7 @@ def _exponents(axes: Axes, diagram: _Diagram) -> None:
 
 
 def _verdicts(
-    axes: Axes, diagram: _Diagram, directions: tuple[Group, ...], verdicts: tuple[Group, ...]
+    axes: page.Axes, diagram: _Diagram, directions: tuple[Group, ...], verdicts: tuple[Group, ...]
 ) -> None:
     """Draw one row of coloured cells for each direction."""
     edges, values = diagram.axis.cells()

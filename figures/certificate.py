@@ -1,23 +1,15 @@
 """Estimated errors over time, with the times at which the motion is not converged."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from jointplay.figures import horizon, page, scene_facts
-from jointplay.figures.errors import NotDrawable, at_most
-from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures.kind import NotDrawable, RunFigure, Selection, at_most
 from jointplay.figures.quantity import scale
+from jointplay.figures.time_axis import TimeAxis
 from jointplay.records.run import CertificateRecord, Source, inside
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PANELS = 8
 _PANEL_HEIGHT = 30.0  # mm
-_AXIS_HEIGHT = 8.0
 _SMALLEST = 1e-12
 """Share of the largest error that a panel shows: errors below are drawn there."""
 
@@ -39,7 +31,7 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, at_most(MOST_PANELS, names))
 
 
-def _draw(source: Source, selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     from matplotlib.ticker import NullLocator, StrMethodFormatter
 
     names = _channels(source, selection)
@@ -48,36 +40,27 @@ def _draw(source: Source, selection: Selection) -> Figure:
     time = arrays["time"].values
     chosen = inside(time, selection.start, selection.stop)
     if not chosen.any():
-        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
+        raise NotDrawable(sampling.NO_SAMPLES, "start")
     time = time[chosen]
-    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
-    height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + page.LEGEND_HEIGHT
-    figure, grid = page.panels(len(names), 1, height, share_x=True)
-    seconds = scale("s", time)
+    across = TimeAxis(source, [time])
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), legend_rows=1)
     stored = [channel.name for channel in source.channels]
-    for (axes,), name in zip(grid, names, strict=True):
+    for axes, name in zip(panels, names, strict=True):
         errors = arrays["error"].values[chosen, stored.index(name)]
         finite = errors[np.isfinite(errors)]
         shown = scale(scene_facts.channel(source, name).unit, finite)
         floor = _SMALLEST * max(float(finite.max(initial=0.0)), np.finfo(np.float64).tiny)
         drawn = np.maximum(errors, floor) / shown.factor
-        axes.plot(time / seconds.factor, drawn, color=page.BLUE, label="estimated error")
+        axes.plot(across.shown(time), drawn, color=page.BLUE, label="estimated error")
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
         axes.yaxis.set_minor_locator(NullLocator())  # a low panel has room for decades
-        horizon.shade(axes, spans, seconds.factor)
+        across.shade(axes)
         if time[0] <= end <= time[-1]:
-            axes.axvline(
-                end / seconds.factor,
-                color=page.VERMILION,
-                linestyle="--",
-                linewidth=0.7,
-                label="horizon",
-            )
+            look: page.Look = {"color": page.VERMILION, "linestyle": "--", "linewidth": 0.7}
+            axes.axvline(end / across.scale.factor, label="horizon", **look)
         axes.set_ylabel(shown.label(f"error of\n{name}"))
-    grid[-1][0].set_xlabel(seconds.label("time"))
-    figure.align_ylabels()
-    page.legend(figure, grid[0][0])
+    page.finish_stack(figure, panels, across.label, panels[0])
     return figure
 
 

@@ -1,21 +1,14 @@
 """Contact force at each clearance joint over time, with the impacts that samples step over."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from jointplay.figures import horizon, page, sampling, scene_facts
+from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
+from jointplay.figures.time_axis import TimeAxis
 from jointplay.records.run import Floats, Source, inside
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 _PANEL_HEIGHT = 34.0  # mm
-_AXIS_HEIGHT = 8.0
 _MOST_IMPACTS = 4000
 """Lines drawn for impacts a joint: the strongest ones."""
 
@@ -25,40 +18,27 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, [f"{joint}.normal_force" for joint in joints])
 
 
-def _draw(source: Source, selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     joints = list(scene_facts.chosen_joints(source, selection))
     curves = [sampling.over_time(source, f"{joint}.normal_force", selection) for joint in joints]
     step = _sample_step(source, selection)
     impacts = [_between_samples(source, joint, selection, step) for joint in joints]
     newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
-    seconds = scale("s", *(time for time, _ in curves))
-    time = curves[0][0]
-    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
-    explained = spans or any(len(onset) for onset, _ in impacts)
-    legend_height = page.LEGEND_HEIGHT if explained else 0.0
-    height = _PANEL_HEIGHT * len(joints) + _AXIS_HEIGHT + legend_height
-    figure, grid = page.panels(len(joints), 1, height, share_x=True)
-    for (axes,), joint, (time, force), (onset, peak) in zip(
-        grid, joints, curves, impacts, strict=True
+    across = TimeAxis(source, [time for time, _ in curves])
+    explained = bool(across.unconverged) or any(len(onset) for onset, _ in impacts)
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(joints), explained)
+    for axes, joint, (time, force), (onset, peak) in zip(
+        panels, joints, curves, impacts, strict=True
     ):
-        axes.plot(time / seconds.factor, force / newtons.factor, color=page.BLUE, label="samples")
-        axes.vlines(
-            onset / seconds.factor,
-            0.0,
-            peak / newtons.factor,
-            color=page.VERMILION,
-            linewidth=0.5,
-            zorder=1.5,
-            label="impacts between samples",
-        )
-        horizon.shade(axes, spans, seconds.factor)
+        axes.plot(across.shown(time), force / newtons.factor, color=page.BLUE, label="samples")
+        look: page.Look = {"color": page.VERMILION, "linewidth": 0.5, "zorder": 1.5}
+        heights = peak / newtons.factor
+        axes.vlines(across.shown(onset), 0.0, heights, label="impacts between samples", **look)
+        across.shade(axes)
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(newtons.label("normal force"))
         page.corner_text(axes, f"joint {joint}")
-    grid[-1][0].set_xlabel(seconds.label("time"))
-    figure.align_ylabels()
-    if legend_height:
-        page.legend(figure, grid[0][0])
+    page.finish_stack(figure, panels, across.label, panels[0] if explained else None)
     return figure
 
 

@@ -1,21 +1,54 @@
-"""A member of the family of figures, and the selection of what it shows."""
-
-from __future__ import annotations
+"""A member of the family of figures, the selection of what it shows, and its errors."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from jointplay.figures.errors import NotDrawable
+from jointplay.figures import page
 from jointplay.records.channel_choice import choose
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from typing_extensions import TypeIs
 
 Results = TypeVar("Results", Source, StudySource)
+
+
+class FigureError(Exception):
+    """Base of every error of this package; its text is a full sentence."""
+
+
+class UnknownFigure(FigureError):
+    """There is no figure of that name."""
+
+    def __init__(self, name: str, known: Sequence[str]) -> None:
+        super().__init__(
+            f"There is no figure {name!r}; there are {', '.join(known)}, and every stored channel."
+        )
+
+
+class NotDrawable(FigureError):
+    """These results, or this selection, do not hold what the figure needs.
+
+    Attributes
+    ----------
+    cause : str
+        What to change: ``name`` of the figure, or of the selection ``channels``, ``joints``,
+        or ``start``.
+    """
+
+    def __init__(self, sentence: str, cause: str = "name") -> None:
+        super().__init__(sentence)
+        self.cause = cause
+
+
+def at_most(most: int, names: Sequence[str]) -> tuple[str, ...]:
+    """Return the channels of a figure's panels; `NotDrawable` if there are too many."""
+    if len(names) > most:
+        sentence = f"One figure shows at most {most} channels, not {len(names)}; choose fewer."
+        raise NotDrawable(sentence, "channels")
+    return tuple(names)
 
 
 @dataclass(frozen=True)
@@ -66,7 +99,7 @@ class FigureKind(Generic[Results]):
     title: str
     uses: tuple[str, ...]
     channels: Callable[[Results, Selection], tuple[str, ...]]
-    draw: Callable[[Results, Selection], Figure]
+    draw: Callable[[Results, Selection], page.Figure]
 
     def check(self, selection: Selection) -> None:
         """Refuse what cannot be chosen here, with `NotDrawable`."""
@@ -81,7 +114,7 @@ RunFigure = FigureKind[Source]
 StudyFigure = FigureKind[StudySource]
 
 
-def is_study(source: Source | StudySource) -> TypeIs[StudySource]:
+def is_study(source: Source | StudySource) -> "TypeIs[StudySource]":
     """Tell whether results are those of a study, and not of one run."""
     return hasattr(source, "observables")
 

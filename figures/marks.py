@@ -1,8 +1,6 @@
 """Clouds of fine marks: as many as a picture can show, however many sections were recorded."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +8,6 @@ from numpy.typing import NDArray
 from jointplay.figures import page
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 MOST_VALUES: Final = 4_000_000
 """Most values of an observable in one picture; of more, every second, third, … section is taken."""
@@ -40,7 +35,7 @@ def size(count: int) -> float:
     return float(np.clip(60.0 / np.sqrt(max(count, 1)), _SMALLEST, _LARGEST))
 
 
-def draw_cloud(axes: Axes, x: Floats, y: Floats, colour: str, diameter: float) -> None:
+def draw_cloud(axes: page.Axes, x: Floats, y: Floats, colour: str, diameter: float) -> None:
     """Draw marks of a diameter [points] at the finite ones of (n,) x and y."""
     finite = np.isfinite(x) & np.isfinite(y)
     x, y = _apart(x[finite], y[finite])

@@ -1,21 +1,15 @@
 """The mechanism at a pose: bodies with their points, joints, and which of them have clearance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from jointplay.figures import page, scene_facts
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.mechanism_geometry import Geometry, Pose, geometry
 from jointplay.figures.mechanism_labels import draw_labels
 from jointplay.figures.mechanism_marks import draw_bodies, draw_gravity, draw_joints, draw_rails
 from jointplay.figures.quantity import scale
 from jointplay.records.run import Source
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _MARGIN = 0.1
 """White around the mechanism, in its largest extent."""
@@ -23,7 +17,7 @@ _LEAST_HEIGHT, _MOST_HEIGHT = 45.0, 90.0  # mm
 _FRAME_WIDTH, _FRAME_HEIGHT = 12.0, 16.0  # mm that axes labels and the legend take
 
 
-def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> Figure:
+def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
     """Draw a scene at a pose.
 
     Parameters
@@ -50,7 +44,7 @@ def render_mechanism(scene: Mapping[str, Any], pose: Pose, form: page.Form) -> b
         return page.save(draw_mechanism(scene, pose), form)
 
 
-def _draw(shape: Geometry) -> Figure:
+def _draw(shape: Geometry) -> page.Figure:
     (left, right), (low, high) = shape.extent
     metres = scale("m", shape.corners)
     margin = _MARGIN * max(right - left, high - low)
@@ -89,22 +83,14 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, names)
 
 
-def _draw_first(source: Source, selection: Selection) -> Figure:
+def _draw_first(source: Source, selection: Selection) -> page.Figure:
     """Draw the first sample of the window."""
     names = _channels(source, selection)
-    first, last = source.between(selection.start, selection.stop)
-    if last <= first:
-        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
+    first, _ = sampling.window(source, selection)
     ((_, row),) = source.blocks(names, first, first + 1)
+    at = {name: float(values[0]) for name, values in row.items()}
     scene = scene_facts.scene(source)
-    pose = {
-        body: (
-            float(row[f"{body}.x"][0]),
-            float(row[f"{body}.y"][0]),
-            float(row[f"{body}.theta"][0]),
-        )
-        for body in scene["bodies"]
-    }
+    pose = {one: (at[f"{one}.x"], at[f"{one}.y"], at[f"{one}.theta"]) for one in scene["bodies"]}
     return draw_mechanism(scene, pose)
 
 

@@ -1,20 +1,15 @@
 """Names beside bodies and joints, where they cover neither, nor each other."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from jointplay.figures import page
 from jointplay.figures.mechanism_geometry import Geometry, JointMark, Point, distance, outline
 from jointplay.figures.mechanism_marks import BLOCK_SIZE
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _DISTANCE = 7.0  # points from the middle of a mark to its name
 _BLOCK_DISTANCE = BLOCK_SIZE / 2.0 + 2.0
@@ -62,7 +57,7 @@ class _Place:
         return left, low, left + width, low + height
 
 
-def draw_labels(axes: Axes, shape: Geometry, metre: float, points_per_metre: float) -> None:
+def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre: float) -> None:
     """Name every joint, those in one place together, and every body in italics.
 
     Parameters

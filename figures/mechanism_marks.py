@@ -1,10 +1,8 @@
 """The signs that a mechanism is drawn with."""
 
-from __future__ import annotations
-
 import math
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,10 +16,6 @@ from jointplay.figures.mechanism_geometry import (
     outline,
 )
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.path import Path
-
 TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
 """Lighter Okabe-Ito colours, for the faces of bodies under black marks and text."""
 EDGE = "#404040"
@@ -31,7 +25,7 @@ BLOCK_SIZE = 15.0  # points
 _GRAVITY_BOX, _GRAVITY_LENGTH = 22.0, 16.0  # points
 
 
-def draw_rails(axes: Axes, shape: Geometry, metre: float) -> None:
+def draw_rails(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw the straight line that each prismatic joint slides along."""
     for joint in shape.joints:
         if joint.axis is None:
@@ -48,7 +42,7 @@ def draw_rails(axes: Axes, shape: Geometry, metre: float) -> None:
         )
 
 
-def draw_bodies(axes: Axes, shape: Geometry, metre: float) -> None:
+def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw each body through its points, and a dot at every point that no joint marks."""
     marked = [joint.place for joint in shape.joints]
     for tint, (name, points) in zip(cycle(TINTS), shape.bodies.items(), strict=False):
@@ -67,7 +61,7 @@ def draw_bodies(axes: Axes, shape: Geometry, metre: float) -> None:
             axes.plot(*(np.array(loose).T / metre), ".", color=EDGE, markersize=2.5, zorder=4)
 
 
-def draw_joints(axes: Axes, shape: Geometry, metre: float) -> None:
+def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw a circle for each joint that turns, a square for each weld, and supports."""
     looks: dict[str, dict[str, Any]] = {
         "ideal joint": {"markersize": 4.0, "markerfacecolor": "white", "color": page.BLACK},
@@ -108,7 +102,7 @@ def draw_joints(axes: Axes, shape: Geometry, metre: float) -> None:
             axes.plot(*(np.array(places).T / metre), **(common | looks[look]), label=look)
 
 
-def draw_gravity(axes: Axes, shape: Geometry) -> None:
+def draw_gravity(axes: page.Axes, shape: Geometry) -> None:
     """Show where gravity pulls, in the corner that is farthest from the mechanism."""
     from matplotlib.offsetbox import AnchoredOffsetbox, DrawingArea
     from matplotlib.patches import FancyArrow
@@ -154,12 +148,12 @@ def _free_corner(shape: Geometry) -> str:
     )
 
 
-def _draw_block(axes: Axes, shape: Geometry, name: str, tint: str, metre: float) -> None:
+def _draw_block(axes: page.Axes, shape: Geometry, name: str, tint: str, metre: float) -> None:
     """Draw a body without extension: a block along its rail, or a disc."""
     rails = [
         joint.axis for joint in shape.joints if joint.axis is not None and name in joint.bodies
     ]
-    marker: Path | str = _block(rails[0]) if rails else "o"
+    marker: page.MarkerPath | str = _block(rails[0]) if rails else "o"
     x, y = next(iter(shape.bodies[name].values()), shape.centres[name])
     axes.plot(
         [x / metre],
@@ -183,25 +177,23 @@ def _look(joint: JointMark) -> str:
     return "driven joint" if joint.driven else "ideal joint"
 
 
-def _support() -> Path:
+def _support() -> page.MarkerPath:
     """Make a triangle below its joint, on hatched ground."""
-    from matplotlib.path import Path as NewPath
+    from matplotlib.path import Path
 
     strokes = [[(0.0, 0.0), (-0.6, -0.75), (0.6, -0.75), (0.0, 0.0)], [(-0.9, -0.75), (0.9, -0.75)]]
     strokes += [[(x, -0.75), (x - 0.2, -1.0)] for x in (-0.6, -0.2, 0.2, 0.6)]
     codes = [
-        code
-        for stroke in strokes
-        for code in [NewPath.MOVETO, *[NewPath.LINETO] * (len(stroke) - 1)]
+        code for stroke in strokes for code in [Path.MOVETO, *[Path.LINETO] * (len(stroke) - 1)]
     ]
-    return NewPath([point for stroke in strokes for point in stroke], codes)
+    return Path([point for stroke in strokes for point in stroke], codes)
 
 
-def _block(angle: float) -> Path:
+def _block(angle: float) -> page.MarkerPath:
     """Make a rectangle along a direction [rad]."""
-    from matplotlib.path import Path as NewPath
+    from matplotlib.path import Path
 
     cosine, sine = math.cos(angle), math.sin(angle)
     corners = [(-1.0, -0.55), (1.0, -0.55), (1.0, 0.55), (-1.0, 0.55), (-1.0, -0.55)]
     turned = [(cosine * x - sine * y, sine * x + cosine * y) for x, y in corners]
-    return NewPath(turned, closed=True)
+    return Path(turned, closed=True)

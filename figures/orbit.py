@@ -1,8 +1,6 @@
 """Path of each journal's centre inside its clearance circle."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -11,11 +9,6 @@ from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.run import Floats, Source
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-_COLUMNS = 2
 _INTERVALS = 6
 """Intervals of the axes of a panel as wide as the page: their numbers stand apart."""
 _PANEL_HEIGHT = 47.0  # mm
@@ -33,32 +26,27 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, [*rates, *names])
 
 
-def _draw(source: Source, selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     joints = scene_facts.chosen_joints(source, selection)
-    columns = min(_COLUMNS, len(joints))
-    rows = -(-len(joints) // columns)
-    height = _WIDE_PANEL_HEIGHT if columns == 1 else _PANEL_HEIGHT
-    figure, grid = page.panels(rows, columns, height * rows + page.LEGEND_HEIGHT)
+    figure, grid, panels = page.in_columns(
+        len(joints), _WIDE_PANEL_HEIGHT, _PANEL_HEIGHT, page.LEGEND_HEIGHT
+    )
     metres = scale("m", np.array(list(joints.values())))
-    panels = [axes for row in grid for axes in row]
-    for axes, (joint, clearance) in zip(panels, joints.items(), strict=False):
+    for axes, (joint, clearance) in zip(panels, joints.items(), strict=True):
         time, path = smooth.path(source, joint, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
         beginning = sampling.beginning(source, time, selection)
         _orbit(axes, x, y, clearance / metres.factor, beginning)
-        axes.locator_params(nbins=_INTERVALS // columns)
+        axes.locator_params(nbins=_INTERVALS // len(grid[0]))
         axes.set_xlabel(metres.label("eccentricity x"))
         page.corner_text(axes, f"joint {joint}, c = {clearance / metres.factor:.4g} {metres.unit}")
     for row in grid:
         row[0].set_ylabel(metres.label("eccentricity y"))
-    for axes in panels[len(joints) :]:
-        axes.remove()
     page.legend(figure, panels[0])
     return figure
 
 
-def _orbit(axes: Axes, x: Floats, y: Floats, radius: float, beginning: str) -> None:
-    angle = np.linspace(0.0, 2.0 * np.pi, 241)
+def _orbit(axes: page.Axes, x: Floats, y: Floats, radius: float, beginning: str) -> None:
     axes.plot(
         x,
         y,
@@ -68,15 +56,19 @@ def _orbit(axes: Axes, x: Floats, y: Floats, radius: float, beginning: str) -> N
         label=f"journal centre{beginning}",
     )
     axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=2.5, label="first sample")
-    axes.plot(
-        radius * np.cos(angle),
-        radius * np.sin(angle),
-        color=page.BLACK,
-        linewidth=0.6,
-        linestyle=(0, (4, 3)),
-        label="clearance circle",
-    )
-    reach = 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0)))
+    draw_clearance(axes, radius, linewidth=0.6, label="clearance circle")
+    frame(axes, 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0))))
+
+
+def draw_clearance(axes: page.Axes, radius: float, **look: Any) -> None:
+    """Draw a circle around the bearing's centre, dashed."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 241)
+    circle = (radius * np.cos(angle), radius * np.sin(angle))
+    axes.plot(*circle, color=page.BLACK, linestyle=(0, (4, 3)), **look)
+
+
+def frame(axes: page.Axes, reach: float) -> None:
+    """Show as much around the bearing's centre in all directions."""
     axes.set_aspect("equal")
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
 

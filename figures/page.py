@@ -1,20 +1,29 @@
 """The page that every figure is drawn on: journal column width, type, colours, file formats."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
 
 from jointplay.figures import tick_labels
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.axes import Axes as Axes
+    from matplotlib.axis import Axis as Axis
+    from matplotlib.figure import Figure as Figure
+    from matplotlib.path import Path as _Path
+
+    MarkerPath: TypeAlias = _Path
+else:  # matplotlib is loaded when something is drawn, not when a signature names its types
+    Axes = Axis = Figure = MarkerPath = Any
 
 Form = Literal["png", "svg"]
+Look = dict[str, Any]
+"""Keywords of matplotlib's artists."""
+Panels = list[list[Axes]]
+"""Axes by row and column."""
 
 COLUMN_WIDTH: Final = 85.0
 """Width of a journal's column [mm]."""
@@ -22,6 +31,8 @@ DOTS_PER_INCH: Final = 300
 LEGEND_HEIGHT: Final = 5.0
 """Height of a legend above the panels [mm], for each row of it."""
 LEGEND_COLUMNS: Final = 4
+AXIS_HEIGHT: Final = 8.0
+"""Height of an axis below panels, with its label [mm]."""
 
 # Okabe and Ito 2008: distinct with any colour vision, and in grey
 BLUE: Final = "#0072B2"
@@ -31,6 +42,16 @@ GREY: Final = "#767676"
 GREEN: Final = "#009E73"
 SHADE: Final = "#E8E8E8"
 """Behind what is not finished."""
+STYLES: Final = (
+    (BLUE, "-", "o"),
+    (VERMILION, "--", "s"),
+    (GREEN, "-.", "^"),
+    (BLACK, ":", "D"),
+    (GREY, "-", "v"),
+)
+"""Colour, dashes and mark of curves that are compared: distinct in grey, too."""
+RING: Final[Look] = {"markerfacecolor": "none", "markeredgewidth": 0.7}
+"""An open circle around a point of a curve."""
 
 MOST_VECTOR_POINTS: Final = 20_000
 """Longer curves become pixels inside an SVG, or no viewer would open it."""
@@ -39,37 +60,7 @@ MOST_VECTOR_MARKS: Final = 4000
 
 _LONGEST_LABEL: Final = 20
 _MILLIMETRES_AN_INCH: Final = 25.4
-_STYLE: Final[dict[str, Any]] = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib: the same everywhere
-    "font.size": 7.0,
-    "text.parse_math": False,  # names are text, whatever signs they hold
-    "axes.labelsize": 7.0,
-    "axes.labelpad": 2.5,
-    "axes.linewidth": 0.5,
-    "axes.xmargin": 0.02,
-    "xtick.labelsize": 6.5,
-    "ytick.labelsize": 6.5,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "xtick.major.width": 0.5,
-    "ytick.major.width": 0.5,
-    "xtick.major.size": 2.5,
-    "ytick.major.size": 2.5,
-    "legend.fontsize": 6.5,
-    "legend.frameon": False,
-    "legend.handlelength": 1.5,
-    "legend.columnspacing": 1.4,
-    "legend.handletextpad": 0.5,
-    "legend.borderpad": 0.2,
-    "lines.linewidth": 0.8,
-    "lines.markersize": 2.5,
-    "savefig.facecolor": "white",
-    "svg.fonttype": "path",
-    "svg.hashsalt": "jointplay",
-    "agg.path.chunksize": 10_000,
-}
+_STYLE: Final = Path(__file__).with_name("journal.mplstyle")
 _METADATA: Final[dict[Form, dict[str, str | None]]] = {
     "png": {"Software": None},
     "svg": {"Date": None, "Creator": "jointplay"},
@@ -83,9 +74,7 @@ def style() -> Iterator[None]:
     import matplotlib as mpl
 
     with _lock, mpl.rc_context():
-        mpl.rcdefaults()
-        settings: Any = mpl.rcParams  # its stubs list every key there is
-        settings.update(_STYLE)
+        mpl.rc_file(_STYLE)
         yield
 
 
@@ -104,7 +93,7 @@ def panels(
     share_x: bool | Literal["col"] = False,
     share_y: bool | Literal["row"] = False,
     row_heights: Sequence[float] | None = None,
-) -> tuple[Figure, list[list[Axes]]]:
+) -> tuple[Figure, Panels]:
     """Make a figure of column width.
 
     Parameters
@@ -123,14 +112,43 @@ def panels(
     size = (COLUMN_WIDTH / _MILLIMETRES_AN_INCH, height / _MILLIMETRES_AN_INCH)
     figure = NewFigure(figsize=size, layout="constrained")
     grid = figure.subplots(
-        rows,
-        columns,
-        sharex=share_x,
-        sharey=share_y,
-        squeeze=False,
-        height_ratios=row_heights,
+        rows, columns, sharex=share_x, sharey=share_y, squeeze=False, height_ratios=row_heights
     )
     return figure, [list(row) for row in grid]
+
+
+def stack(heights: Sequence[float], legend_rows: int = 0) -> tuple[Figure, list[Axes]]:
+    """Make panels of these heights [mm] below one another, over the same horizontal axis."""
+    height = sum(heights) + AXIS_HEIGHT + LEGEND_HEIGHT * legend_rows
+    figure, grid = panels(len(heights), 1, height, share_x=True, row_heights=heights)
+    return figure, [row[0] for row in grid]
+
+
+def finish_stack(
+    figure: Figure, stacked: Sequence[Axes], across: str, explained: Axes | None = None
+) -> None:
+    """Label the axis below a stack, and explain the curves of one panel above it."""
+    stacked[-1].set_xlabel(across)
+    figure.align_ylabels()
+    if explained is not None:
+        legend(figure, explained)
+
+
+def in_columns(
+    count: int, single_height: float, row_height: float, legend_height: float
+) -> tuple[Figure, Panels, list[Axes]]:
+    """Make panels of one kind, two in a row; one alone has a height [mm] of its own.
+
+    Returns the figure, all rows, and the panels in order.
+    """
+    columns = min(2, count)
+    rows = -(-count // columns)
+    height = single_height * rows if columns == 1 else row_height * rows
+    figure, grid = panels(rows, columns, height + legend_height)
+    in_order = [axes for row in grid for axes in row]
+    for axes in in_order[count:]:
+        axes.remove()
+    return figure, grid, in_order[:count]
 
 
 def corner_text(axes: Axes, text: str) -> None:
@@ -146,12 +164,15 @@ def in_two_lines(label: str) -> str:
     return f"{owner}\n{quantity}" if dot else label
 
 
-def legend(figure: Figure, axes: Axes) -> None:
+def legend_rows(entries: Sequence[Any] | Mapping[str, Any]) -> int:
+    """Count the rows of a legend."""
+    return -(-len(entries) // LEGEND_COLUMNS)
+
+
+def legend(figure: Figure, axes: Axes, **look: Any) -> None:
     """Explain the curves of a panel once for all panels, above them."""
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside upper center", ncols=LEGEND_COLUMNS, borderaxespad=0.2
-    )
+    look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2} | look
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **look)
 
 
 def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> None:
@@ -160,7 +181,7 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
     Parameters
     ----------
     entries
-        By label, marker and colour.
+        By label, marker and colour; without any there is no legend.
     """
     from matplotlib.lines import Line2D
 
@@ -168,13 +189,9 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
         Line2D([], [], linestyle="", marker=marker, color=colour, markersize=3.0, label=label)
         for label, (marker, colour) in entries.items()
     ]
-    figure.legend(
-        handles=handles,
-        loc="outside upper center",
-        ncols=LEGEND_COLUMNS,
-        borderaxespad=0.2,
-        handletextpad=0.1,
-    )
+    if handles:
+        look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2, "handletextpad": 0.1}
+        figure.legend(handles=handles, loc="outside upper center", **look)
 
 
 def save(figure: Figure, form: Form) -> bytes:

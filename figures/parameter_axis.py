@@ -1,9 +1,6 @@
 """The axis of a study's parameter: scale, what is not finished, what failed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +10,6 @@ from jointplay.figures.quantity import Scale, scale
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
 
 _LOGARITHMIC = 20.0
 """Values that span such a ratio, spaced more evenly by ratio, have a logarithmic axis."""
@@ -47,7 +40,7 @@ class ParameterAxis:
     logarithmic: bool
 
     @classmethod
-    def of(cls, source: StudySource, column: int, points: slice) -> ParameterAxis:
+    def of(cls, source: StudySource, column: int, points: slice) -> "ParameterAxis":
         """Make the axis of a study's parameter over some of its points."""
         values = source.values[points, column]
         parameter = source.parameters[column]
@@ -65,7 +58,7 @@ class ParameterAxis:
         """Name and unit."""
         return self.scale.label(self.name)
 
-    def dress(self, axes: Axes, intervals: int = 8) -> None:
+    def dress(self, axes: page.Axes, intervals: int = 8) -> None:
         """Give the axes of a panel their ends, shade unfinished ranges and mark failed values."""
         if self.logarithmic:
             axes.set_xscale("log")
@@ -88,7 +81,7 @@ class ParameterAxis:
                 zorder=3.0,
             )
 
-    def ticks(self, axis: Axis, intervals: int) -> None:
+    def ticks(self, axis: page.Axis, intervals: int) -> None:
         """Give an axis of this one's scale numbers that stand apart."""
         from matplotlib.ticker import (
             FixedLocator,

@@ -1,33 +1,22 @@
 """Phase portraits with Poincare points: eccentricity and its rate, or two chosen channels."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 from jointplay.figures import page, sampling, scene_facts, smooth
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.run import Floats, Source, inside
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _PANEL_HEIGHT = 38.0  # mm
 _WIDE_PANEL_HEIGHT = 60.0
 _MOST_JOINTS = 6
 
 
-@dataclass(frozen=True)
-class _Panel:
-    """Two channels with what their axes are called."""
+class _Panel(NamedTuple):
+    """Two channels with what their axes are called, and the joint that they are of."""
 
-    position: str
-    rate: str
-    position_label: str
-    rate_label: str
+    names: tuple[str, str]
+    labels: tuple[str, str]
     joint: str = ""
 
 
@@ -38,36 +27,25 @@ def _rows(source: Source, selection: Selection) -> list[list[_Panel]]:
         if len(selection.channels) != 2:
             sentence = "A phase portrait is drawn of two channels: position and rate."
             raise NotDrawable(sentence, "channels")
-        return [[_Panel(*selection.channels, *selection.channels)]]
+        position, rate = selection.channels
+        return [[_Panel((position, rate), (position, rate))]]
     joints = list(scene_facts.chosen_joints(source, selection))
     if len(joints) > _MOST_JOINTS:
         raise NotDrawable(f"Choose at most {_MOST_JOINTS} joints for one figure.", "joints")
-    return [
-        [
-            _Panel(
-                f"{joint}.eccentricity_{axis}",
-                f"{joint}.eccentricity_rate_{axis}",
-                f"eccentricity {axis}",
-                f"rate {axis}",
-                joint,
-            )
-            for axis in "xy"
-        ]
-        for joint in joints
-    ]
+    return [[_of_joint(joint, axis) for axis in "xy"] for joint in joints]
+
+
+def _of_joint(joint: str, axis: str) -> _Panel:
+    names = (f"{joint}.eccentricity_{axis}", f"{joint}.eccentricity_rate_{axis}")
+    return _Panel(names, (f"eccentricity {axis}", f"rate {axis}"), joint)
 
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
-    names = [
-        name
-        for row in _rows(source, selection)
-        for panel in row
-        for name in (panel.position, panel.rate)
-    ]
-    return scene_facts.stored(source, names)
+    rows = _rows(source, selection)
+    return scene_facts.stored(source, [name for row in rows for one in row for name in one.names])
 
 
-def _draw(source: Source, selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     rows = _rows(source, selection)
     height = _PANEL_HEIGHT * len(rows) if len(rows[0]) > 1 else _WIDE_PANEL_HEIGHT
     figure, grid = page.panels(len(rows), len(rows[0]), height + page.LEGEND_HEIGHT)
@@ -78,36 +56,37 @@ def _draw(source: Source, selection: Selection) -> Figure:
     return figure
 
 
-def _portrait(axes: Axes, source: Source, panel: _Panel, selection: Selection) -> None:
-    names = (panel.position, panel.rate)
+def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selection) -> None:
     if panel.joint:
-        time, path = smooth.path(source, panel.joint, names, selection)
+        time, path = smooth.path(source, panel.joint, panel.names, selection)
     else:
-        time, path = sampling.in_a_plane(source, names, selection)
-    points = _sections(source, names, selection)
+        time, path = sampling.in_a_plane(source, panel.names, selection)
+    points = _sections(source, panel.names, selection)
     across, up = (
-        scale(scene_facts.channel(source, name).unit, path[name], points[name]) for name in names
+        scale(scene_facts.channel(source, name).unit, path[name], points[name])
+        for name in panel.names
     )
+    position, rate = panel.names
     axes.plot(
-        path[panel.position] / across.factor,
-        path[panel.rate] / up.factor,
+        path[position] / across.factor,
+        path[rate] / up.factor,
         color=page.BLUE,
         linewidth=0.4,
-        rasterized=len(path[panel.rate]) > page.MOST_VECTOR_POINTS,
+        rasterized=len(time) > page.MOST_VECTOR_POINTS,
         label=f"trajectory{sampling.beginning(source, time, selection)}",
     )
-    if len(points[panel.rate]):
+    if len(points[rate]):
         axes.plot(
-            points[panel.position] / across.factor,
-            points[panel.rate] / up.factor,
+            points[position] / across.factor,
+            points[rate] / up.factor,
             "o",
             color=page.VERMILION,
             markeredgewidth=0.0,
-            rasterized=len(points[panel.rate]) > page.MOST_VECTOR_MARKS,
+            rasterized=len(points[rate]) > page.MOST_VECTOR_MARKS,
             label="Poincaré points",
         )
-    axes.set_xlabel(across.label(panel.position_label))
-    axes.set_ylabel(up.label(panel.rate_label))
+    axes.set_xlabel(across.label(panel.labels[0]))
+    axes.set_ylabel(up.label(panel.labels[1]))
     page.corner_text(axes, f"joint {panel.joint}" if panel.joint else "")
 
 

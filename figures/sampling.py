@@ -1,17 +1,18 @@
 """Values for the screen: as many as a figure can show, whatever the length of the history."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import Selection
+from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.run import Columns, Floats, Source
 
 MOST_SAMPLES: Final = 4000
 """Above, a curve over time is drawn through the extremes of equal spans: four a pixel."""
 MOST_PATH_SAMPLES: Final = 50_000
 """Above, a curve in a plane shows its end only; it has no order that extremes would keep."""
+NO_SAMPLES: Final = "There are no samples in this window of time; widen it."
 
 
 def window(source: Source, selection: Selection) -> tuple[int, int]:
@@ -24,7 +25,7 @@ def window(source: Source, selection: Selection) -> tuple[int, int]:
     """
     first, last = source.between(selection.start, selection.stop)
     if last <= first:
-        raise NotDrawable("There are no samples in this window of time; widen it.", "start")
+        raise NotDrawable(NO_SAMPLES, "start")
     return first, last
 
 
@@ -41,7 +42,12 @@ def over_time(source: Source, name: str, selection: Selection) -> tuple[Floats, 
 def in_a_plane(source: Source, names: tuple[str, ...], selection: Selection) -> Columns:
     """Give times [s] and values of channels, at the end of the window if it is long."""
     first, last = window(source, selection)
-    parts = list(source.blocks(names, max(first, last - MOST_PATH_SAMPLES), last))
+    return joined(source, names, max(first, last - MOST_PATH_SAMPLES), last)
+
+
+def joined(source: Source, names: Sequence[str], first: int, last: int) -> Columns:
+    """Give times [s] and values of channels at samples `first` to `last` - 1, in one piece."""
+    parts = list(source.blocks(names, first, last))
     time = np.concatenate([time for time, _ in parts])
     return time, {name: np.concatenate([columns[name] for _, columns in parts]) for name in names}
 

@@ -6,17 +6,16 @@ Names come from the scene document alone; no mechanism is known here.
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import Selection
-from jointplay.records.channel import Channel
+from jointplay.figures.kind import NotDrawable, Selection
+from jointplay.records.channel import Channel, by_name
 from jointplay.records.run import Source
 
 
 def outputs(source: Source) -> tuple[str, ...]:
     """Name the declared outputs that were stored, in the order of the scene."""
-    stored = {channel.name for channel in source.channels}
+    known = by_name(source.channels)
     declared = [output["name"] for output in scene(source).get("outputs", ())]
-    return tuple(name for name in declared if name in stored)
+    return tuple(name for name in declared if name in known)
 
 
 def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
@@ -56,7 +55,7 @@ def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:
     NotDrawable
         Some were not; the sentence names them.
     """
-    known = {channel.name for channel in source.channels}
+    known = by_name(source.channels)
     if missing := [name for name in names if name not in known]:
         raise NotDrawable(
             f"The results do not hold {', '.join(missing)}, which this figure is drawn from; "
@@ -67,7 +66,7 @@ def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:
 
 def channel(source: Source, name: str) -> Channel:
     """Give unit and meaning of a stored channel."""
-    return next(channel for channel in source.channels if channel.name == name)
+    return by_name(source.channels)[name]
 
 
 def scene(source: Source) -> Mapping[str, Any]:

@@ -1,23 +1,12 @@
 """Poincare sections of a study's points: a position against its rate, one mark a section."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-import numpy as np
-
 from jointplay.figures import marks, page, study_facts
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
+from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 _MOST_PANELS = 8
-_COLUMNS = 2
 _INTERVALS = 8
 """Intervals of the axis of a panel as wide as the page: its numbers stand apart."""
 _PANEL_HEIGHT = 40.0  # mm
@@ -32,7 +21,7 @@ def _pairs(source: StudySource, selection: Selection) -> list[tuple[str, str]]:
         raise NotDrawable(
             "Choose one point of the study: its sections differ from those of the others.", "start"
         )
-    names = study_facts.chosen_observables(source, selection)
+    names = study_facts.known(selection.channels, source.observables)
     if selection.joints and names:
         raise NotDrawable("Choose joints or channels, not both.", "joints")
     if names:
@@ -55,41 +44,32 @@ def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
     return tuple(name for pair in _pairs(source, selection) for name in pair)
 
 
-def _draw(source: StudySource, selection: Selection) -> Figure:
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
     pairs = _pairs(source, selection)
     points = study_facts.chosen_points(source, selection)
     if not source.counts[points].any():
         raise NotDrawable("No section was recorded there yet.", "start")
-    everything = study_facts.Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
     verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
-    columns = min(_COLUMNS, len(pairs))
-    rows = -(-len(pairs) // columns)
-    height = _SINGLE_HEIGHT if columns == 1 else _PANEL_HEIGHT * rows
-    figure, grid = page.panels(rows, columns, height + (page.LEGEND_HEIGHT if verdicts else 0.0))
-    panels = [axes for row in grid for axes in row]
-    for axes, pair in zip(panels, pairs, strict=False):
-        _scatter(axes, source, pair, points, verdicts or [everything])
-        axes.locator_params(axis="x", nbins=_INTERVALS // columns)
-    for axes in panels[len(pairs) :]:
-        axes.remove()
+    legend_height = page.LEGEND_HEIGHT if verdicts else 0.0
+    figure, grid, panels = page.in_columns(len(pairs), _SINGLE_HEIGHT, _PANEL_HEIGHT, legend_height)
+    for axes, pair in zip(panels, pairs, strict=True):
+        _scatter(axes, source, pair, points, verdicts or [study_facts.everything(source)])
+        axes.locator_params(axis="x", nbins=_INTERVALS // len(grid[0]))
     figure.align_ylabels()
-    if verdicts:
-        page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
+    page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
     return figure
 
 
 def _scatter(
-    axes: Axes,
+    axes: page.Axes,
     source: StudySource,
     pair: tuple[str, str],
     points: slice,
     groups: list[study_facts.Group],
 ) -> None:
     values = [marks.sections(source, name, points) for name in pair]
-    across, up = (
-        scale(study_facts.described(source.observables, name).unit, one)
-        for name, one in zip(pair, values, strict=True)
-    )
+    units = [by_name(source.observables)[name].unit for name in pair]
+    across, up = (scale(unit, one) for unit, one in zip(units, values, strict=True))
     size = marks.size(values[0].size)
     for group in groups:
         x, y = (one[group.members[points]].ravel() for one in values)

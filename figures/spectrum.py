@@ -1,8 +1,6 @@
 """Power spectra of channels: lines where the motion is regular, a continuum where it is chaotic."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -11,10 +9,6 @@ from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import per_hertz, power_of_ten
 from jointplay.figures.time_history import declared
 from jointplay.records.run import Floats, Source
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20
@@ -27,17 +21,16 @@ _DECADES: Final = 12
 _COLUMNS: Final = 1000
 """Columns of the page on a logarithmic axis: each shows its largest and smallest power."""
 _NOTHING: Final = "fewer than 32 samples, or no change"
-_PANEL_HEIGHT, _AXIS_HEIGHT = 34.0, 8.0  # mm
+_PANEL_HEIGHT: Final = 34.0  # mm
 
 
-def _draw(source: Source, selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     names = declared(source, selection)
     drive = _driving_frequency(source)
     spectra = [_spectrum(*_samples(source, name, selection), drive) for name in names]
     marked = any(len(one) and one[0] <= drive <= one[-1] for one, _ in spectra)
-    height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + page.LEGEND_HEIGHT * marked
-    figure, grid = page.panels(len(names), 1, height, share_x=True)
-    for (axes,), name, (frequency, power) in zip(grid, names, spectra, strict=True):
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked)
+    for axes, name, (frequency, power) in zip(panels, names, spectra, strict=True):
         unit = scene_facts.channel(source, name).unit
         axes.set_ylabel(f"{name}\n[{per_hertz(unit)}]")
         if not len(frequency):
@@ -49,24 +42,12 @@ def _draw(source: Source, selection: Selection) -> Figure:
         axes.set_ylim(max(top * 10.0**-_DECADES, float(power.min()) / 3.0), 3.0 * top)
         axes.set_xlim(frequency[0], frequency[-1])
         if marked:
-            _mark(axes, drive)
+            look: page.Look = {"color": page.VERMILION, "linewidth": 0.7, "linestyle": (0, (4, 3))}
+            axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **look)
         _ticks(axes)
-    grid[-1][0].set_xlabel("frequency [Hz]")
-    figure.align_ylabels()
-    if marked:
-        page.legend(figure, next(axes for (axes,) in grid if axes.lines))
+    explained = next(axes for axes in panels if axes.lines) if marked else None
+    page.finish_stack(figure, panels, "frequency [Hz]", explained)
     return figure
-
-
-def _mark(axes: Axes, drive: float) -> None:
-    axes.axvline(
-        drive,
-        color=page.VERMILION,
-        linewidth=0.7,
-        linestyle=(0, (4, 3)),
-        zorder=1.5,
-        label="once a period of the drivers",
-    )
 
 
 def _driving_frequency(source: Source) -> float:
@@ -77,9 +58,8 @@ def _driving_frequency(source: Source) -> float:
 def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float]:
     """Give (n,) values that are equally far apart, and how far [s]."""
     first, last = sampling.window(source, selection)
-    parts = list(source.blocks([name], max(first, last - _MOST_SAMPLES), last))
-    time = np.concatenate([time for time, _ in parts])
-    values = np.concatenate([columns[name] for _, columns in parts])
+    time, columns = sampling.joined(source, [name], max(first, last - _MOST_SAMPLES), last)
+    values = columns[name]
     missing = np.flatnonzero(~np.isfinite(values))
     known = int(missing[0]) if len(missing) else len(values)
     if known > 2 and time[known - 1] - time[known - 2] < 0.99 * (time[1] - time[0]):
@@ -120,7 +100,7 @@ def _thinned(frequency: Floats, power: Floats) -> tuple[Floats, Floats]:
     return np.repeat(frequency[starts], 2), np.column_stack(extremes).ravel()
 
 
-def _ticks(axes: Axes) -> None:
+def _ticks(axes: page.Axes) -> None:
     """Write powers of ten without mathematics, which names of channels switch off."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, StrMethodFormatter
 
@@ -139,6 +119,6 @@ SPECTRUM = RunFigure(
     name="spectrum",
     title="Power spectra of the scene's declared outputs, or of chosen channels",
     uses=("channels", "start", "stop"),
-    channels=lambda source, selection: declared(source, selection),
+    channels=declared,
     draw=_draw,
 )

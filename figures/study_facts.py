@@ -7,19 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.figures import page
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import Selection
-from jointplay.records.channel import Channel
-from jointplay.records.channel_choice import NoSuchChannel, no_such_channel
+from jointplay.figures.kind import NotDrawable, Selection
+from jointplay.records.channel import Channel, by_name
+from jointplay.records.channel_choice import no_such_channel
 from jointplay.records.study import StudySource
 
-_RATES = (
-    ("eccentricity_x", "eccentricity_rate_x"),
-    ("eccentricity_y", "eccentricity_rate_y"),
-    ("x", "vx"),
-    ("y", "vy"),
-    ("theta", "omega"),
-)
+_RATES = {
+    "eccentricity_x": "eccentricity_rate_x",
+    "eccentricity_y": "eccentricity_rate_y",
+    "x": "vx",
+    "y": "vy",
+    "theta": "omega",
+}
 COLOURS = {
     "periodic": page.BLUE,
     "quasi-periodic": page.GREEN,
@@ -44,26 +43,14 @@ def observed_pairs(source: StudySource) -> list[tuple[str, str]]:
 
     Those of joints come first: where joints have play, that is what a study looks at.
     """
-    names = [observable.name for observable in source.observables]
+    names = by_name(source.observables)
     found = []
-    for position, rate in _RATES:
-        for name in names:
-            owner, _, quantity = name.rpartition(".")
-            if quantity == position and f"{owner}.{rate}" in names:
-                found.append((name, f"{owner}.{rate}"))
-    found.sort(key=lambda pair: (".eccentricity_" not in pair[0], names.index(pair[0])))
-    return found
-
-
-def chosen_observables(source: StudySource, selection: Selection) -> tuple[str, ...]:
-    """Give the observables that were asked for; none if none were.
-
-    Raises
-    ------
-    NotDrawable
-        One is none of the study's; the sentence names near ones.
-    """
-    return _checked(selection.channels, source.observables)
+    for name in names:
+        owner, _, quantity = name.rpartition(".")
+        rate = f"{owner}.{_RATES.get(quantity)}"
+        if rate in names:
+            found.append((name, rate))
+    return sorted(found, key=lambda pair: ".eccentricity_" not in pair[0])
 
 
 def statistics(source: StudySource) -> tuple[Channel, ...]:
@@ -72,15 +59,18 @@ def statistics(source: StudySource) -> tuple[Channel, ...]:
     return tuple(Channel(name, *meanings[name]) for name in source.statistics if name in meanings)
 
 
-def chosen_over_points(source: StudySource, selection: Selection) -> tuple[str, ...]:
-    """Give the channels with extremes, or the statistics, that were asked for; none if none were.
+def known(names: tuple[str, ...], channels: Sequence[Channel]) -> tuple[str, ...]:
+    """Return the names that were asked for if all of them are channels of the study.
 
     Raises
     ------
     NotDrawable
-        One is none of the study's; the sentence names near ones.
+        One is none; the sentence names near ones.
     """
-    return _checked(selection.channels, (*source.channels, *statistics(source)))
+    offered = list(by_name(channels))
+    if unknown := [name for name in names if name not in offered]:
+        raise NotDrawable(str(no_such_channel(unknown, offered)), "channels")
+    return names
 
 
 def chosen_points(source: StudySource, selection: Selection) -> slice:
@@ -105,15 +95,17 @@ def chosen_points(source: StudySource, selection: Selection) -> slice:
     return slice(first, end)
 
 
+def everything(source: StudySource) -> Group:
+    """Give all points alike."""
+    return Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
+
+
 def directions(source: StudySource) -> tuple[Group, ...]:
     """Give forward and backward points of a continuation in both directions, else nothing."""
     if source.attributes["job"].get("continuation") != "both":
         return ()
     forward = np.arange(source.points) < source.points // 2
-    return (
-        Group("forward", page.BLUE, forward),
-        Group("backward", page.VERMILION, ~forward),
-    )
+    return Group("forward", page.BLUE, forward), Group("backward", page.VERMILION, ~forward)
 
 
 def by_verdict(source: StudySource) -> tuple[Group, ...]:
@@ -124,25 +116,8 @@ def by_verdict(source: StudySource) -> tuple[Group, ...]:
     names = list(source.verdict_names)
     groups = [
         Group(name, COLOURS.get(name, UNJUDGED), codes == names.index(name))
-        for name in sorted(names, key=_as_listed)
+        for name in dict.fromkeys((*COLOURS, *names))
+        if name in names
     ]
     groups.append(Group("no verdict", UNJUDGED, (codes < 0) & (source.counts > 0)))
     return tuple(group for group in groups if group.members.any())
-
-
-def described(channels: Sequence[Channel], name: str) -> Channel:
-    """Give unit and meaning of a channel."""
-    return next(channel for channel in channels if channel.name == name)
-
-
-def _checked(names: tuple[str, ...], channels: Sequence[Channel]) -> tuple[str, ...]:
-    known = [channel.name for channel in channels]
-    if unknown := [name for name in names if name not in known]:
-        error: NoSuchChannel = no_such_channel(unknown, known)
-        raise NotDrawable(str(error), "channels")
-    return names
-
-
-def _as_listed(verdict: str) -> int:
-    listed = list(COLOURS)
-    return listed.index(verdict) if verdict in listed else len(listed)

@@ -1,24 +1,17 @@
 """Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jointplay.figures import page, study_facts
-from jointplay.figures.errors import NotDrawable, at_most
-from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, scale
+from jointplay.records.channel import by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_CURVES = 8
 _MOST_MAPS = 6
@@ -27,7 +20,6 @@ _FIRST_PANELS = 4
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _MAP_HEIGHT = 46.0
-_AXIS_HEIGHT = 8.0
 _MOST_NUMBERS = 60
 """Marks are drawn at the values of a curve if there are no more."""
 
@@ -52,9 +44,10 @@ def _chosen(source: StudySource, selection: Selection) -> tuple[str, ...]:
             "start",
         )
     most = _MOST_CURVES if len(varying) == 1 else _MOST_MAPS
-    names = at_most(most, study_facts.chosen_over_points(source, selection))
-    statistics = {one.name for one in study_facts.statistics(source)}
-    if 0 < len(statistics.intersection(names)) < len(names):
+    statistics = by_name(study_facts.statistics(source))
+    offered = (*source.channels, *statistics.values())
+    names = at_most(most, study_facts.known(selection.channels, offered))
+    if 0 < len(statistics.keys() & set(names)) < len(names):
         raise NotDrawable("One figure shows extremes or statistics; choose either.", "channels")
     return names or _first(source)
 
@@ -69,14 +62,35 @@ def _first(source: StudySource) -> tuple[str, ...]:
     return tuple(names[:_FIRST_PANELS])
 
 
-def _draw(source: StudySource, selection: Selection) -> Figure:
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
     names = _chosen(source, selection)
     points = study_facts.chosen_points(source, selection)
+    rows = [_Row.of(source, name, points) for name in names]
     varying = _varying(source, points)
-    axes = [ParameterAxis.of(source, column, points) for column in varying]
-    if len(axes) == 1:
-        return _curves(source, names, points, axes[0])
-    return _maps(source, names, points, axes[0], axes[1])
+    across, *up = (ParameterAxis.of(source, column, points) for column in varying)
+    entries = across.legend()
+    height = (_MAP_HEIGHT if up else _PANEL_HEIGHT) * len(names)
+    if len(names) == 1 and not up:
+        height = _SINGLE_HEIGHT
+    height += page.AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
+    columns = len(rows[0].panels)
+    figure, grid = page.panels(len(names), columns, height, share_x=True, share_y=bool(up))
+    for panels, row in zip(grid, rows, strict=True):
+        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
+            if up:
+                label = page.in_two_lines(f"{which} {row.label}".strip())
+                _map(figure, axes, values / row.shown.factor, label, across, up[0])
+                continue
+            _curve(axes, values / row.shown.factor, across)
+            if panels is grid[0]:
+                page.corner_text(axes, which)
+        panels[0].set_ylabel(up[0].label if up else page.in_two_lines(row.label))
+    for axes in grid[-1]:
+        axes.set_xlabel(across.label)
+    if not up:
+        figure.align_ylabels()
+    page.legend_of_marks(figure, entries)
+    return figure
 
 
 @dataclass(frozen=True)
@@ -89,80 +103,37 @@ class _Row:
     label: str
 
     @classmethod
-    def of(cls, source: StudySource, name: str, points: slice) -> _Row:
-        statistics = study_facts.statistics(source)
-        if any(one.name == name for one in statistics):
+    def of(cls, source: StudySource, name: str, points: slice) -> "_Row":
+        statistics = by_name(study_facts.statistics(source))
+        if name in statistics:
             values = source.statistics[name][points]
-            shown = scale(study_facts.described(statistics, name).unit, values)
+            shown = scale(statistics[name].unit, values)
             owner, _, statistic = name.rpartition(".")
             return cls({"": values}, shown, f"{owner}\n{shown.label(statistic)}")
         peaks = source.peaks(name)
         panels = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
-        shown = scale(study_facts.described(source.channels, name).unit, *panels.values())
+        shown = scale(by_name(source.channels)[name].unit, *panels.values())
         return cls(panels, shown, shown.label(name))
 
 
-def _curves(
-    source: StudySource, names: tuple[str, ...], points: slice, parameter: ParameterAxis
-) -> Figure:
-    """Draw what each row shows over the parameter, side by side."""
-    rows = [_Row.of(source, name, points) for name in names]
-    entries = parameter.legend()
-    height = _SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT * len(names)
-    height += _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
-    figure, grid = page.panels(len(names), len(rows[0].panels), height, share_x=True)
+def _curve(axes: page.Axes, values: Floats, parameter: ParameterAxis) -> None:
+    """Draw values over one parameter."""
     order = np.argsort(parameter.shown, kind="stable")
-    for panels, row in zip(grid, rows, strict=True):
-        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
-            axes.plot(
-                parameter.shown[order],
-                values[order] / row.shown.factor,
-                color=page.BLUE,
-                marker="o" if len(order) <= _MOST_NUMBERS else "",
-                markersize=1.6,
-                linewidth=0.7,
-            )
-            axes.locator_params(axis="y", nbins=5)
-            parameter.dress(axes, intervals=4)
-            if panels is grid[0]:
-                page.corner_text(axes, which)
-        panels[0].set_ylabel(page.in_two_lines(row.label))
-    for axes in grid[-1]:
-        axes.set_xlabel(parameter.label)
-    figure.align_ylabels()
-    if entries:
-        page.legend_of_marks(figure, entries)
-    return figure
-
-
-def _maps(
-    source: StudySource,
-    names: tuple[str, ...],
-    points: slice,
-    across: ParameterAxis,
-    up: ParameterAxis,
-) -> Figure:
-    """Draw what each row shows over two parameters, in colours."""
-    rows = [_Row.of(source, name, points) for name in names]
-    entries = across.legend()
-    height = _MAP_HEIGHT * len(names) + _AXIS_HEIGHT + (page.LEGEND_HEIGHT if entries else 0.0)
-    columns = len(rows[0].panels)
-    figure, grid = page.panels(len(names), columns, height, share_x=True, share_y=True)
-    for panels, row in zip(grid, rows, strict=True):
-        for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
-            label = page.in_two_lines(f"{which} {row.label}".strip())
-            _map(figure, axes, values / row.shown.factor, label, across, up)
-        panels[0].set_ylabel(up.label)
-    for axes in grid[-1]:
-        axes.set_xlabel(across.label)
-    if entries:
-        page.legend_of_marks(figure, entries)
-    return figure
+    axes.plot(
+        parameter.shown[order],
+        values[order],
+        color=page.BLUE,
+        marker="o" if len(order) <= _MOST_NUMBERS else "",
+        markersize=1.6,
+        linewidth=0.7,
+    )
+    axes.locator_params(axis="y", nbins=5)
+    parameter.dress(axes, intervals=4)
 
 
 def _map(
-    figure: Figure,
-    axes: Axes,
+    figure: page.Figure,
+    axes: page.Axes,
     values: Floats,
     label: str,
     across: ParameterAxis,

@@ -1,23 +1,15 @@
 """Channels over time, one panel each; also the scene's declared outputs, as the paper has them."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from jointplay.figures import horizon, page, sampling, scene_facts
-from jointplay.figures.errors import NotDrawable, at_most
-from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures.kind import NotDrawable, RunFigure, Selection, at_most
 from jointplay.figures.quantity import scale
+from jointplay.figures.time_axis import TimeAxis
 from jointplay.records.run import Floats, Source
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 MOST_PANELS = 8
 _PANEL_HEIGHT = 30.0  # mm
-_AXIS_HEIGHT = 8.0
 _NOTICEABLE = 0.01
 """An extreme is marked if it lies beyond the samples by this share of the range."""
 
@@ -36,39 +28,26 @@ def declared(source: Source, selection: Selection) -> tuple[str, ...]:
     return scene_facts.stored(source, names)
 
 
-def panels_over_time(source: Source, names: tuple[str, ...], selection: Selection) -> Figure:
+def _draw(source: Source, selection: Selection) -> page.Figure:
     """Draw channels below one another over the same time, with extremes that samples miss."""
+    names = declared(source, selection)
     curves = [sampling.over_time(source, name, selection) for name in names]
     missed = [
         _missed_extremes(source, name, curve) for name, curve in zip(names, curves, strict=True)
     ]
-    time = curves[0][0]
-    spans = horizon.gaps(source, float(time[0]), float(time[-1]))
-    explained = spans or any(len(time) for time, _ in missed)
-    legend_height = page.LEGEND_HEIGHT if explained else 0.0
-    height = _PANEL_HEIGHT * len(names) + _AXIS_HEIGHT + legend_height
-    figure, grid = page.panels(len(names), 1, height, share_x=True)
-    seconds = scale("s", *(time for time, _ in curves))
-    for (axes,), name, (time, values), (when, extremes) in zip(
-        grid, names, curves, missed, strict=True
+    across = TimeAxis(source, [time for time, _ in curves])
+    explained = bool(across.unconverged) or any(len(time) for time, _ in missed)
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), explained)
+    for axes, name, (time, values), (when, extremes) in zip(
+        panels, names, curves, missed, strict=True
     ):
         shown = scale(scene_facts.channel(source, name).unit, values, extremes)
-        axes.plot(time / seconds.factor, values / shown.factor, color=page.BLUE, label="samples")
-        axes.plot(
-            when / seconds.factor,
-            extremes / shown.factor,
-            "o",
-            color=page.VERMILION,
-            markerfacecolor="none",
-            markeredgewidth=0.7,
-            label="extreme between samples",
-        )
-        horizon.shade(axes, spans, seconds.factor)
+        axes.plot(across.shown(time), values / shown.factor, color=page.BLUE, label="samples")
+        look: page.Look = {"color": page.VERMILION, "label": "extreme between samples"} | page.RING
+        axes.plot(across.shown(when), extremes / shown.factor, "o", **look)
+        across.shade(axes)
         axes.set_ylabel(shown.label(name))
-    grid[-1][0].set_xlabel(seconds.label("time"))
-    figure.align_ylabels()
-    if legend_height:
-        page.legend(figure, grid[0][0])
+    page.finish_stack(figure, panels, across.label, panels[0] if explained else None)
     return figure
 
 
@@ -99,7 +78,7 @@ TIME_HISTORY = RunFigure(
     title="Chosen channels over time",
     uses=("channels", "start", "stop"),
     channels=_chosen,
-    draw=lambda source, selection: panels_over_time(source, _chosen(source, selection), selection),
+    draw=_draw,
 )
 
 OUTPUTS = RunFigure(
@@ -107,5 +86,5 @@ OUTPUTS = RunFigure(
     title="The scene's declared outputs over time",
     uses=("channels", "start", "stop"),
     channels=declared,
-    draw=lambda source, selection: panels_over_time(source, declared(source, selection), selection),
+    draw=_draw,
 )

@@ -1,32 +1,17 @@
 """Work-precision diagram: the error of every method and tolerance over its evaluations."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.errors import NotDrawable
-from jointplay.figures.kind import Selection, StudyFigure
+from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import power_of_ten
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 _PANEL_HEIGHT = 55.0  # mm
 _LEGEND_COLUMNS = 3  # names of methods are long
-_STYLES = (
-    (page.BLUE, "o", "-"),
-    (page.VERMILION, "s", "--"),
-    (page.GREEN, "^", "-."),
-    (page.BLACK, "D", ":"),
-    (page.GREY, "v", "-"),
-)
-"""Colour, mark and dashes: distinct in grey, too."""
 _MOST_ASTRAY = 0.05
 """Share of energy astray beyond which methods are refused."""
 
@@ -37,7 +22,7 @@ def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
     return ()
 
 
-def _draw(source: StudySource, selection: Selection) -> Figure:
+def _draw(source: StudySource, selection: Selection) -> page.Figure:
     runs = source.attributes["runs"]
     measured = [i for i, run in enumerate(runs) if not run["reference"]]
     references = len(runs) - len(measured)
@@ -53,21 +38,19 @@ def _draw(source: StudySource, selection: Selection) -> Figure:
     figure, grid = page.panels(len(drawn), 1, height, share_x=True)
     above, last = grid[0][0], grid[-1][0]
     methods = dict.fromkeys(runs[i]["method"] for i in measured)
-    for name, (colour, mark, dashes) in zip(methods, _STYLES, strict=False):
+    for name, (colour, dashes, mark) in zip(methods, page.STYLES, strict=False):
         chosen = np.array([i for i in measured if runs[i]["method"] == name])
         for (axes,), values in zip(grid, drawn.values(), strict=True):
             shown = chosen[values[chosen] > 0.0]
             axes.plot(cost[shown], values[shown], color=colour, linestyle=dashes, label=name)
             for inside, each in ((colour, admitted[shown]), ("white", ~admitted[shown])):
-                axes.plot(
-                    cost[shown][each],
-                    values[shown][each],
-                    color=colour,
-                    linestyle="",
-                    marker=mark,
-                    markerfacecolor=inside,
-                    markeredgewidth=0.6,
-                )
+                look: page.Look = {
+                    "marker": mark,
+                    "markerfacecolor": inside,
+                    "markeredgewidth": 0.6,
+                }
+                points = (cost[shown][each], values[shown][each])
+                axes.plot(*points, color=colour, linestyle="", **look)
     for (axes,), label in zip(grid, drawn, strict=True):
         axes.set_xscale("log")
         axes.set_yscale("log")

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from jointplay.paper import reported
 from jointplay.paper.comparison import Cell, Row, small
 from jointplay.paper.motions import UNKNOWN, in_words, mean_exponent, tally
-from jointplay.paper.stores import Stores
+from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 from jointplay.records.run import Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT

@@ -8,8 +8,8 @@ import numpy as np
 from jointplay.paper import cases, diagrams, peaks, ranges, reported
 from jointplay.paper.comparison import Cell, Row
 from jointplay.paper.motions import mean_exponent, tally
+from jointplay.paper.runs import Stores
 from jointplay.paper.size import Size
-from jointplay.paper.stores import Stores
 from jointplay.paper.variants import AS_PUBLISHED, CONSTANT, MATERIAL, SLIPS, Variant
 
 OVERVIEW: Final = (

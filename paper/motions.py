@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, signed, small
-from jointplay.paper.stores import Stores
+from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 from jointplay.solver.nonlinear.estimate import Estimate
 from jointplay.storage.studies import StudyReader

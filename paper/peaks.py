@@ -8,7 +8,7 @@ import numpy as np
 
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, milliseconds, signed
-from jointplay.paper.stores import Stores
+from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 from jointplay.storage.results import ResultReader
 
@@ -73,9 +73,7 @@ class Impact(NamedTuple):
 
 def extreme(reader: ResultReader, channel: str) -> Extreme:
     """Return the true and the sampled extreme of a channel."""
-    peak = reader.peaks()[channel]
-    low, high = (peak.minimum, peak.minimum_time), (peak.maximum, peak.maximum_time)
-    value, when = max(low, high, key=lambda found: abs(found[0]))
+    value, when = reader.peaks()[channel].larger
     stride = round(reported.document()["grid"] / cases.STEP)
     time, samples = reader.history([channel])
     values = samples[channel][::stride]

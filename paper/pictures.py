@@ -7,12 +7,10 @@ from typing import Any, Final
 
 from jointplay import figures
 from jointplay.figures import page
-from jointplay.paper import reported
-from jointplay.paper.cases import JOINTS
-from jointplay.paper.drawings import by_joint, portraits, responses
-from jointplay.paper.drawings.curves import COLOURS, Compared
+from jointplay.paper import drawings, reported
+from jointplay.paper.drawings import COLOURS, Compared
+from jointplay.paper.runs import Stores
 from jointplay.paper.size import Size
-from jointplay.paper.stores import Stores
 from jointplay.paper.variants import CONSTANT, Variant
 from jointplay.solver.runs.processes import Advance, Call
 from jointplay.storage.studies import StudyReader
@@ -23,19 +21,19 @@ _OF_SWEEPS: Final[tuple[tuple[str, str, Callable[..., bytes]], ...]] = (
         "Displacement, velocity and acceleration over time, drawn over the ideal mechanism's, then"
         " velocity and acceleration in the first 0.4 s; the largest acceleration of each is"
         " circled.",
-        responses.draw,
+        drawings.draw_responses,
     ),
     (
         "contact forces",
         "Normal force at joints A and B in the first 0.4 s, one row for each value; the true peak"
         " of each is circled.",
-        by_joint.draw_forces,
+        drawings.draw_forces,
     ),
     (
         "journal paths",
         "Paths of the journals' centres inside the clearance circles of A and B, one row for each"
         " value.",
-        by_joint.draw_paths,
+        drawings.draw_paths,
     ),
 )
 """Figures of each sweep: caption, alternative text, and the function that draws it."""
@@ -76,7 +74,8 @@ def pictures(stores: Stores, size: Size) -> list[Picture]:
 
 def _sweep(stores: Stores, index: int, sweep: dict[str, Any], size: Size) -> Iterator[Picture]:
     entries = {case: reported.document()["response_peaks"][case] for case in sweep["cases"]}
-    names = {case: _value(entry, sweep) for case, entry in entries.items()}
+    setting = sweep["parameter"]
+    names = {case: reported.in_words(setting, entry[setting]) for case, entry in entries.items()}
     values = ", ".join(names.values())
     ideals = [
         Compared(stores.path("ideal", f"{speed:g}pi"), "ideal", page.BLACK)
@@ -88,12 +87,11 @@ def _sweep(stores: Stores, index: int, sweep: dict[str, Any], size: Size) -> Ite
                 Compared(stores.path("response", case, variant), name, colour)
                 for (case, name), colour in zip(names.items(), COLOURS, strict=True)
             ]
-            arguments = (runs, ideals if draw is responses.draw else JOINTS)
             yield Picture(
                 f"sweep-{index}",
                 f"As {beside}: {what} at {values}; {variant.label}.",
                 f"{alternative} {values}.",
-                Call(_drawn, (draw, arguments)),
+                Call(_drawn, (draw, (runs, ideals))),
             )
 
 
@@ -110,7 +108,7 @@ def _phase(stores: Stores, case: int, entry: dict[str, Any], size: Size) -> Iter
             f"Eccentricity x against its rate at joints A and B, {name}: trajectory in"
             f" revolutions {first} to {last}, sections once a revolution in"
             f" revolutions {first} to {size.settle} and after them.",
-            Call(_drawn, (portraits.draw, (portrait, start, approach, settled, JOINTS))),
+            Call(_drawn, (drawings.draw_portraits, (portrait, start, approach, settled))),
         )
 
 
@@ -125,13 +123,6 @@ def _diagram(stores: Stores, which: int, entry: dict[str, Any], size: Size) -> I
             " sections once a revolution, coloured by verdict.",
             Call(_drawn, (_bifurcation, (stores.path("diagram", which, variant),)), 2.0),
         )
-
-
-def _value(entry: dict[str, Any], sweep: dict[str, Any]) -> str:
-    value = entry[sweep["parameter"]]
-    if sweep["parameter"] == "omega_over_pi":
-        return f"{reported.turning(value)} rad/s"
-    return f"{value:g} {sweep['unit']}" if sweep["unit"] else f"friction {value:g}"
 
 
 def _bifurcation(store: Path) -> bytes:

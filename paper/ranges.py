@@ -5,7 +5,7 @@ from typing import Final, NamedTuple
 
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, signed
-from jointplay.paper.stores import Stores
+from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 
 WINDOWS: Final = ("early", "late")

@@ -12,8 +12,8 @@ from jinja2 import Environment, StrictUndefined
 from jointplay.paper import cases, diagrams, findings, motions, peaks, ranges, reported
 from jointplay.paper.comparison import Table, milliseconds, signed
 from jointplay.paper.pictures import Picture
+from jointplay.paper.runs import Stores
 from jointplay.paper.size import FULL, Size
-from jointplay.paper.stores import Stores
 from jointplay.paper.variants import CONSTANT, SLIPS, Variant
 from jointplay.solver.scene import presets
 

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -13,9 +13,7 @@ SETTINGS = {
     "omega_over_pi": ("speed", math.pi),
 }
 """Settings of the document as parameters of the scene: name, and what one is in SI."""
-
-_KINDS = ("ideal", "response_peaks", "adams_comparison", "phase_ranges", "test_bed")
-"""Parts of the document that hold measured or computed numbers."""
+_UNITS = {"clearance_mm": "mm", "rpm": "rpm"}
 
 
 @cache
@@ -42,35 +40,13 @@ def si(setting: str, value: float) -> float:
 
 def case_name(entry: Mapping[str, Any]) -> str:
     """Return the settings of an entry for readers, such as ``0.5 mm, friction 0.1, 1.5π rad/s``."""
-    words = []
-    if "clearance_mm" in entry:
-        words.append(f"{entry['clearance_mm']:g} mm")
-    if "friction" in entry:
-        words.append(f"friction {entry['friction']:g}")
-    if "omega_over_pi" in entry:
-        words.append(f"{turning(entry['omega_over_pi'])} rad/s")
-    if "rpm" in entry:
-        words.append(f"{entry['rpm']:g} rpm")
-    return ", ".join(words)
+    return ", ".join(
+        in_words(setting, entry[setting]) for setting in (*SETTINGS, "rpm") if setting in entry
+    )
 
 
-def turning(omega_over_pi: float) -> str:
-    """Return a speed as a multiple of π, as in ``1.5π``."""
-    return "π" if omega_over_pi == 1.0 else f"{omega_over_pi:g}π"
-
-
-def pointers() -> set[str]:
-    """Return the JSON pointers of all printed numbers; settings are not among them."""
-    return {pointer for kind in _KINDS for pointer in _numbers(document()[kind], f"/{kind}")}
-
-
-def _numbers(value: Any, pointer: str) -> Iterator[str]:
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            if key not in (*SETTINGS, "rpm"):
-                yield from _numbers(inner, f"{pointer}/{key}")
-    elif isinstance(value, list):
-        for index, inner in enumerate(value):
-            yield from _numbers(inner, f"{pointer}/{index}")
-    elif isinstance(value, int | float):
-        yield pointer
+def in_words(setting: str, value: float) -> str:
+    """Return one setting of the document for readers."""
+    if setting == "omega_over_pi":
+        return "π rad/s" if value == 1.0 else f"{value:g}π rad/s"
+    return f"friction {value:g}" if setting == "friction" else f"{value:g} {_UNITS[setting]}"

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from jointplay.paper import cases, pictures, report, runs
+from jointplay.paper.runs import Stores
 from jointplay.paper.size import Size
-from jointplay.paper.stores import Stores
 from jointplay.solver.runs.processes import cores, processes
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.interruption import interruption

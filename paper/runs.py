@@ -1,17 +1,22 @@
-"""Computes the jobs of a reproduction, each into a store of its own."""
+"""The jobs of a reproduction computed, each into a store of its own, and these stores read."""
 
 import shutil
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Final, cast
 
+from jointplay.paper import cases
 from jointplay.paper.cases import Run
+from jointplay.paper.variants import Variant
 from jointplay.solver.kinds import Admission, Study, admit, parse
 from jointplay.solver.runs.processes import Advance, Call, Processes
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
+from jointplay.storage.results import ResultReader
+from jointplay.storage.studies import StudyReader
 from jointplay.worker.execute import execute
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
@@ -23,6 +28,26 @@ _SEALS_FROM: Final = 0.96
 
 class RunFailed(Exception):
     """A job of the reproduction did not come to its end; the sentence says which and why."""
+
+
+class Stores:
+    """Readers of the stores that `compute` left in a folder; names as in `cases.name`."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._run, self._study = cache(ResultReader), cache(StudyReader)
+
+    def path(self, kind: str, which: object, variant: Variant | None = None) -> Path:
+        """Return the file of a store."""
+        return self._folder / cases.name(kind, which, variant)
+
+    def run(self, kind: str, which: object, variant: Variant | None = None) -> ResultReader:
+        """Open the results of a simulation, once."""
+        return self._run(self.path(kind, which, variant))
+
+    def study(self, kind: str, which: object, variant: Variant) -> StudyReader:
+        """Open the results of a study, once."""
+        return self._study(self.path(kind, which, variant))
 
 
 def compute(
@@ -62,12 +87,13 @@ def compute(
         calls,
         lambda done, ended, note: report(_SEALS_FROM * done, f"{ended} of {len(calls)}: {note}"),
     )
-    pool.make(seals, lambda done, *_: report(_share(done), "making the results durable"))
+    pool.make(
+        seals,
+        lambda done, *_: report(
+            _SEALS_FROM + (1.0 - _SEALS_FROM) * done, "making the results durable"
+        ),
+    )
     shutil.rmtree(folder / RUNNING)
-
-
-def _share(fraction: float) -> float:
-    return _SEALS_FROM + (1.0 - _SEALS_FROM) * fraction
 
 
 def _prepare(run: Run, advance: Advance) -> None:

@@ -26,6 +26,12 @@ class Peak:
     maximum: float
     maximum_time: float
 
+    @property
+    def larger(self) -> tuple[float, float]:
+        """The extreme of the larger magnitude, with its sign, and its time [s]."""
+        low, high = (self.minimum, self.minimum_time), (self.maximum, self.maximum_time)
+        return high if abs(self.maximum) > abs(self.minimum) else low
+
     def scaled(self, factor: float, offset: float) -> Peak:
         """Return the extremes of factor * channel + offset."""
         low = (factor * self.minimum + offset, self.minimum_time)

@@ -1,7 +1,7 @@
 """Statistics of channels on a uniform grid of time: what every member provides, and shares."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,35 +17,38 @@ class Grid:
     per_period: int
 
 
-class ChannelStatistic(Protocol):
+class ChannelStatistic(ABC):
     """A statistic of channels, each for itself, in the unit of its channel.
 
     Scaling a channel by a positive factor scales the statistic.
     """
 
+    rows = 1
+    """Of the tally."""
+
     @property
+    @abstractmethod
     def long_name(self) -> str:
         """Its name in words that "of" may follow."""
-        ...
 
     def begin(self, grid: Grid, channels: int) -> Floats:
         """Return the tally before the first sample: (rows, channels), bounded in rows."""
-        ...
+        return np.zeros((self.rows, channels))
 
+    @abstractmethod
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
         """Take (samples, channels) values, at least one, into the tally; `before` came before."""
-        ...
 
+    @abstractmethod
     def value(self, tally: Floats, count: int) -> Floats:
         """Return the statistic of the `count` samples that it was given: (channels,)."""
-        ...
 
+    @staticmethod
+    def add_in_order(total: Floats, terms: Floats) -> None:
+        """Add (rows, channels) terms to a (channels,) total in place, one row after the other.
 
-def add_in_order(total: Floats, terms: Floats) -> None:
-    """Add (rows, channels) terms to a (channels,) total in place, one row after the other.
-
-    The result does not depend on how the rows were cut: numpy's sums take another order for another
-    number of rows. The rounding of n terms in order is at most n * 1e-16 of the sum of their
-    magnitudes.
-    """
-    total[:] = np.add.accumulate(np.concatenate([total[None], terms]), axis=0)[-1]
+        The result does not depend on how the rows were cut: numpy's sums take another order for
+        another number of rows. The rounding of n terms in order is at most n * 1e-16 of the sum of
+        their magnitudes.
+        """
+        total[:] = np.add.accumulate(np.concatenate([total[None], terms]), axis=0)[-1]

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.contact_statistic import Contacts, Floats
+from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic, Floats
 
 
-class ContactShare:
+class ContactShare(ContactStatistic):
     """0 to 1."""
 
     unit = "1"
@@ -19,5 +19,4 @@ class ContactShare:
 
     def value(self, tally: Floats, start: float, end: float) -> Floats:
         """Return the share."""
-        share: Floats = tally / (end - start)
-        return share
+        return np.asarray(tally / (end - start), np.float64)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.contact_statistic import Contacts, Floats
+from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic, Floats
 
 
-class ImpactCount:
+class ImpactCount(ContactStatistic):
     """Onsets after the start of the stretch."""
 
     unit = "1"
@@ -14,7 +14,3 @@ class ImpactCount:
     def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
         """Count the onsets."""
         np.add.at(tally, contacts["joint"][contacts["onset"] > start], 1.0)
-
-    def value(self, tally: Floats, start: float, end: float) -> Floats:
-        """Return the count."""
-        return tally

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.contact_statistic import Contacts, Floats
+from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic, Floats
 
 
-class LargestImpactForce:
+class LargestImpactForce(ContactStatistic):
     """N; zero if no contact began."""
 
     unit = "N"
@@ -15,7 +15,3 @@ class LargestImpactForce:
         """Take the peaks of the new contacts."""
         begun = contacts[contacts["onset"] > start]
         np.maximum.at(tally, begun["joint"], begun["peak_force"])
-
-    def value(self, tally: Floats, start: float, end: float) -> Floats:
-        """Return the largest."""
-        return tally

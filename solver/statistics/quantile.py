@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.solver.statistics.channel_statistic import Floats, Grid
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats, Grid
 
 MOST_KEPT = 2048
 """Samples kept of each channel: the level of a quantile is then known to 1/2048."""
 
 
 @dataclass(frozen=True)
-class Quantile:
+class Quantile(ChannelStatistic):
     """The value below which a share of the samples lies, interpolated linearly between them."""
 
     level: float

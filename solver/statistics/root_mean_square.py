@@ -2,21 +2,17 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats, Grid
 
 
-class RootMeanSquare:
+class RootMeanSquare(ChannelStatistic):
     """Root mean square of the samples."""
 
     long_name = "root mean square"
 
-    def begin(self, grid: Grid, channels: int) -> Floats:
-        """Return the sum of squares."""
-        return np.zeros((1, channels))
-
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
         """Add the squares."""
-        add_in_order(tally[0], values * values)
+        self.add_in_order(tally[0], values * values)
 
     def value(self, tally: Floats, count: int) -> Floats:
         """Return the root of the mean."""

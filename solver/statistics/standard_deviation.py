@@ -6,25 +6,23 @@ mean costs no digits (Chan, Golub and LeVeque 1983, "shifted data").
 
 import numpy as np
 
-from jointplay.solver.statistics.channel_statistic import Floats, Grid, add_in_order
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats, Grid
 
 
-class StandardDeviation:
+class StandardDeviation(ChannelStatistic):
     """Standard deviation of the samples."""
 
     long_name = "standard deviation"
-
-    def begin(self, grid: Grid, channels: int) -> Floats:
-        """Return the first sample, and the sums of differences from it and of their squares."""
-        return np.zeros((3, channels))
+    rows = 3
+    """The first sample, and the sums of differences from it and of their squares."""
 
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
         """Add the differences and their squares."""
         if before == 0:
             tally[0] = values[0]
         differences = values - tally[0]
-        add_in_order(tally[1], differences)
-        add_in_order(tally[2], differences * differences)
+        self.add_in_order(tally[1], differences)
+        self.add_in_order(tally[2], differences * differences)
 
     def value(self, tally: Floats, count: int) -> Floats:
         """Return the standard deviation."""

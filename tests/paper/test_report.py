@@ -17,6 +17,7 @@ from jointplay.paper.reproduction import PAGE, RUNS
 from jointplay.paper.size import QUICK
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
+from tests.paper.printed_numbers import pointers as printed_numbers
 
 REPRODUCE = [sys.executable, "-m", "jointplay", "reproduce"]
 NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?")
@@ -104,7 +105,7 @@ def test_every_printed_number_stands_beside_ours(page):
             numbers = [float(one.replace("−", "-")) for one in NUMBER.findall(printed)]
             shown.setdefault(pointer, []).extend(numbers)
             assert sum(map(len, cells.values())) >= 4
-    assert set(shown) == reported.pointers()
+    assert set(shown) == printed_numbers()
     for pointer, numbers in shown.items():
         printed = value_at(pointer)
         # in its own unit, or in thousandths: mm, ms

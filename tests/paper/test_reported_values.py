@@ -6,6 +6,7 @@ import pytest
 
 from jointplay.paper import reported
 from jointplay.solver.scene import presets
+from tests.paper.printed_numbers import pointers as printed_numbers
 
 
 def test_settings_become_parameters_in_si():
@@ -23,7 +24,7 @@ def test_a_case_is_named_by_its_settings():
 
 
 def test_pointers_are_those_of_numbers_and_not_of_settings():
-    pointers = reported.pointers()
+    pointers = printed_numbers()
     assert "/response_peaks/0/force_A/1" in pointers
     assert "/test_bed/3/cycle30_theory" in pointers
     assert not any("clearance" in pointer or "rpm" in pointer for pointer in pointers)

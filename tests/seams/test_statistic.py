@@ -7,18 +7,14 @@ import pytest
 
 from jointplay.client import Refused
 from jointplay.solver.statistics import OF_CHANNELS, Grid
-from jointplay.solver.statistics.channel_statistic import Floats
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats
 from tests.seams.conftest import Platform
 
 
-class Crest:
+class Crest(ChannelStatistic):
     """Of the samples, about zero."""
 
     long_name = "largest magnitude"
-
-    def begin(self, grid: Grid, channels: int) -> Floats:
-        """Return the largest so far."""
-        return np.zeros((1, channels))
 
     def add(self, tally: Floats, values: Floats, before: int, grid: Grid) -> None:
         """Take the larger magnitudes."""

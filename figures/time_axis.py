@@ -1,0 +1,45 @@
+"""The axis of time: its scale, and the spans in which a motion is not converged."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from jointplay.figures import page
+from jointplay.figures.quantity import scale
+from jointplay.records.run import Floats, Source
+
+LABEL: Final = "not converged"
+
+
+class TimeAxis:
+    """Time [s] across the panels of a figure, whose curves have these (k,) times each."""
+
+    def __init__(self, source: Source, times: Sequence[Floats]) -> None:
+        self.scale = scale("s", *times)
+        self.label = self.scale.label("time")
+        self.unconverged = _gaps(source, float(times[0][0]), float(times[0][-1]))
+        """(start, stop) of spans [s]: there values are one of many."""
+
+    def shown(self, time: Floats) -> Floats:
+        """Return times [s] as the axis shows them."""
+        return time / self.scale.factor
+
+    def shade(self, axes: page.Axes) -> None:
+        """Shade in a panel what is not converged."""
+        label = LABEL
+        for start, stop in self.unconverged:
+            ends = start / self.scale.factor, stop / self.scale.factor
+            axes.axvspan(*ends, color=page.SHADE, linewidth=0.0, zorder=0.5, label=label)
+            label = "_"
+
+
+def _gaps(source: Source, start: float, stop: float) -> list[tuple[float, float]]:
+    certificate = source.certificate()
+    if certificate is None:
+        return []
+    found, reached = [], start
+    for begin, end in certificate.attributes["converged"]:
+        if begin > reached:
+            found.append((reached, min(begin, stop)))
+        reached = max(reached, end)
+    found.append((reached, stop))
+    return [(a, b) for a, b in found if a < b]
