@@ -6,7 +6,8 @@ from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
-from jointplay.records.run import Floats, Source, inside
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source, inside
 
 _PANEL_HEIGHT = 34.0  # mm
 _MOST_IMPACTS = 4000

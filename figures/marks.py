@@ -3,10 +3,9 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.figures import page
-from jointplay.records.run import Floats
+from jointplay.records.arrays import Floats, Integers
 from jointplay.records.study import StudySource
 
 MOST_VALUES: Final = 4_000_000
@@ -59,7 +58,7 @@ def _apart(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return x[kept], y[kept]
 
 
-def _cell(values: Floats) -> NDArray[np.int64]:
+def _cell(values: Floats) -> Integers:
     low, high = float(values.min()), float(values.max())
     span = high - low if high > low else 1.0
     return np.minimum((values - low) / span * _DOTS, _DOTS - 1).astype(np.int64)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.records.run import Floats
+from jointplay.records.arrays import Floats
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]

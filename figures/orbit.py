@@ -7,7 +7,8 @@ import numpy as np
 from jointplay.figures import page, sampling, scene_facts, smooth
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats, Source
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source
 
 _INTERVALS = 6
 """Intervals of the axes of a panel as wide as the page: their numbers stand apart."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from jointplay.figures import page
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats
+from jointplay.records.arrays import Floats
 
 _PANEL_HEIGHT = 30.0  # mm
 MOST_CURVES = len(page.STYLES)

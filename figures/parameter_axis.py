@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from jointplay.figures import page
 from jointplay.figures.quantity import Scale, scale
+from jointplay.records.arrays import Floats
 from jointplay.records.point import PointStatus
-from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
 
 _LOGARITHMIC = 20.0

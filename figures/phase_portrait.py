@@ -5,7 +5,8 @@ from typing import NamedTuple
 from jointplay.figures import page, sampling, scene_facts, smooth
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats, Source, inside
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source, inside
 
 _PANEL_HEIGHT = 38.0  # mm
 _WIDE_PANEL_HEIGHT = 60.0

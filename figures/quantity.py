@@ -4,7 +4,8 @@ import re
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
 
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 _SCALABLE = re.compile(r"m|s|N|J|W|N m|m/s|m/s\^2|rad|rad/s")
@@ -26,7 +27,7 @@ class Scale:
         return f"{quantity} [{self.unit}]" if self.unit else quantity
 
 
-def scale(unit: str, *values: NDArray[np.float64]) -> Scale:
+def scale(unit: str, *values: Floats) -> Scale:
     """Choose the SI prefix that keeps the axis free of powers of ten.
 
     Parameters
@@ -72,6 +73,6 @@ def _pretty(unit: str) -> str:
     return raised.replace(" ", "·")
 
 
-def _largest(values: NDArray[np.float64]) -> float:
+def _largest(values: Floats) -> float:
     finite = values[np.isfinite(values)]
     return float(np.abs(finite).max()) if finite.size else 0.0

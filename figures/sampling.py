@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from jointplay.figures.kind import NotDrawable, Selection
-from jointplay.records.run import Columns, Floats, Source
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Columns, Source
 
 MOST_SAMPLES: Final = 4000
 """Above, a curve over time is drawn through the extremes of equal spans: four a pixel."""

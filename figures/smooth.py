@@ -3,11 +3,11 @@
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.figures.kind import Selection
 from jointplay.figures.sampling import MOST_PATH_SAMPLES, in_a_plane
-from jointplay.records.run import Columns, Floats, Source
+from jointplay.records.arrays import Flags, Floats
+from jointplay.records.run import Columns, Source
 
 _MOST_ARCS: Final = 12
 """Pieces of an arc: no corner is seen between them."""
@@ -59,7 +59,7 @@ def _rate_of(position: str) -> str:
     return position.replace(".eccentricity_", ".eccentricity_rate_")
 
 
-def _quiet(source: Source, joint: str, time: Floats) -> NDArray[np.bool_]:
+def _quiet(source: Source, joint: str, time: Floats) -> Flags:
     """Tell of each interval between samples whether no contact begins or ends in it."""
     rows = source.impacts()
     rows = rows[rows["joint"] == list(source.joints).index(joint)]
@@ -70,7 +70,7 @@ def _quiet(source: Source, joint: str, time: Floats) -> NDArray[np.bool_]:
     return quiet
 
 
-def _tame(time: Floats, position: Floats, rate: Floats) -> NDArray[np.bool_]:
+def _tame(time: Floats, position: Floats, rate: Floats) -> Flags:
     """Tell of each interval whether its arc stays near its chord."""
     middle, _ = _hermite(time, position, rate, np.array([0.25, 0.75]))
     chord = position[:-1, None] + np.diff(position)[:, None] * np.array([0.25, 0.75])
@@ -94,7 +94,7 @@ def _hermite(
     return arcs, slopes / step
 
 
-def _joined(arcs: Floats, samples: Floats, smooth: NDArray[np.bool_], fraction: Floats) -> Floats:
+def _joined(arcs: Floats, samples: Floats, smooth: Flags, fraction: Floats) -> Floats:
     """Take the arcs where the motion is smooth, straight lines elsewhere."""
     straight = samples[:-1, None] + np.diff(samples)[:, None] * fraction
     return np.append(np.where(smooth[:, None], arcs, straight).ravel(), samples[-1])

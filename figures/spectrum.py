@@ -8,7 +8,8 @@ from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import per_hertz, power_of_ten
 from jointplay.figures.time_history import declared
-from jointplay.records.run import Floats, Source
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source
 
 _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.figures import page
 from jointplay.figures.kind import NotDrawable, Selection
+from jointplay.records.arrays import Flags
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.channel_choice import no_such_channel
 from jointplay.records.study import StudySource
@@ -35,7 +35,7 @@ class Group:
 
     name: str
     colour: str
-    members: NDArray[np.bool_]
+    members: Flags
 
 
 def observed_pairs(source: StudySource) -> list[tuple[str, str]]:

@@ -8,9 +8,9 @@ from jointplay.figures import page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, scale
+from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
 from jointplay.records.point import PointStatus
-from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
 
 _MOST_CURVES = 8

@@ -5,7 +5,8 @@ from typing import Final
 
 from jointplay.figures import page
 from jointplay.figures.quantity import scale
-from jointplay.records.run import Floats, Source
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source
 
 LABEL: Final = "not converged"
 

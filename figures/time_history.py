@@ -6,7 +6,8 @@ from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection, at_most
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
-from jointplay.records.run import Floats, Source
+from jointplay.records.arrays import Floats
+from jointplay.records.run import Source
 
 MOST_PANELS = 8
 _PANEL_HEIGHT = 30.0  # mm

@@ -7,7 +7,7 @@ import numpy as np
 from jointplay.figures import page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import power_of_ten
-from jointplay.records.run import Floats
+from jointplay.records.arrays import Floats
 from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT = 55.0  # mm

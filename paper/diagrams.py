@@ -4,14 +4,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.paper import reported
 from jointplay.paper.comparison import Cell, Row, small
 from jointplay.paper.motions import UNKNOWN, in_words, mean_exponent, tally
 from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
-from jointplay.records.run import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
 from jointplay.storage.studies import StudyReader
 
@@ -91,7 +90,7 @@ def largest_rise(study: StudyReader, joint: str) -> tuple[float, float, float] |
     return float(study.values[index + _NEAR, 0]), float(before[index]), float(after[index])
 
 
-def _inside(study: StudyReader, setting: str, words: Mapping[str, Any]) -> NDArray[np.bool_]:
+def _inside(study: StudyReader, setting: str, words: Mapping[str, Any]) -> Flags:
     """Return (points,) which lie in a printed interval, both its ends included."""
     low, high = (reported.si(setting, edge) for edge in words["interval"])
     values = study.values[:, 0]

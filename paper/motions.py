@@ -6,17 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.paper import cases, reported
 from jointplay.paper.comparison import Cell, Row, signed, small
 from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
+from jointplay.records.arrays import Flags
 from jointplay.solver.nonlinear.estimate import Estimate
 from jointplay.storage.studies import StudyReader
 
 UNKNOWN = "exponent not computed"
-Members = NDArray[np.bool_] | slice
+Members = Flags | slice
 EVERY = slice(None)
 
 

@@ -106,7 +106,7 @@ def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
     with progress("calibrate") as report:
         report(0.0, "preparing the kernels")
         from jointplay.solver.calibration import calibrate as search
-        from jointplay.solver.calibration.processes import measures
+        from jointplay.solver.calibration.measure import measures
         from jointplay.solver.runs.processes import cores
 
         try:

@@ -1,15 +1,13 @@
 """The whole of a calibration: search, spread, and a close look at the best."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.measure import Measure
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.calibration.search import Found, Report, search
 from jointplay.solver.calibration.spread import CHAINS, EquallyGood, spread
-
-Floats = NDArray[np.float64]
 
 NEIGHBOURS, NEAR = 16, 1e-4
 """Candidates around the best, and how far they are, in ranges of the parameters."""

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats, Integers
 from jointplay.records.failure import Problem
 from jointplay.records.peak import Peak
 from jointplay.solver.calibration.problem import Calibration, CheckedCase
@@ -28,8 +28,6 @@ from jointplay.solver.runs.study.fields import geometry_columns, structure_colum
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
 
-Floats = NDArray[np.float64]
-
 BUDGET = 20_000
 """Attempted steps between two looks at the lanes."""
 MOVING = ("/drivers/", "/start/")
@@ -42,7 +40,7 @@ class _Run:
 
     row: int
     scene: Scene
-    columns: NDArray[np.int64]
+    columns: Integers
     """Rows of the kernel's channel block that are read off the grid."""
     stops: int = 0
     """That it has come to."""

@@ -9,15 +9,20 @@ from jointplay.solver.kinds.values import UNIT
 from jointplay.solver.quantities.units import Name, Strict
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
-SECONDS = {"unit": "s"}
 CHANNEL_UNIT = {"unit": "the channel's unit, or s of a time"}
+
+Bound = Annotated[float, Field(json_schema_extra=UNIT)]
+Value = Annotated[float | None, Field(json_schema_extra=CHANNEL_UNIT)]
+Seconds = Annotated[float, Field(json_schema_extra={"unit": "s"})]
+Ratio = Annotated[float, Field(json_schema_extra={"unit": "1"})]
+Count = Annotated[int, Field(json_schema_extra={"unit": "1"})]
 
 
 class FreeParameter(Strict):
     """A declared parameter that may move between two bounds."""
 
-    minimum: Annotated[float, Field(json_schema_extra=UNIT)]
-    maximum: Annotated[float, Field(json_schema_extra=UNIT)]
+    minimum: Bound
+    maximum: Bound
     spacing: Annotated[
         Literal["linear", "log"],
         Field(description="log: equal ratios count the same, for bounds above zero"),
@@ -31,9 +36,9 @@ class CalibrationTarget(Strict):
     statistic: Annotated[
         Statistic, Field(description="range: maximum less minimum; a time counts from the start")
     ] = "maximum"
-    start: Annotated[float, Field(alias="from", ge=0.0, le=1e12, json_schema_extra=SECONDS)] = 0.0
-    stop: Annotated[float, Field(alias="to", gt=0.0, le=1e12, json_schema_extra=SECONDS)]
-    value: Annotated[float | None, Field(json_schema_extra=CHANNEL_UNIT)] = None
+    start: Annotated[Seconds, Field(alias="from", ge=0.0, le=1e12)] = 0.0
+    stop: Annotated[Seconds, Field(alias="to", gt=0.0, le=1e12)]
+    value: Value = None
     between: Annotated[
         list[float | None] | None,
         Field(
@@ -48,7 +53,7 @@ class CalibrationTarget(Strict):
         Field(
             gt=0.0,
             description="the source read the channel only at multiples of this; so do we, then",
-            json_schema_extra=SECONDS,
+            json_schema_extra={"unit": "s"},
         ),
     ] = None
     relative_tolerance: Annotated[
@@ -60,18 +65,10 @@ class CalibrationTarget(Strict):
             json_schema_extra={"unit": "1"},
         ),
     ] = None
-    absolute_tolerance: Annotated[
-        float | None,
-        Field(gt=0.0, description="the same in its unit", json_schema_extra=CHANNEL_UNIT),
-    ] = None
+    absolute_tolerance: Annotated[Value, Field(gt=0.0, description="the same in its unit")] = None
     weight: Annotated[
-        float,
-        Field(
-            ge=0.0,
-            le=1e6,
-            description="0: shown beside what the fit gives, but not fitted",
-            json_schema_extra={"unit": "1"},
-        ),
+        Ratio,
+        Field(ge=0.0, le=1e6, description="0: shown beside what the fit gives, but not fitted"),
     ] = 1.0
     note: Annotated[str, Field(max_length=300)] = ""
 
@@ -87,19 +84,15 @@ class CalibrationCase(Strict):
 class Search(Strict):
     """Length of the search: differential evolution, from a Latin hypercube."""
 
-    population: Annotated[
-        int,
-        Field(ge=2, le=1000, description="candidates a parameter", json_schema_extra={"unit": "1"}),
-    ] = 15
-    generations: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "1"})] = 60
-    seed: Annotated[int, Field(ge=0, lt=2**63, json_schema_extra={"unit": "1"})] = 0
+    population: Annotated[Count, Field(ge=2, le=1000, description="candidates a parameter")] = 15
+    generations: Annotated[Count, Field(ge=1, le=10_000)] = 60
+    seed: Annotated[Count, Field(ge=0, lt=2**63)] = 0
     most_steps: Annotated[
-        int,
+        Count,
         Field(
             ge=100,
             le=10**9,
             description="of a run: one that needs more counts as failed, so that none holds up all",
-            json_schema_extra={"unit": "1"},
         ),
     ] = 200_000
 
@@ -108,15 +101,14 @@ class Spread(Strict):
     """Limit of an equally good fit, and length of the search for more of them."""
 
     factor: Annotated[
-        float,
+        Ratio,
         Field(
             ge=1.0,
             le=100.0,
             description="a cost up to this times the best, or up to 1 (the tolerances), is as good",
-            json_schema_extra={"unit": "1"},
         ),
     ] = 1.2
-    generations: Annotated[int, Field(ge=2, le=10_000, json_schema_extra={"unit": "1"})] = 60
+    generations: Annotated[Count, Field(ge=2, le=10_000)] = 60
 
 
 class CalibrationJob(Job):

@@ -1,15 +1,19 @@
-"""Measured values of candidates in all cases."""
+"""Measured values of candidates in all cases; they do not depend on the number of processes."""
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.calibration.case_measure import CaseMeasure
-from jointplay.solver.calibration.problem import Calibration
+from jointplay.solver.calibration.problem import Calibration, admit_calibration
+from jointplay.solver.kernels.layout import BUNDLE
+from jointplay.solver.runs.processes import Advance, Call, Processes, processes
 
-Floats = NDArray[np.float64]
 Measure = Callable[[Floats], Floats]
 """Takes candidates (n, parameters), returns the values of all targets (n, targets)."""
 
@@ -56,3 +60,41 @@ class Measurement:
         for case, columns in zip(self.cases, self.columns, strict=True):
             out[:, columns] = case(candidates)
         return out
+
+
+@contextmanager
+def measures(calibration: Calibration, count: int) -> Iterator[tuple[Measure, Measure]]:
+    """Give what measures the fitted targets, and what measures every target, by `count` processes.
+
+    Raises
+    ------
+    InvalidInput
+        A target that no parameter can move.
+    LimitExceeded
+        The scene's equations are too long to compile.
+    """
+    fitted, every = (Measurement(calibration, every=every) for every in (False, True))
+    every.prepare()  # compiles what the processes then find in the cache
+    if count == 1:
+        yield fitted, every
+        return
+    with processes(count, most_calls=count) as pool:
+        document = json.dumps(calibration.document)
+        dealt = partial(_dealt, pool, count, document)
+        yield partial(dealt, False), partial(dealt, True)
+
+
+def _dealt(pool: Processes, count: int, document: str, every: bool, candidates: Floats) -> Floats:
+    """Measure candidates by several processes, whole bundles of lanes each."""
+    parts = min(count, -(-len(candidates) // BUNDLE))
+    shares = np.array_split(candidates, max(parts, 1))
+    return np.concatenate(pool.make([Call(_measure, (document, every, one)) for one in shares]))
+
+
+@lru_cache
+def _measurement(document: str, every: bool) -> Measurement:
+    return Measurement(admit_calibration(json.loads(document)), every=every)
+
+
+def _measure(document: str, every: bool, candidates: Floats, advance: Advance) -> Floats:
+    return _measurement(document, every)(candidates)

@@ -4,14 +4,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.calibration.search import Found
 from jointplay.solver.calibration.spread import EquallyGood
 from jointplay.solver.version import SOLVER_VERSION
-
-Floats = NDArray[np.float64]
 
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 AT_BOUND = 0.02

@@ -151,10 +151,8 @@ def _check_case(job: CalibrationJob, index: int, space: Space) -> CheckedCase:
     }
     try:
         study = admit(sweep)
-    except LimitExceeded as error:
-        raise LimitExceeded(_relocated(error, job, index)) from None
     except InvalidInput as error:
-        raise InvalidInput(_relocated(error, job, index)) from None
+        raise type(error)(_relocated(error, job, index)) from None
     if not isinstance(study, Study):
         raise TypeError("a sweep is a study")
     by_name = {channel.name: channel for channel in study.channels}

@@ -9,12 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import Bounds, OptimizeResult, differential_evolution
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.document import Search
 
-Floats = NDArray[np.float64]
 Cost = Callable[[Floats], Floats]
 """Takes coordinates (n, parameters) from 0 to 1, returns costs (n,)."""
 Report = Callable[[float, str], None]

@@ -5,15 +5,13 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.calibration.document import FreeParameter
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import allowed_range
-
-Floats = NDArray[np.float64]
 
 SIGNIFICANT = 4
 """Digits of a parameter that is handed out."""
@@ -36,7 +34,7 @@ class Space:
     names: tuple[str, ...]
     minimum: Floats
     maximum: Floats
-    logarithmic: NDArray[np.bool_]
+    logarithmic: Flags
 
     def values(self, unit: Floats) -> Floats:
         """Return parameters (n, parameters) at coordinates from 0 to 1; the ends are exact."""
@@ -47,16 +45,6 @@ class Space:
         found = np.where(self.logarithmic, self.minimum * ratio**share, linear)
         found = np.where(share == 1.0, self.maximum, found)
         return np.asarray(np.clip(found, self.minimum, self.maximum), np.float64)
-
-    def coordinates(self, values: Floats) -> Floats:
-        """Return coordinates from 0 to 1 of parameters (n, parameters)."""
-        low, high, at = self.minimum, self.maximum, np.asarray(values, np.float64)
-        one = np.ones_like(low)
-        low, high, at = (
-            np.where(self.logarithmic, np.log(np.where(self.logarithmic, x, one)), x)
-            for x in (low, high, at)
-        )
-        return np.asarray((at - low) / (high - low), np.float64)
 
     def rounded(self, values: Floats) -> Floats:
         """Return parameters (parameters,) with few digits, still inside the bounds."""

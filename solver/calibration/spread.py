@@ -13,11 +13,9 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.search import Cost, Found, Report
-
-Floats = NDArray[np.float64]
 
 CHAINS = 64
 """Chains, in two halves: whole groups of lanes."""

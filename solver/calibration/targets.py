@@ -4,12 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import Problem
 from jointplay.solver.calibration.document import CalibrationTarget
-
-Floats = NDArray[np.float64]
 
 DEFAULT_TOLERANCE = 0.05
 """Relative: peaks of impacts are hardly known better."""

@@ -6,14 +6,10 @@ begins or ends, and the extreme over a window is that over its legs.
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from jointplay.records.arrays import Floats
 from jointplay.records.peak import Peak
 from jointplay.solver.calibration.document import CalibrationTarget, Statistic
 from jointplay.solver.calibration.targets import grid_indices
-
-Floats = NDArray[np.float64]
 
 LAST_STEP = 1e-6
 """Length of a leg's last step.  An extreme is noticed by its channel turning from one step to

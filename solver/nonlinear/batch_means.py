@@ -7,12 +7,10 @@ Commun. 156:143 and Lee et al. 2011, Phys. Rev. E 83:066706 (their length).
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr, stdtrit
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
-
-Floats = NDArray[np.float64]
 
 FEWEST_BATCHES = 8
 MOST_UNSEEN = 0.95

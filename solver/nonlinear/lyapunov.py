@@ -10,12 +10,10 @@ Chaos Solitons Fractals 5:1671 (jumps); Balcerzak et al. 2020, Mech. Syst. Signa
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.batch_means import mean_estimate
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-
-Floats = NDArray[np.float64]
 
 ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
 """Rounding of the logarithm of a norm, the least error of a growth: it may always be upwards."""

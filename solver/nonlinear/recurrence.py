@@ -1,9 +1,8 @@
 """The period of a motion, seen on its section."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.arrays import Floats
 
 LONGEST = 32
 

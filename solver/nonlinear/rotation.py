@@ -5,11 +5,9 @@ lift by continuity).
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import Estimate
-
-Floats = NDArray[np.float64]
 
 FEWEST_POINTS = 32
 WIDEST_GAP = 0.125

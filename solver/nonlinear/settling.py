@@ -4,12 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.recurrence import LONGEST, largest_extent, recurrence_period
 from jointplay.solver.nonlinear.steadiness import change_between
-
-Floats = NDArray[np.float64]
 
 SETTLINGS = {"unsettled": 0, "recurrence": 1, "statistics": 2}
 """Codes of settling, as they are stored; a code never changes its meaning."""

@@ -5,12 +5,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.batch_means import standard_error
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT
-
-Floats = NDArray[np.float64]
 
 BLUR = 0.5
 """Sampling error over spread above which a window is too short to have statistics: a drift, one
@@ -42,7 +40,7 @@ class _Statistic(NamedTuple):
 
     value: Floats
     error: Floats
-    blurred: NDArray[np.bool_]
+    blurred: Flags
 
 
 def _means(window: Floats) -> _Statistic:

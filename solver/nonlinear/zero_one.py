@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-
-Floats = NDArray[np.float64]
 
 FREQUENCIES = 100
 """Random frequencies c, whose median is taken: near a line of the spectrum K is not 0 or 1."""

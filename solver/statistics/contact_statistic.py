@@ -5,7 +5,8 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from jointplay.records.arrays import Floats
+
 Contacts = NDArray[np.void]
 """Contacts that ended, of dtype `solver.runs.results.IMPACT`."""
 

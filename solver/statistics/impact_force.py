@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic, Floats
+from jointplay.records.arrays import Floats
+from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic
 
 
 class LargestImpactForce(ContactStatistic):

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats, Grid
+from jointplay.records.arrays import Floats
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
 
 
 class MeanAbsolute(ChannelStatistic):

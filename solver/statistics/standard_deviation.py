@@ -6,7 +6,8 @@ mean costs no digits (Chan, Golub and LeVeque 1983, "shifted data").
 
 import numpy as np
 
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats, Grid
+from jointplay.records.arrays import Floats
+from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
 
 
 class StandardDeviation(ChannelStatistic):

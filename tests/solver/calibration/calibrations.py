@@ -3,10 +3,13 @@
 import copy
 from typing import Any
 
+import numpy as np
+
 from jointplay.solver.calibration.calibrate import calibrate
+from jointplay.solver.calibration.measure import measures
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
-from jointplay.solver.calibration.processes import measures
+from jointplay.solver.calibration.space import Space
 
 BOUNCE: dict[str, Any] = {
     "kind": "calibration",
@@ -37,3 +40,12 @@ def computed(document: dict[str, Any] | Calibration, processes: int = 1) -> Outc
     calibration = document if isinstance(document, Calibration) else admit_calibration(document)
     with measures(calibration, processes) as (fitted, every):
         return calibrate(calibration, fitted, every, lambda done, note: None)
+
+
+def coordinates(space: Space, values: np.ndarray) -> np.ndarray:
+    """Return coordinates from 0 to 1 of parameters (n, parameters)."""
+    low, high, at = (
+        np.where(space.logarithmic, np.log(np.where(space.logarithmic, x, 1.0)), x)
+        for x in (space.minimum, space.maximum, values)
+    )
+    return (at - low) / (high - low)

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
+from jointplay.solver.calibration.measure import measures
 from jointplay.solver.calibration.problem import admit_calibration
-from jointplay.solver.calibration.processes import measures
 from jointplay.solver.scene import presets
 from tests.solver.calibration.calibrations import bounce
 

@@ -13,7 +13,7 @@ from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.calibration.reported import reported_cases
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
-from tests.solver.calibration.calibrations import bounce, computed
+from tests.solver.calibration.calibrations import bounce, computed, coordinates
 from tests.solver.completed_runs import run
 
 GRAVITY, CLEARANCE, MASS, STIFFNESS = 9.81, 1e-3, 1.0, 5e9
@@ -105,7 +105,7 @@ def test_stiffness_and_restitution_are_recovered_from_force_and_rebound():
     found = computed(bounce(cases=[{"targets": targets}]))
     truth = np.array([2e9, 0.8])
     np.testing.assert_allclose(found.best, truth, rtol=0.02)  # 1 % of the velocity's range
-    inside = found.calibration.space.coordinates(truth[None, :])[0]
+    inside = coordinates(found.calibration.space, truth[None, :])[0]
     assert (found.good.members.min(axis=0) < inside).all()
     assert (inside < found.good.members.max(axis=0)).all()
     assert (found.roughness < 0.1).all()  # one impact is smooth
