@@ -68,3 +68,10 @@ def _job_of_the_path(catalogue: CatalogueDependency, job_id: JobId) -> Job:
 
 
 JobOfThePath = Annotated[Job, Depends(_job_of_the_path)]
+
+
+async def require_room(settings: SettingsDependency) -> None:
+    """Refuse new work when the disk is nearly full, so that running jobs can end."""
+    if settings.room() <= settings.reserve:
+        detail = "The disk of the service is full but for a reserve; nothing was recorded."
+        raise RequestRefused(kinds.DISK_FULL, detail, headers={"Retry-After": "30"})

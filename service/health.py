@@ -10,6 +10,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.storage.catalogue import Unavailable
 
 router = APIRouter(tags=["health"])
 _log = logging.getLogger(__name__)
@@ -35,7 +36,7 @@ def is_ready(catalogue: CatalogueDependency, settings: SettingsDependency) -> He
     """
     try:
         catalogue.ping()
-    except (SQLAlchemyError, RuntimeError) as error:
+    except (Unavailable, SQLAlchemyError, RuntimeError) as error:
         _log.warning("the catalogue does not answer", exc_info=error)
         raise _unavailable("The catalogue does not answer.") from error
     if not os.access(settings.data, os.R_OK | os.W_OK):

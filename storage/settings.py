@@ -1,5 +1,6 @@
 """Settings all processes of the service share, read from ``JOINTPLAY_*`` in the environment."""
 
+import shutil
 from pathlib import Path
 from typing import Self
 
@@ -91,6 +92,13 @@ class Settings(BaseSettings):
         le=1e10,
         description="A run, or a block of a study, that computes longer fails with what it has.",
     )
+    reserve: int = Field(
+        default=2**26,
+        ge=0,
+        le=2**40,
+        description="Bytes of the data folder's disk that results leave to the catalogue; with"
+        " less than twice as much no job is accepted.",
+    )
     stall: float = Field(
         default=600.0,
         gt=0,
@@ -127,6 +135,10 @@ class Settings(BaseSettings):
                 f" JOINTPLAY_HEARTBEAT ({self.heartbeat:g} s)"
             )
         return self
+
+    def room(self) -> int:
+        """Bytes that results may still take on the data folder's disk; 0 or less: none."""
+        return shutil.disk_usage(self.data).free - self.reserve
 
     @property
     def place(self) -> Place:

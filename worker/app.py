@@ -12,6 +12,7 @@ from kombu.entity import Exchange, Queue
 from jointplay.storage.settings import Settings
 
 RUN_BLOCK = "worker.run_block"
+KEY_PREFIX = "jointplay:"  # of all keys in Redis
 QUEUES = ("recovered", "jobs")  # in the order in which workers look at them
 
 
@@ -45,7 +46,7 @@ def make_app(redis_url: str | None) -> Celery:
             "socket_keepalive": True,
             "health_check_interval": 10,
             "socket_timeout": 5,
-            "global_keyprefix": "jointplay:",
+            "global_keyprefix": KEY_PREFIX,
             "client_name": "jointplay-worker",
             "queue_order_strategy": "priority",
             "max_retries": 1,  # of a publisher: the relay comes back by itself

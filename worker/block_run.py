@@ -1,22 +1,25 @@
 """Computing one claimed block: from claim to durable results, with checkpoints on the way."""
 
+import errno
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
-
-from sqlalchemy.exc import SQLAlchemyError
+from typing import Any, TypeVar
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.job import ErrorClass, JobError
-from jointplay.storage.catalogue import BlockState, Catalogue, Claim, Fenced, Verdict
+from jointplay.storage.catalogue import BlockState, Catalogue, Claim, Fenced, Unavailable, Verdict
 from jointplay.storage.results import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.lease import Lease
+from jointplay.worker.passing import PASSING, waits_for
+from jointplay.worker.removal import withdraw
 from jointplay.worker.work import Kept, Work, work_of
 
+Answered = TypeVar("Answered")
 _log = logging.getLogger(__name__)
 _BLOCK_STATES = {
     "succeeded": BlockState.done,
@@ -27,6 +30,8 @@ _MOST_OVERHEAD = 20
 """Restart points are made so rarely that computing takes this many times as long as they do."""
 _LOOK = 0.25
 """Seconds after which the catalogue is asked again whether to go on."""
+_ASK_AGAIN = 1.0
+"""Seconds after which a catalogue that did not answer is asked again."""
 _LONG = 1.0
 """Seconds after which a block that has not advanced is said to be compiling."""
 
@@ -59,15 +64,20 @@ class BlockRun:
         self._compiling.daemon = True
 
     def run(self) -> None:
-        """Compute the block and tell the catalogue how it ended.
+        """Compute the block and tell the catalogue how it ended, waiting until it answers.
 
         A block that another worker has taken over is left alone without a word.
         """
         try:
             with self._lease:
-                outcome = self._compute()
+                try:
+                    outcome = self._compute()
+                except PASSING as fault:
+                    _log.warning("block %s is put off: %s", self._block.id, fault)
+                    self._insist(self._catalogue.put_off, waits_for(fault))
+                    return
                 if outcome.state == "left":
-                    self._catalogue.release(self._block.id, self._block.attempt)
+                    self._insist(self._catalogue.release)
                     return
                 recognised = (
                     outcome.state == "succeeded"
@@ -76,9 +86,8 @@ class BlockRun:
                 )
                 catalogue = self._catalogue
                 finish = catalogue.finish_repeatable if recognised else catalogue.finish
-                state = finish(
-                    self._block.id,
-                    self._block.attempt,
+                state = self._insist(
+                    finish,
                     _BLOCK_STATES[outcome.state],
                     outcome.error,
                     time=outcome.time,
@@ -87,24 +96,33 @@ class BlockRun:
                 )
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
+            withdraw(self._catalogue, self._settings, self._claim)
             return
         _log.info("block %s %s, job %s", self._block.id, outcome.state, state.value)
         if state.terminal and self._work is not None:
             self._work.tidy()
 
+    def _insist(self, operation: Callable[..., Answered], *given: Any, **named: Any) -> Answered:
+        """Carry out an operation of the catalogue on the block, however long it takes."""
+        while True:
+            try:
+                return operation(self._block.id, self._block.attempt, *given, **named)
+            except Unavailable as fault:
+                _log.warning("block %s waits: %s", self._block.id, fault)
+                self._lease.advanced()
+                time.sleep(_ASK_AGAIN)
+
     def _compute(self) -> Outcome:
         try:
+            self._require_room()
             self._work = work_of(self._claim, self._settings)
             self._compiling.start()
             return self._work.execute(self._report, self._lease.advanced)
-        except Fenced:
+        except (Fenced, *PASSING):
             raise
         except InvalidInput as error:
             # admitted when it was submitted: this solver is stricter than that one
             return self._failed("user", "invalid-input", str(error))
-        except OSError as error:
-            _log.exception("block %s cannot be stored", self._block.id)
-            return self._failed("platform", "storage", f"the results cannot be written: {error}")
         except ResultsError as error:
             _log.exception("block %s cannot be stored", self._block.id)
             return self._failed("platform", "storage", str(error))
@@ -113,8 +131,8 @@ class BlockRun:
             return self._failed(
                 "platform",
                 "internal",
-                f"an error of the program itself, not of the job: {type(error).__name__}:"
-                f" {error}; the worker's log has the details",
+                f"an error of the program itself, not of the job: {type(error).__name__};"
+                " the worker's log has the details",
             )
         finally:
             self._compiling.cancel()
@@ -134,18 +152,29 @@ class BlockRun:
             return Answer.leave
         now = time.monotonic()
         if now >= self._next_record:
-            took = self._keep(keep)
-            verdict = self._lease.record_progress(
-                progress.time, progress.fraction, progress.steps()
-            )
-            now = time.monotonic()
-            self._next_record = now + max(self._settings.progress_period, _MOST_OVERHEAD * took)
-        elif now >= self._next_look:
-            verdict = self._lease.verdict()
-        else:
+            self._require_room()
+        try:
+            if now >= self._next_record:
+                took = self._keep(keep)
+                verdict = self._lease.record_progress(
+                    progress.time, progress.fraction, progress.steps()
+                )
+                now = time.monotonic()
+                self._next_record = now + max(self._settings.progress_period, _MOST_OVERHEAD * took)
+            elif now >= self._next_look:
+                verdict = self._lease.verdict()
+            else:
+                return Answer.go_on
+        except PASSING as fault:
+            _log.warning("block %s goes on without a word: %s", self._block.id, fault)
+            self._next_record = self._next_look = time.monotonic() + _ASK_AGAIN
             return Answer.go_on
         self._next_look = now + _LOOK
         return Answer.go_on if verdict is Verdict.go_on else Answer.cancel
+
+    def _require_room(self) -> None:
+        if self._settings.room() <= 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(self._settings.data))
 
     def _keep(self, keep: Callable[[], Kept]) -> float:
         """Put a restart point on the disk, then name it in the catalogue; return the seconds."""
@@ -159,5 +188,5 @@ class BlockRun:
     def _say_that_it_compiles(self) -> None:
         try:
             self._catalogue.note_activity(self._block.id, self._block.attempt, "compiling")
-        except (Fenced, SQLAlchemyError) as error:
+        except (Fenced, Unavailable) as error:
             _log.debug("block %s compiles, which could not be noted: %s", self._block.id, error)

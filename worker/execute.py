@@ -1,6 +1,8 @@
 """The one loop that turns a checked job into a results store, for workers and local runs."""
 
+import logging
 import math
+import shutil
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -15,9 +17,10 @@ from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import ResultLayout, ResultWriter
+from jointplay.storage.results import CheckpointMismatch, CorruptStore, ResultLayout, ResultWriter
 from jointplay.worker.certificates import record_of
 
+_log = logging.getLogger(__name__)
 EndState = Literal["succeeded", "failed", "cancelled", "left"]
 _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
@@ -90,7 +93,8 @@ def execute(
         Called before each slice of at most about 0.25 s of computing, hence several times a
         second; answers "continue", "cancel" or "leave".
     restart
-        Where an earlier run of the same job left off; its folder is only read.
+        Where an earlier run of the same job left off; its folder is only read. Where what it
+        wrote is not there any more the run begins anew.
     longest
         Seconds of computing after which the run fails.
 
@@ -107,13 +111,7 @@ def execute(
     OSError
         The store cannot be written, for example because the disk is full.
     """
-    layout = layout_of(admission)
-    if restart is None:
-        writer = ResultWriter.create(folder, layout)
-    else:
-        writer = ResultWriter.resume(
-            folder, layout, restart.results, taken_over_from=restart.folder
-        )
+    writer, restart = _begin(folder, layout_of(admission), restart)
     begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
     try:
         simulation = Simulation(admission, restart.simulation if restart else None)
@@ -126,6 +124,22 @@ def execute(
     summary = simulation.summary()
     _seal(writer, target, summary, simulation.certificate(), complete=outcome.state == "succeeded")
     return replace(outcome, statistics=summary.statistics)
+
+
+def _begin(
+    folder: Path, layout: ResultLayout, restart: RestartPoint | None
+) -> tuple[ResultWriter, RestartPoint | None]:
+    """Return a writer and the restart point that it goes on from; none if its rows are lost."""
+    if restart is not None:
+        try:
+            writer = ResultWriter.resume(
+                folder, layout, restart.results, taken_over_from=restart.folder
+            )
+            return writer, restart
+        except (CheckpointMismatch, CorruptStore, FileNotFoundError) as error:
+            _log.warning("the run begins anew: %s", error)
+            shutil.rmtree(folder, ignore_errors=True)
+    return ResultWriter.create(folder, layout), None
 
 
 def _advance(

@@ -7,9 +7,7 @@ import threading
 import time
 from typing import Self
 
-from sqlalchemy.exc import SQLAlchemyError
-
-from jointplay.storage.catalogue import Catalogue, Claim, Fenced, Verdict
+from jointplay.storage.catalogue import Catalogue, Claim, Fenced, Unavailable, Verdict
 from jointplay.storage.settings import Settings
 
 _log = logging.getLogger(__name__)
@@ -76,6 +74,6 @@ class Lease:
             except Fenced:
                 self._fenced.set()
                 return
-            except SQLAlchemyError as error:
-                # a busy or absent database may be back before the lease runs out
+            except Unavailable as error:
+                # it may be back before the lease runs out
                 _log.warning("heartbeat of block %s failed: %s", self._block, error)

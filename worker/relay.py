@@ -13,16 +13,17 @@ import time
 
 from kombu.exceptions import OperationalError
 from redis.exceptions import RedisError
-from sqlalchemy.exc import SQLAlchemyError
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue import Catalogue, Unavailable
 from jointplay.storage.settings import Settings
-from jointplay.worker.app import RUN_BLOCK, make_app
+from jointplay.worker.app import KEY_PREFIX, QUEUES, RUN_BLOCK, make_app
 from jointplay.worker.removal import remove_expired
-from jointplay.worker.wake_up import WakeUpListener
+from jointplay.worker.wake_up import WakeUpListener, connection
 
 _TASK = "relay"
 _LEAD_SECONDS = 5.0
+_LONGEST_TURN = 5.0  # s; between two turns of a process that was not stopped
+_UNDERWAY = 2.0  # s; a message is in a queue, or its block is claimed, after less than that
 _REMOVAL_PATIENCE = 2.0  # s; the next leader goes on with it
 _log = logging.getLogger(__name__)
 
@@ -34,20 +35,27 @@ class Relay:
         self._catalogue = catalogue
         self._settings = settings
         self._app = make_app(settings.redis_url)
+        self._redis = connection(settings.redis_url or "redis://")
         self._name = f"{socket.gethostname()}:{os.getpid()}"
-        self._reaped = 0.0
+        self._reap_next = 0.0
+        self._last_turn = time.time()
+        self._queues_empty_since: float | None = None
         self._removing: threading.Thread | None = None
         self._lead_until = 0.0
 
     def turn(self) -> None:
         """Do what is due now, if this process leads."""
         now = time.monotonic()
+        self._give_the_sleeping_time(now)
         if now > self._lead_until - _LEAD_SECONDS / 2:
             if not self._catalogue.take_lead(_TASK, self._name, _LEAD_SECONDS):
                 return
             self._lead_until = now + _LEAD_SECONDS
-        if now - self._reaped >= self._settings.reaper_period:
-            self._reaped = now
+        if now >= self._reap_next:
+            self._reap_next = now + self._settings.reaper_period
+            self._catalogue.mend_after_setting_back(
+                self._settings.lease, self._settings.republish_after
+            )
             reaped = self._catalogue.reap(self._settings.max_attempts)
             for block in reaped.requeued:
                 _log.warning("block %s lost its worker and is queued again", block)
@@ -67,8 +75,21 @@ class Relay:
             )
             self._removing.start()
 
+    def _give_the_sleeping_time(self, now: float) -> None:
+        """Take no block back yet where the machine slept, or the clock was set.
+
+        All leases seem to have run out then; the living extend theirs with their next heartbeat.
+        """
+        turn = time.time()
+        if abs(turn - self._last_turn) > _LONGEST_TURN:
+            _log.warning("%.1f s have passed since the last turn", turn - self._last_turn)
+            self._reap_next = now + self._settings.heartbeat + 1.0
+        self._last_turn = turn
+
     def publish(self) -> None:
         """Send every due wake-up to Redis; what cannot be sent stays due."""
+        if self._lost_messages() and (lost := self._catalogue.announce_again()):
+            _log.warning("Redis has lost %d wake-ups, which are sent again", lost)
         due = self._catalogue.due_wake_ups(self._settings.relay_outstanding)
         sent = []
         try:
@@ -80,11 +101,27 @@ class Relay:
         if sent:
             self._catalogue.mark_published(tuple(sent), self._settings.republish_after)
 
+    def _lost_messages(self) -> bool:
+        """Tell whether wake-ups were sent, and yet Redis has had no message for a while."""
+        if not self._catalogue.on_the_way():
+            self._queues_empty_since = None
+            return False
+        try:
+            empty = not any(self._redis.llen(f"{KEY_PREFIX}{queue}") for queue in QUEUES)
+        except RedisError:
+            empty = False
+        now = time.monotonic()
+        since = (self._queues_empty_since or now) if empty else None
+        lost = since is not None and now - since > _UNDERWAY
+        self._queues_empty_since = None if lost else since
+        return lost
+
     def release_lead(self) -> None:
         """Let another relay take over at once."""
         if self._removing is not None:
             self._removing.join(_REMOVAL_PATIENCE)
         self._app.close()
+        self._redis.close()
         self._catalogue.release_lead(_TASK, self._name)
 
 
@@ -104,8 +141,8 @@ def main() -> None:
         while not stop.is_set():
             try:
                 relay.turn()
-            except SQLAlchemyError as error:
-                _log.warning("the catalogue does not answer, trying again: %s", error)
+            except Unavailable as error:
+                _log.warning("trying again: %s", error)
             listener.wait(settings.relay_period)
     relay.release_lead()
     catalogue.close()

@@ -1,10 +1,11 @@
-"""Removing what expired or deleted jobs have computed."""
+"""Removing what nobody will read: expired or deleted jobs, what late attempts wrote."""
 
 import logging
 import shutil
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue import Catalogue, CatalogueError, Claim, Unavailable
 from jointplay.storage.settings import Settings
+from jointplay.worker.passing import PASSING
 
 _AT_ONCE = 50
 _log = logging.getLogger(__name__)
@@ -15,13 +16,34 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
 
     It takes seconds a job where disks are slow.
     """
-    for job in catalogue.removable(_AT_ONCE):
+    try:
+        jobs = catalogue.removable(_AT_ONCE)
+    except Unavailable as fault:
+        _log.warning("nothing is removed now: %s", fault)
+        return
+    for job in jobs:
         try:
             settings.place.remove(settings.results_prefix(job))
             if (folder := settings.running_folder(job)).exists():  # it ended without results
                 shutil.rmtree(folder)
-        except OSError as error:
+            catalogue.mark_removed([job])
+        except PASSING as error:
             _log.warning("the results of job %s cannot be removed: %s", job, error)
             continue
-        catalogue.mark_removed([job])
         _log.info("removed the results of job %s", job)
+
+
+def withdraw(catalogue: Catalogue, settings: Settings, claim: Claim) -> None:
+    """Remove what an attempt wrote after the job had ended without it; never raises."""
+    attempt = claim.block.attempt
+    try:
+        job = catalogue.get(claim.job.id)
+        if not job.state.terminal:
+            return  # the attempt that ends the job removes everything
+        if job.attempt != attempt:
+            settings.place.remove(settings.sealed_run(job.id, attempt).key)
+        sealed = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
+        if any(results.exists() for results in sealed):
+            shutil.rmtree(settings.running_folder(job.id), ignore_errors=True)
+    except (CatalogueError, OSError) as error:
+        _log.warning("what attempt %d of %s left stays: %s", attempt, claim.job.id, error)

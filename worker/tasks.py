@@ -11,13 +11,14 @@ from typing import Any
 from billiard.process import active_children
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue import Catalogue, Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.block_run import (
     BlockRun,  # before the fork: all children share numba and the solver
 )
 
+_log = logging.getLogger(__name__)
 _draining = threading.Event()
 _DRAIN_SIGNAL = signal.SIGUSR2
 
@@ -36,7 +37,11 @@ def run_block(block: str) -> None:
     if _draining.is_set():
         return
     worker = f"{socket.gethostname()}:{os.getpid()}"
-    claim = catalogue.claim_block(block, worker, settings.lease)
+    try:
+        claim = catalogue.claim_block(block, worker, settings.lease)
+    except Unavailable as fault:
+        _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
+        return
     if claim is not None:
         BlockRun(catalogue, settings, claim, _draining).run()
 

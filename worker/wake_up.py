@@ -17,7 +17,8 @@ _PATIENCE = 2.0  # seconds a thread of ours waits for Redis
 _log = logging.getLogger(__name__)
 
 
-def _connection(redis_url: str) -> Redis:
+def connection(redis_url: str) -> Redis:
+    """Return a connection to Redis whose commands wait for two seconds at most."""
     return Redis.from_url(redis_url, socket_timeout=_PATIENCE, socket_connect_timeout=_PATIENCE)
 
 
@@ -25,7 +26,7 @@ class WakeUpPublisher:
     """Publishes from a thread of its own, so that no request ever waits for Redis."""
 
     def __init__(self, redis_url: str) -> None:
-        self._redis = _connection(redis_url)
+        self._redis = connection(redis_url)
         self._asked = threading.Event()
         threading.Thread(target=self._publish_when_asked, name="wake-up", daemon=True).start()
 
@@ -58,7 +59,7 @@ class WakeUpListener:
     """Waits for wake-ups, in the relay."""
 
     def __init__(self, redis_url: str) -> None:
-        self._redis = _connection(redis_url)
+        self._redis = connection(redis_url)
         self._listening = self._redis.pubsub(ignore_subscribe_messages=True)  # type: ignore[no-untyped-call]
 
     def __enter__(self) -> Self:

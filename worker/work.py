@@ -93,7 +93,8 @@ class SimulationWork:
             except NotAStore:
                 continue
             if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
-                target.place.adopt(target.key, lost.key)
+                if not target.place.adopt(target.key, lost.key):
+                    continue
                 end = float(self._admission.job["duration"])
                 return Outcome("succeeded", end, 1.0, statistics=run.attributes["summary"])
         return None

@@ -8,7 +8,12 @@ from pydantic import BaseModel, Field
 from jointplay.records.job import is_job_id
 from jointplay.service.batches.admission import admit_batch
 from jointplay.service.body import JsonBatch
-from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
+from jointplay.service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    SettingsDependency,
+    require_room,
+)
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.schemas import JobPage, Moment
@@ -83,6 +88,7 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
 @router.post(
     "",
     status_code=202,
+    dependencies=[Depends(require_room)],
     openapi_extra={"requestBody": REQUEST_BODY},
     responses=MADE | problems(*kinds.OF_SUBMISSIONS),
 )

@@ -2,11 +2,16 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Response
+from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.body import JsonDocument
-from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from jointplay.service.dependencies import (
+    CatalogueDependency,
+    JobOfThePath,
+    SettingsDependency,
+    require_room,
+)
 from jointplay.service.idempotency import Repeatable, RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
@@ -31,6 +36,7 @@ MADE_OR_FOUND: dict[int | str, dict[str, Any]] = {
 @router.post(
     "",
     status_code=202,
+    dependencies=[Depends(require_room)],
     openapi_extra={"requestBody": REQUEST_BODY},
     responses=MADE_OR_FOUND | problems(*kinds.OF_SUBMISSIONS),
 )

@@ -7,9 +7,8 @@ from collections.abc import AsyncIterator, Iterator
 from contextlib import contextmanager
 
 from fastapi.concurrency import run_in_threadpool
-from sqlalchemy.exc import SQLAlchemyError
 
-from jointplay.storage.catalogue import Catalogue, JobStatus
+from jointplay.storage.catalogue import Catalogue, JobStatus, Unavailable
 
 _PERIOD = 0.01
 """Seconds between two looks when a wait begins; growing to ..."""
@@ -87,8 +86,8 @@ class Watcher:
             self._woken.clear()
             try:
                 self._show(await self._statuses(list(self._watches)))
-            except SQLAlchemyError as error:
-                _log.warning("the catalogue does not answer, looking again: %s", error)
+            except Unavailable as error:
+                _log.warning("looking again: %s", error)
             pause = min(_GROWTH * pause, _LONGEST_PERIOD)
             try:
                 await asyncio.wait_for(self._woken.wait(), pause)

@@ -6,7 +6,6 @@ from functools import singledispatch
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
-from sqlalchemy.exc import OperationalError
 from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
@@ -20,7 +19,7 @@ from jointplay.service.problems.document import (
     RequestRefused,
     clipped,
 )
-from jointplay.storage.catalogue import JobNotFinished, KeyReused
+from jointplay.storage.catalogue import JobNotFinished, KeyReused, Unavailable
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
@@ -114,9 +113,10 @@ def _(error: InvalidInput) -> RequestRefused:
 
 
 @refusal.register
-def _(error: OperationalError) -> RequestRefused:
-    detail = "The catalogue does not answer; nothing was recorded."
-    return RequestRefused(kinds.UNAVAILABLE, detail, headers={"Retry-After": "5"})
+def _(error: Unavailable) -> RequestRefused:
+    kind = kinds.DISK_FULL if error.full else kinds.UNAVAILABLE
+    detail = f"T{str(error)[1:]}; nothing was recorded."
+    return RequestRefused(kind, detail, headers={"Retry-After": "5"})
 
 
 @refusal.register

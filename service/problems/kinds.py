@@ -159,6 +159,13 @@ METHOD_NOT_ALLOWED = _kind(
     "This address does not know the method",
     "/docs describes the methods of every address.",
 )
+DISK_FULL = _kind(
+    "disk-full",
+    507,
+    "There is no room for further results",
+    "Nothing was recorded. Make room on the disk of the service, or delete jobs, and try again "
+    "after the seconds that Retry-After gives; jobs that wait go on by themselves.",
+)
 UNAVAILABLE = _kind(
     "unavailable",
     503,
@@ -180,7 +187,7 @@ ALL = {
 OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED
-OF_SUBMISSIONS = *OF_A_BODY, KEY_REUSED, KEY_IN_FLIGHT, INVALID_REQUEST
+OF_SUBMISSIONS = *OF_A_BODY, KEY_REUSED, KEY_IN_FLIGHT, INVALID_REQUEST, UNAVAILABLE, DISK_FULL
 OF_STORES = *OF_A_JOB, WRONG_KIND, NO_RESULTS, RESULTS_NOT_READY, INVALID_REQUEST
 OF_RESULTS = *OF_STORES, UNKNOWN_CHANNEL, RESPONSE_TOO_LARGE
 """Problems of every address where numbers of a job's results are read."""

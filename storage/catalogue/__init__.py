@@ -9,6 +9,7 @@ from jointplay.storage.catalogue.errors import (
     JobNotFinished,
     JobNotFound,
     KeyReused,
+    Unavailable,
 )
 from jointplay.storage.catalogue.records import (
     Attempt,
@@ -58,6 +59,7 @@ __all__ = [
     "SubmissionKey",
     "Submitted",
     "SubmittedBatch",
+    "Unavailable",
     "Verdict",
     "WakeUp",
 ]

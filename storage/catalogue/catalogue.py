@@ -10,7 +10,6 @@ from functools import update_wrapper
 from typing import Concatenate, ParamSpec, TypeVar
 
 from sqlalchemy import Connection, text
-from sqlalchemy.exc import OperationalError
 
 from jointplay.storage.catalogue import (
     batches,
@@ -22,7 +21,7 @@ from jointplay.storage.catalogue import (
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
-from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.errors import KeyReused, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.records import (
@@ -71,6 +70,7 @@ class Catalogue:
 
     Each method is one unit of reading or writing and is committed when it returns; most are
     functions of this package with the unit as their first argument. Times are epoch seconds (UTC).
+    Every method raises `Unavailable` when the database cannot do it at the moment.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class Catalogue:
         self.connections = Connections(url)
         self.clock = clock
         self._identifiers = Identifiers()
-        self._submissions = GroupCommit(self._submit, common=OperationalError)
+        self._submissions = GroupCommit(self._submit, common=Unavailable)
 
     def migrate(self) -> None:
         """Create the tables or bring them up to date; several processes may do it at once."""
@@ -182,6 +182,7 @@ class Catalogue:
     note_activity = _writing(holding.note_activity)
     record_checkpoint = _writing(holding.record_checkpoint)
     release = _writing(holding.release)
+    put_off = _writing(holding.put_off)
 
     finish = _durably(holding.finish)
     finish_repeatable = _writing(holding.finish)  # for what is quickly found again
@@ -189,9 +190,12 @@ class Catalogue:
     # What relay and reaper do
 
     due_wake_ups = _reading(upkeep.due_wake_ups)
+    on_the_way = _reading(upkeep.on_the_way)
     mark_published = _writing(upkeep.mark_published)
     reap = _durably(upkeep.reap)
     removable = _reading(upkeep.removable)
     mark_removed = _writing(upkeep.mark_removed)
+    mend_after_setting_back = _writing(upkeep.mend_after_setting_back)
+    announce_again = _writing(upkeep.announce_again)
     take_lead = _writing(upkeep.take_lead)
     release_lead = _writing(upkeep.release_lead)

@@ -21,8 +21,15 @@ from sqlalchemy import (
     make_url,
     text,
 )
+from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
 
-_BUSY_TIMEOUT_MS = 30_000
+from jointplay.storage.catalogue.errors import Unavailable
+
+_PATIENCE = 5.0
+"""Seconds that a unit waits for others; then those who asked decide whether to ask again."""
+_NEW_DATABASE_PATIENCE = 30.0
+_BUSY = "is held by another program"
+_SQLITE_CANNOT = ("SQLITE_IOERR", "SQLITE_CANTOPEN", "SQLITE_PROTOCOL", "SQLITE_READONLY")
 
 
 @dataclass(frozen=True)
@@ -74,7 +81,7 @@ class Connections:
         def _configure(dbapi_connection: Any, _record: object) -> None:
             dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
             cursor = dbapi_connection.cursor()
-            cursor.execute(f"PRAGMA busy_timeout={_BUSY_TIMEOUT_MS}")
+            cursor.execute(f"PRAGMA busy_timeout={_PATIENCE * 1000:.0f}")
             _write_ahead(cursor)
             cursor.execute(f"PRAGMA synchronous={synchronous}")
             cursor.execute("PRAGMA foreign_keys=ON")
@@ -88,16 +95,27 @@ class Connections:
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
-        """Open a consistent view of the database."""
-        with self._readers.begin() as connection:
+        """Open a consistent view of the database; Unavailable if it does not answer."""
+        with _available(), self._readers.begin() as connection:
             yield connection
 
     @contextmanager
     def writing(self, *, durable: bool = False) -> Iterator[Connection]:
-        """Begin a writing unit, committed at the end; `durable`: it survives a power cut."""
+        """Begin a writing unit, committed at the end; `durable`: it survives a power cut.
+
+        Raises
+        ------
+        Unavailable
+            Others write for too long, the disk is full, or the database does not answer.
+        """
         engine = self._durable_writer if durable else self._writer
-        with self._turn, engine.begin() as connection:
-            yield connection
+        if not self._turn.acquire(timeout=_PATIENCE):
+            raise Unavailable(_BUSY)
+        try:
+            with _available(), engine.begin() as connection:
+                yield connection
+        finally:
+            self._turn.release()
 
     @contextmanager
     def migrating(self) -> Iterator[Connection]:
@@ -113,12 +131,36 @@ class Connections:
             engine.dispose()
 
 
+@contextmanager
+def _available() -> Iterator[None]:
+    """Say in our words what the database says of faults that may pass."""
+    try:
+        yield
+    except DBAPIError as error:
+        fault = _passing(error)
+        if fault is None:
+            raise
+        raise fault from error
+
+
+def _passing(error: DBAPIError) -> Unavailable | None:
+    name = getattr(error.orig, "sqlite_errorname", "")
+    if name == "SQLITE_FULL":
+        return Unavailable("has no room left on its disk", full=True)
+    if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
+        return Unavailable(_BUSY)
+    lost = isinstance(error, (OperationalError, InterfaceError)) or error.connection_invalidated
+    if name.startswith(_SQLITE_CANNOT) or (lost and not name):
+        return Unavailable("does not answer")
+    return None
+
+
 def _write_ahead(cursor: sqlite3.Cursor) -> None:
     """Have the database keep a write-ahead log.
 
     A database that is new to it is locked for a moment, for which SQLite does not wait by itself.
     """
-    give_up = time.monotonic() + _BUSY_TIMEOUT_MS / 1000
+    give_up = time.monotonic() + _NEW_DATABASE_PATIENCE
     while True:
         try:
             cursor.execute("PRAGMA journal_mode=WAL")

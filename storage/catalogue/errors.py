@@ -5,6 +5,17 @@ class CatalogueError(Exception):
     """Base of the catalogue's own errors."""
 
 
+class Unavailable(CatalogueError):
+    """The database cannot be read or written at the moment; nothing was changed.
+
+    `full` says that its disk is.
+    """
+
+    def __init__(self, reason: str, *, full: bool = False) -> None:
+        super().__init__(f"the catalogue {reason}")
+        self.full = full
+
+
 class JobNotFound(CatalogueError):
     """No job has this id."""
 

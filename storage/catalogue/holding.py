@@ -4,9 +4,9 @@ Every statement that changes a held block names the attempt that holds it. A wor
 thought dead and comes back finds its attempt fenced: nothing it does counts any more.
 """
 
-from typing import Any
+from typing import Any, Final
 
-from sqlalchemy import ColumnElement, and_, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, and_, case, delete, func, insert, select, update
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
@@ -17,6 +17,10 @@ from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 from jointplay.storage.catalogue.submission import drop_queued_blocks
 
 RECOVERED_QUEUE = "recovered"
+_PUT_OFF: Final = "put-off"
+_FIRST_PAUSE = 2.0  # s
+LONGEST_PAUSE: Final = 30.0
+"""Seconds after which a block that was put off is tried again at the latest."""
 _block = tables.block
 
 
@@ -104,12 +108,16 @@ def record_progress(
     fraction: float,
     steps: int | None = None,
 ) -> Verdict:
-    """Heartbeat that also stores simulated time [s], fraction (0..1) and steps; or Fenced."""
+    """Heartbeat that also stores simulated time [s], fraction (0..1) and steps; or Fenced.
+
+    Coming further than any attempt before ends a row of losses.
+    """
     job_id = _change_held(
         unit,
         block_id,
         attempt,
         lease_until=unit.now + lease,
+        losses=case((_block.c.progress_fraction < fraction, 0), else_=_block.c.losses),
         progress_time=time,
         progress_fraction=fraction,
         **({} if steps is None else {"progress_steps": steps}),
@@ -233,11 +241,31 @@ def release(unit: Unit, block_id: str, attempt: int) -> None:
 
     It is not a loss.
     """
-    job = _take_back(unit, block_id, attempt, "released")
+    _requeue(unit, block_id, _take_back(unit, block_id, attempt, "released"))
+
+
+def put_off(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
+    """Give a held block back because of a fault that may pass, such as a full disk; or Fenced.
+
+    It is not a loss. Until it is tried again, after ever longer pauses while the fault lasts,
+    the job shows `activity`, a few words for what it waits for.
+    """
+    table = tables.attempt
+    worked = select(func.coalesce(func.max(table.c.number), 0)).where(
+        table.c.block == block_id, table.c.number < attempt, table.c.outcome != _PUT_OFF
+    )
+    in_vain = attempt - 1 - unit.execute(worked).scalar_one()
+    job = _take_back(unit, block_id, attempt, _PUT_OFF)
+    unit.execute(update(tables.job).where(tables.job.c.id == job.id).values(activity=activity))
+    _requeue(unit, block_id, job, min(_FIRST_PAUSE * 2.0**in_vain, LONGEST_PAUSE))
+
+
+def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
+    """Queue a block that was given back, to be claimed after a pause [s]."""
     if job.state.terminal:
         drop_queued_blocks(unit, job.id, untouched=False)
     else:
-        queue_again(unit, block_id)
+        queue_again(unit, block_id, pause)
 
 
 def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
@@ -276,11 +304,12 @@ def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes:
     return job
 
 
-def queue_again(unit: Unit, block_id: str) -> None:
-    """Have a worker woken for a block, ahead of jobs that never started."""
+def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
+    """Have a worker woken for a block after a pause [s], ahead of jobs that never started."""
+    due = unit.now + pause
     unit.execute(
         insert(tables.outbox).values(
-            block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=unit.now, tries=0
+            block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=due, tries=0
         )
     )
 

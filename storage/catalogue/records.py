@@ -175,7 +175,7 @@ class Block:
     count: int
     state: BlockState
     attempt: int = 0
-    losses: int = 0  # attempts whose worker was lost, which is what max_attempts limits
+    losses: int = 0  # workers lost in a row without progress, which is what max_attempts limits
     lease_until: float | None = None
     worker: str | None = None
     watermark: int = 0  # samples (or values) that are durable in the results store

@@ -153,7 +153,7 @@ outbox = Table(
     Column("created", Float(53), nullable=False),
     Column("due", Float(53), nullable=False),
     Column("tries", Integer, nullable=False),
-    Index("ix_outbox_due", "due"),
+    Index("ix_outbox_due", "due", "tries"),
     # what to publish next, however many wait
     Index("ix_outbox_queue_due", "queue", "due", "block"),
 )

@@ -6,12 +6,12 @@ were.
 
 from collections.abc import Sequence
 
-from sqlalchemy import case, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import JobNotFinished
-from jointplay.storage.catalogue.holding import RECOVERED_QUEUE, lose
+from jointplay.storage.catalogue.holding import LONGEST_PAUSE, RECOVERED_QUEUE, lose
 from jointplay.storage.catalogue.records import TERMINAL, BlockState, Job, Reaped, WakeUp
 from jointplay.storage.catalogue.rows import find_job, lock_job
 from jointplay.storage.catalogue.submission import FRESH_QUEUE
@@ -28,19 +28,27 @@ def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
     blocks wait, and losing it costs little.
     """
     outbox = tables.outbox
-    on_the_way = unit.execute(
-        select(func.count()).select_from(outbox).where(outbox.c.due > unit.now)
-    ).scalar_one()
+    underway = on_the_way(unit)
     due: list[WakeUp] = []
     for queue in (RECOVERED_QUEUE, FRESH_QUEUE):  # by index: the cost is that of the answer
         rows = unit.execute(
             select(outbox.c.block)
             .where(outbox.c.queue == queue, outbox.c.due <= unit.now)
             .order_by(outbox.c.due, outbox.c.block)
-            .limit(max(outstanding - on_the_way - len(due), 0))
+            .limit(max(outstanding - underway - len(due), 0))
         )
         due += [WakeUp(block, queue) for block in rows.scalars()]
     return tuple(due)
+
+
+def on_the_way(unit: Unit) -> int:
+    """Count the wake-ups that were sent and not yet answered by a claim."""
+    sent = select(func.count()).select_from(tables.outbox).where(_sent(unit))
+    return int(unit.execute(sent).scalar_one())
+
+
+def _sent(unit: Unit) -> ColumnElement[bool]:
+    return (tables.outbox.c.due > unit.now) & (tables.outbox.c.tries > 0)
 
 
 def mark_published(unit: Unit, blocks: tuple[str, ...], republish_after: float) -> None:
@@ -52,6 +60,23 @@ def mark_published(unit: Unit, blocks: tuple[str, ...], republish_after: float) 
         .where(outbox.c.block.in_(blocks))
         .values(tries=outbox.c.tries + 1, due=unit.now + republish_after * patience)
     )
+
+
+def announce_again(unit: Unit) -> int:
+    """Make every wake-up that was sent due again, because it was lost; return their number."""
+    again = update(tables.outbox).where(_sent(unit)).values(due=unit.now)
+    return int(unit.execute(again).rowcount)
+
+
+def mend_after_setting_back(unit: Unit, lease: float, republish_after: float) -> None:
+    """Shorten what waits longer than can be, because the clock was set back: leases, wake-ups."""
+    block, outbox = tables.block, tables.outbox
+    held = (block.c.state == BlockState.running.value) & (
+        block.c.lease_until > unit.now + 2 * lease
+    )
+    unit.execute(update(block).where(held).values(lease_until=unit.now + lease))
+    late = outbox.c.due > unit.now + 2 * _RAREST_REPEAT * republish_after + LONGEST_PAUSE
+    unit.execute(update(outbox).where(late).values(due=unit.now))
 
 
 def reap(unit: Unit, max_attempts: int) -> Reaped:
@@ -112,7 +137,10 @@ def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
     """Take or keep the lead of a task for `seconds`; false while another process has it."""
     leader = tables.leader
     lead = {"holder": holder, "until": unit.now + seconds}
-    free = (leader.c.holder == holder) | (leader.c.until <= unit.now)
+    over = (leader.c.until <= unit.now) | (
+        leader.c.until > unit.now + 2 * seconds
+    )  # clock set back
+    free = (leader.c.holder == holder) | over
     taken = unit.execute(update(leader).where(leader.c.name == name, free).values(lead))
     if taken.rowcount == 1:
         return True

@@ -123,18 +123,6 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
     assert (state, ended.attempt) == (JobState.succeeded, 2)
 
 
-def test_a_disk_that_cannot_be_written_is_the_platforms_fault(
-    catalogue: Catalogue, settings: Settings, block: str
-) -> None:
-    (settings.data / "results").write_text("a file where a folder has to be")
-    state, _ = run(catalogue, settings, block)
-    error = catalogue.get(block.rsplit("-", 1)[0]).error
-    assert state is JobState.failed
-    assert error is not None
-    assert (error.error_class, error.code) == ("platform", "storage")
-    assert "results cannot be written" in error.detail
-
-
 def test_a_cancelled_blocks_store_is_closed_by_whoever_takes_it_over(
     catalogue: Catalogue, settings: Settings, block: str
 ) -> None:

@@ -46,6 +46,7 @@ class ModelBlock:
     state: BlockState = BlockState.queued
     attempt: int = 0
     losses: int = 0
+    fraction: float = 0.0
     lease_until: float = 0.0
     watermark: int = 0
 
@@ -168,6 +169,9 @@ class CatalogueModel(RuleBasedStateMachine):
         )
         if verdict is not None:
             held.lease_until = self.now + LEASE
+            if fraction > held.fraction:
+                held.losses = 0
+            held.fraction = fraction
             go_on = job.state is JobState.running
             assert verdict is (Verdict.go_on if go_on else Verdict.cancel)
             assert self.catalogue.verdict(name, attempt) is verdict
@@ -199,6 +203,7 @@ class CatalogueModel(RuleBasedStateMachine):
         if state is None:
             return
         held.state = outcome
+        held.fraction = held.fraction if failed else 1.0
         if failed:
             self.fail(job, "solver")
         self.settle(job)
@@ -226,6 +231,17 @@ class CatalogueModel(RuleBasedStateMachine):
         )
         if released:
             held.state = BlockState.cancelled if job.state.terminal else BlockState.queued
+
+    @rule(block=blocks, lag=st.integers(0, 1))
+    def put_off(self, block: tuple[str, int], lag: int) -> None:
+        job, held, name = self.find(block)
+        attempt = held.attempt - lag
+        put_off = self.as_holder(
+            held, attempt, lambda: self.catalogue.put_off(name, attempt, "waiting") or True
+        )
+        if put_off:
+            held.state = BlockState.cancelled if job.state.terminal else BlockState.queued
+            assert self.catalogue.get(block[0]).activity == "waiting"
 
     @rule(block=blocks)
     def cancel(self, block: tuple[str, int]) -> None:

@@ -1,0 +1,182 @@
+"""Faults of the platform that may pass delay a job and never end it."""
+
+import shutil
+import sqlite3
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob, connections
+from jointplay.storage.settings import Settings
+from jointplay.worker import block_run
+from jointplay.worker.block_run import BlockRun
+from tests.stores import files_of, sealed_run
+
+JOB = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press"},
+    "duration": 20.0,
+    "channels": ["slider7.*"],
+}
+
+
+@pytest.fixture(scope="module")
+def admission() -> Admission:
+    admission = admit(JOB)
+    assert isinstance(admission, Admission)
+    return admission
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    return Settings(data=tmp_path, progress_period=1e-3)  # a restart point with every slice
+
+
+@pytest.fixture
+def catalogue(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Catalogue]:
+    monkeypatch.setattr(connections, "_PATIENCE", 0.1)
+    monkeypatch.setattr(block_run, "_ASK_AGAIN", 0.1)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    yield catalogue
+    catalogue.close()
+
+
+def submit(catalogue: Catalogue, admission: Admission) -> str:
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    return catalogue.submit(new).job.id
+
+
+def run(catalogue: Catalogue, settings: Settings, job: str) -> None:
+    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
+    assert claim is not None
+    BlockRun(catalogue, settings, claim, threading.Event()).run()
+
+
+def stored(catalogue: Catalogue, settings: Settings, job: str) -> dict[str, bytes]:
+    ended = catalogue.get(job)
+    assert ended.state is JobState.succeeded
+    sealed_run(settings, ended).verify()
+    files = files_of(settings.sealed_run(job, ended.attempt))
+    # the documents tell the seconds that it took, too
+    return {key: content for key, content in files.items() if not key.endswith(".json")}
+
+
+@contextmanager
+def held_by_another_program(settings: Settings) -> Iterator[None]:
+    other = sqlite3.connect(settings.data / "catalogue.sqlite", isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    try:
+        yield
+    finally:
+        other.execute("ROLLBACK")
+        other.close()
+
+
+def test_results_that_cannot_be_written_are_tried_again(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    undisturbed = submit(catalogue, admission)
+    run(catalogue, settings, undisturbed)
+    shutil.move(settings.data / "results", settings.data / "elsewhere")
+    (settings.data / "results").write_text("a file where a folder has to be")
+    job = submit(catalogue, admission)
+    run(catalogue, settings, job)
+    waiting = catalogue.get(job)
+    assert (waiting.state, waiting.activity) == (JobState.running, "waiting for the results' place")
+    assert [block.losses for block in catalogue.blocks(job)] == [0]
+    assert catalogue.blocks(job)[0].state is BlockState.queued
+    (settings.data / "results").unlink()
+    shutil.move(settings.data / "elsewhere", settings.data / "results")
+    run(catalogue, settings, job)
+    assert [one.outcome for one in catalogue.attempts(job)] == ["put-off", "done"]
+    same = stored(catalogue, settings, job), stored(catalogue, settings, undisturbed)
+    assert same[0] == same[1]
+    assert catalogue.get(job).activity is None
+    assert not settings.running_folder(job).exists()
+    assert not list(settings.data.rglob("*.partial"))
+
+
+def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    job = submit(catalogue, admission)
+    more_than_there_is = settings.model_copy(update={"reserve": 2**60})
+    pauses = []
+    for _ in range(6):
+        run(catalogue, more_than_there_is, job)
+        assert catalogue.due_wake_ups(10) == ()
+        now = time.time()
+        catalogue.clock = lambda now=now: now + 31.0  # type: ignore[misc]
+        assert len(catalogue.due_wake_ups(10)) == 1
+        catalogue.clock = time.time
+        with catalogue.connections.reading() as connection:
+            due = connection.exec_driver_sql("SELECT due FROM outbox").scalar_one()
+        pauses.append(round(due - now))
+    assert pauses == [2, 4, 8, 16, 30, 30]
+    assert catalogue.get(job).activity == "waiting for room on the disk"
+    run(catalogue, settings, job)
+    stored(catalogue, settings, job)
+
+
+def test_a_catalogue_held_by_another_program_is_waited_for(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    job = submit(catalogue, admission)
+    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
+    assert claim is not None
+    computing = threading.Thread(
+        target=BlockRun(catalogue, settings, claim, threading.Event()).run, daemon=True
+    )
+    with held_by_another_program(settings):
+        computing.start()
+        while not settings.sealed_run(job, 1).exists():  # it computes all of it meanwhile
+            assert computing.is_alive()
+            time.sleep(0.01)
+        computing.join(0.5)
+        assert computing.is_alive()
+    computing.join()
+    stored(catalogue, settings, job)
+    assert len(catalogue.attempts(job)) == 1
+
+
+def test_rows_that_a_late_attempt_took_away_are_computed_again(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    undisturbed = submit(catalogue, admission)
+    run(catalogue, settings, undisturbed)
+    job = submit(catalogue, admission)
+    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
+    assert claim is not None
+    draining = threading.Event()
+    draining.set()
+    BlockRun(catalogue, settings, claim, draining).run()
+    assert catalogue.blocks(job)[0].checkpoint is not None
+    shutil.rmtree(settings.running_run(job, 1).folder)
+    run(catalogue, settings, job)
+    same = stored(catalogue, settings, job), stored(catalogue, settings, undisturbed)
+    assert same[0] == same[1]
+
+
+def test_an_attempt_that_comes_too_late_leaves_nothing(
+    catalogue: Catalogue, settings: Settings, admission: Admission
+) -> None:
+    job = submit(catalogue, admission)
+    late = catalogue.claim_block(f"{job}-0", "slow", lease=0.0)
+    assert late is not None
+    while not catalogue.reap(3).requeued:
+        pass
+    run(catalogue, settings, job)
+    before = stored(catalogue, settings, job)
+    late_run = BlockRun(catalogue, settings, late, threading.Event())
+    late_run._report = lambda *_: block_run.Answer.go_on  # type: ignore[method-assign]
+    late_run.run()  # it hears that the block is another's when it has sealed its own results
+    assert stored(catalogue, settings, job) == before
+    assert not settings.sealed_run(job, 1).exists()
+    assert not settings.running_folder(job).exists()
