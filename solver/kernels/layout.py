@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-LANES = 8
-"""Runs that a kernel advances at once: as many as there are floats in a vector register."""
 INSTANTS = 8
 """Instants of one step that are looked at together, however many lanes there are."""
 BUNDLE = 8

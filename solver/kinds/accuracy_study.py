@@ -16,11 +16,7 @@ from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import one_point
 from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.quantities.roster import NameIn
-from jointplay.solver.runs.work_precision.plan import (
-    WITHOUT_PERIOD,
-    WorkPrecisionStudy,
-    runs_of,
-)
+from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, WorkPrecisionStudy, runs_of
 
 TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 

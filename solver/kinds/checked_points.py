@@ -12,16 +12,13 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Flags, Integers
-from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
 from jointplay.solver.kinds.points import MOST_NAMED, Points, check_parameters, with_rest
-from jointplay.solver.kinds.studies import PlacedPoints, structure_of
-from jointplay.solver.mechanics.assembly import Assembly
-from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.runs.study.fields import (
     distinct,
     geometry_columns,
@@ -35,30 +32,8 @@ from jointplay.solver.scene.parameters import PLACE, set_parameters
 from jointplay.solver.scene.sizes import ill_sized
 
 
-@dataclass(frozen=True)
-class Mechanism:
-    """The first point of a structure."""
-
-    point: int
-    scene: Scene
-    tree: Tree
-    assembly: Assembly
-    channels: tuple[Channel, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class CheckedPoints(PlacedPoints):
-    """A study's points once all can be simulated."""
-
-    document: dict[str, Any]
-    """The scene document with the parameters that do not vary."""
-    echo: Echo
-    mechanisms: tuple[Mechanism, ...]
-    """By the number of the structure."""
-
-
-def check_points(job: MechanismJob, points: Points) -> CheckedPoints:
-    """Check every point.
+def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
+    """Return the points of a job once every one can be simulated.
 
     Raises
     ------
@@ -76,9 +51,9 @@ def check_points(job: MechanismJob, points: Points) -> CheckedPoints:
     _check_effect(points, scenes, scene, echo)
     columns = {leaf.path: scenes.column(leaf) for leaf in scenes.leaves}
     one.refuse(inadmissible(scenes) | ill_sized(base, columns, points.count))
-    structure = structure_of(scenes)
-    mechanisms = _mechanisms(job, one, scenes, structure)
-    return CheckedPoints(points, scene, scenes, structure, kept, echo, mechanisms)
+    placed = PlacedPoints(points, scene, scenes, kept, echo)
+    _check_mechanisms(job, one, scenes, placed.structure)
+    return placed
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,21 +140,21 @@ def _check_effect(points: Points, scenes: PointScenes, scene: Scene, echo: Echo)
         raise InvalidInput(problems)
 
 
-def _mechanisms(
+def _check_mechanisms(
     job: MechanismJob, one: _One, scenes: PointScenes, structure: Integers
-) -> tuple[Mechanism, ...]:
-    """Check each distinct structure and geometry; return the first of each structure."""
+) -> None:
+    """Check each distinct structure and geometry."""
     count = len(scenes.values)
     shapes = list(geometry_columns(scenes))
     group = distinct([structure.astype(np.float64), *shapes], count)
     _, representatives = np.unique(group, return_index=True)
     _check_geometries(one.points, len(representatives))
     failed: dict[int, list[Problem]] = {}
-    found: dict[int, Mechanism] = {}
+    found: set[int] = set()
     for point in sorted(representatives.tolist()):
         try:
-            mechanism = _mechanism(job, one, point, new=int(structure[point]) not in found)
-            found.setdefault(int(structure[point]), mechanism)
+            _check_mechanism(job, one.scene(point), new=int(structure[point]) not in found)
+            found.add(int(structure[point]))
         except LimitExceeded:
             raise
         except InvalidInput as error:
@@ -192,11 +167,9 @@ def _mechanisms(
         everywhere = not found and alike and (len(failed) > 1 or not varies)
         problems = next(iter(failed.values()))
         raise InvalidInput(problems if everywhere else one.at_values(failed, len(failed)))
-    return tuple(found[index] for index in range(len(found)))
 
 
-def _mechanism(job: MechanismJob, one: _One, point: int, *, new: bool) -> Mechanism:
-    scene = one.scene(point)
+def _check_mechanism(job: MechanismJob, scene: Scene, *, new: bool) -> None:
     tree, assembly = check(scene)
     if assembly.freedom_with_play == 0:
         raise InvalidInput.at(
@@ -207,7 +180,7 @@ def _mechanism(job: MechanismJob, one: _One, point: int, *, new: bool) -> Mechan
         )
     if new:
         check_length(scene, tree, job.formulation)
-    return Mechanism(point, scene, tree, assembly, channels(scene))
+    channels(scene)
 
 
 def _check_geometries(points: Points, count: int) -> None:

@@ -48,12 +48,6 @@ def check_count(count: int, pointer: str) -> None:
         )
 
 
-def stored_bytes(points: int, record: int, observables: int, channels: int, statistics: int) -> int:
-    """Return about how many bytes a study takes; all but the points are counts a point."""
-    numbers = record * (observables + 1) + 4 * channels + statistics
-    return int(points * (BYTES_PER_VALUE * numbers + BYTES_PER_POINT))
-
-
 def check_size(study: Study, run: float, place: str) -> None:
     """Refuse what takes too long or too much space.
 

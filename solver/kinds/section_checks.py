@@ -8,19 +8,17 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
-from jointplay.solver.kinds.checked_points import CheckedPoints
 from jointplay.solver.kinds.observables import shared_channels
 from jointplay.solver.kinds.periods import Periods
-from jointplay.solver.kinds.section import (
-    ChannelSection,
-    CrankSection,
-    OnsetSection,
-)
+from jointplay.solver.kinds.section import ChannelSection, CrankSection, OnsetSection
+from jointplay.solver.kinds.studies import PlacedPoints
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
 
 
 def check_section(
-    section: CrankSection | OnsetSection | ChannelSection, checked: CheckedPoints, units: Periods
+    section: CrankSection | OnsetSection | ChannelSection, checked: PlacedPoints, units: Periods
 ) -> None:
     """Check that a section is taken at every point.
 
@@ -39,7 +37,7 @@ def check_section(
         raise InvalidInput(problems)
 
 
-def _turns(checked: CheckedPoints, units: Periods) -> list[Problem]:
+def _turns(checked: PlacedPoints, units: Periods) -> list[Problem]:
     """Sections at a crank angle need a period at every point."""
     points = checked.points
     return [
@@ -53,7 +51,7 @@ def _turns(checked: CheckedPoints, units: Periods) -> list[Problem]:
     ]
 
 
-def _crossing(section: ChannelSection, checked: CheckedPoints) -> list[Problem]:
+def _crossing(section: ChannelSection, checked: PlacedPoints) -> list[Problem]:
     shared = shared_channels(checked)
     found = next((channel for channel in shared if channel.name == section.channel), None)
     if found is None:
@@ -62,18 +60,18 @@ def _crossing(section: ChannelSection, checked: CheckedPoints) -> list[Problem]:
     return list(crossing_problems(section, found, checked))
 
 
-def _onset(section: OnsetSection, checked: CheckedPoints) -> list[Problem]:
+def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
     joints = checked.declared.joints
     if section.onset not in joints:
         return [Problem("/section/onset", unknown("joint", section.onset, joints))]
-    for mechanism in checked.mechanisms:
-        play = mechanism.tree.play
+    for point, scene in checked.firsts.items():
+        play = spanning_tree(scene).play
         if section.onset not in play:
             there = f"; joints with clearance are: {', '.join(play)}." if play else "."
             return [
                 Problem(
                     "/section/onset",
-                    f"Joint '{section.onset}' has no clearance at point {mechanism.point}, so no"
+                    f"Joint '{section.onset}' has no clearance at point {point}, so no"
                     f" contact begins there{there}",
                 )
             ]
@@ -86,7 +84,7 @@ PLACE = "/section/value"
 
 
 def crossing_problems(
-    section: ChannelSection, channel: Channel, checked: CheckedPoints
+    section: ChannelSection, channel: Channel, checked: PlacedPoints
 ) -> Iterator[Problem]:
     """Yield why a channel does not cross a section's value, if that can be known beforehand."""
     output = next((o for o in checked.declared.outputs if o.name == channel.name), None)
@@ -135,7 +133,7 @@ class _Seen:
         )
 
 
-def _motion(seen: _Seen, body: str, quantity: str, checked: CheckedPoints) -> Iterator[Problem]:
+def _motion(seen: _Seen, body: str, quantity: str, checked: PlacedPoints) -> Iterator[Problem]:
     """Yield what the ideal mechanism and its play rule out, at the first point where they do."""
     for point in _sample(checked):
         found = motion_reach(checked.scenes.scene(point))
@@ -158,7 +156,7 @@ def _motion(seen: _Seen, body: str, quantity: str, checked: CheckedPoints) -> It
             return
 
 
-def _play(seen: _Seen, joint: str, quantity: str, checked: CheckedPoints) -> Iterator[Problem]:
+def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iterator[Problem]:
     """Yield what a joint's clearance rules out, at the first point where it does."""
     value = seen.at_source
     if quantity == "normal_force" and value <= 0.0:
@@ -179,14 +177,14 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: CheckedPoints) -> Ite
         yield Problem(PLACE, checked.beginning(point) + sentence)
 
 
-def _sample(checked: CheckedPoints) -> list[int]:
+def _sample(checked: PlacedPoints) -> list[int]:
     """Return some points at which to follow the ideal mechanism: it takes a tenth of a second.
 
     None where it moves freely, for then everything is in reach.
     """
-    if any(mechanism.assembly.freedom for mechanism in checked.mechanisms):
+    if any(assemble(scene).freedom for scene in checked.firsts.values()):
         return []
-    chosen = [mechanism.point for mechanism in checked.mechanisms]
+    chosen = list(checked.firsts)
     if checked.scenes.leaves:
         chosen.append(checked.points.count - 1)
     return sorted(set(chosen))[:4]

@@ -8,17 +8,9 @@ from pydantic import Field
 from jointplay.records.channel import Channel
 from jointplay.records.failure import LimitExceeded, Problem
 from jointplay.solver.kernels.record.equations import check_length
-from jointplay.solver.kinds import documents
+from jointplay.solver.kinds import documents, limits
 from jointplay.solver.kinds.job import ChannelChoice, Job
 from jointplay.solver.kinds.kind import Kind
-from jointplay.solver.kinds.limits import (
-    BYTES_PER_VALUE,
-    DEFAULT_SAMPLES,
-    LONGEST_IDEAL_RUN,
-    LONGEST_RUN,
-    MOST_BYTES,
-    MOST_SAMPLES,
-)
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
@@ -86,7 +78,7 @@ class Simulate(Kind[SimulateJob]):
             job,
             scene_document,
             echo,
-            output_step=job.output_step or job.duration / DEFAULT_SAMPLES,
+            output_step=job.output_step or job.duration / limits.DEFAULT_SAMPLES,
             channels=[channel.name for channel in selected],
         )
         admission = _admission(job, filled, scene, selected)
@@ -116,7 +108,7 @@ def _admission(
         period=period.seconds,
         section_note=period.note,
         joints=tuple(name for name, joint in scene.joints.items() if has_play(joint)),
-        stored_bytes=int(BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
+        stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
     )
 
 
@@ -146,7 +138,7 @@ def _check_limits(admission: Admission, duration: float, *, endless: bool) -> No
     `endless` : whether the end of a run need not be reached pose by pose.
     """
     scene, channels = admission.scene, len(admission.channels)
-    longest = LONGEST_RUN if endless else LONGEST_IDEAL_RUN
+    longest = limits.LONGEST_RUN if endless else limits.LONGEST_IDEAL_RUN
     unit = admission.period or characteristic_time(scene, shortest_link(scene))
     problems = []
     if duration > longest * unit:
@@ -162,12 +154,12 @@ def _check_limits(admission: Admission, duration: float, *, endless: bool) -> No
         ("/output_step", "samples", admission.samples, step),
         ("/duration", "Poincare sections", admission.sections, "a shorter duration"),
     ):
-        stored = BYTES_PER_VALUE * (channels + 1) * count
-        if count > MOST_SAMPLES or stored > MOST_BYTES:
+        stored = limits.BYTES_PER_VALUE * (channels + 1) * count
+        if count > limits.MOST_SAMPLES or stored > limits.MOST_BYTES:
             sentence = (
                 f"{count:.3g} {what} of {channels} channels are about {stored / 1e9:.3g} GB;"
-                f" the limits are {MOST_SAMPLES:g} and {MOST_BYTES / 1e9:g} GB. Choose {remedy},"
-                " or fewer channels."
+                f" the limits are {limits.MOST_SAMPLES:g} and {limits.MOST_BYTES / 1e9:g} GB."
+                f" Choose {remedy}, or fewer channels."
             )
             problems.append(Problem(pointer, sentence))
     if problems:

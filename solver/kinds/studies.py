@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,8 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.records.channel import Channel
 from jointplay.solver.kinds import documents
 from jointplay.solver.kinds.job import MechanismJob
-from jointplay.solver.kinds.limits import stored_bytes
-from jointplay.solver.kinds.mechanism import written
+from jointplay.solver.kinds.limits import BYTES_PER_POINT, BYTES_PER_VALUE
+from jointplay.solver.kinds.mechanism import Echo, written
 from jointplay.solver.kinds.points import Points
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.blocks import chained_blocks, chains_of, independent_blocks
@@ -21,7 +22,7 @@ from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import set_parameters
-from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.references import clearances
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +33,20 @@ class PlacedPoints:
     declared: Scene
     """As the job writes it, before parameters are set."""
     scenes: PointScenes
-    structure: Integers
-    """(points,) points of the same number have equations of the same form."""
+    document: dict[str, Any]
+    """The scene document with the parameters that do not vary."""
+    echo: Echo
+
+    @cached_property
+    def structure(self) -> Integers:
+        """(points,) points of the same number have equations of the same form."""
+        return distinct(list(structure_columns(self.scenes)), self.points.count)
+
+    @cached_property
+    def firsts(self) -> dict[int, Scene]:
+        """The first point of each structure, in the order of their numbers, and its scene."""
+        points = np.unique(self.structure, return_index=True)[1].tolist()
+        return {point: self.scenes.scene(point) for point in points}
 
     def beginning(self, point: int) -> str:
         """Return how a sentence about one point begins; empty where nothing varies."""
@@ -46,24 +59,17 @@ class PlacedPoints:
 
     def joints_with_play(self) -> set[str]:
         """Return the joints with clearance at any point."""
-        firsts = np.unique(self.structure, return_index=True)[1]
-        scenes = (self.scenes.scene(int(point)) for point in firsts)
-        return {name for scene in scenes for name, joint in scene.joints.items() if has_play(joint)}
+        return {name for scene in self.firsts.values() for name in clearances(scene)}
 
 
 def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
     """Return the points of a job that was admitted before."""
     document, declared, given = written(job)
-    _, echo = set_parameters(document, declared, given)
+    kept, echo = set_parameters(document, declared, given)
     first, _ = set_parameters(document, declared, {**given, **points.at(0)})
     leaves = leaves_of(declared, points.parameters, echo)
     scenes = PointScenes(Scene.model_validate(first), leaves, points.values())
-    return PlacedPoints(points, declared, scenes, structure_of(scenes))
-
-
-def structure_of(scenes: PointScenes) -> Integers:
-    """Return (points,) the number of each point's structure, by first appearance."""
-    return distinct(list(structure_columns(scenes)), len(scenes.values))
+    return PlacedPoints(points, declared, scenes, kept, echo)
 
 
 def make_study(
@@ -104,6 +110,7 @@ def make_study(
         chain_of[list(chain)] = index
     row = np.arange(total) % points.count  # the values once more for the other direction
     declared = placed.declared.parameters
+    numbers = record * (len(observables) + 1) + 4 * len(channels) + statistics
     return Study(
         kind=filled["kind"],
         job=filled,
@@ -127,6 +134,6 @@ def make_study(
         offset=offset[row],
         settle=settle[row],
         duration=duration[row],
-        stored_bytes=stored_bytes(total, record, len(observables), len(channels), statistics),
+        stored_bytes=int(total * (BYTES_PER_VALUE * numbers + BYTES_PER_POINT)),
         scenes=placed.scenes.at_rows(row),
     )

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.elimination import solve_symmetric
-from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
+from jointplay.solver.mechanics.motion import NOTHING, Forces, Motion, body_motions, forces_between
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import has_play
@@ -53,17 +53,7 @@ class LagrangeMechanism:
         applied = self._applied(forces)
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)
-        bodies = {
-            name: BodyMotion(
-                (self.q[3 * i], self.q[3 * i + 1]),
-                self.q[3 * i + 2],
-                (self.v[3 * i], self.v[3 * i + 1]),
-                self.v[3 * i + 2],
-                (accelerations[3 * i], accelerations[3 * i + 1]),
-                accelerations[3 * i + 2],
-            )
-            for i, name in enumerate(self.constraints.bodies)
-        }
+        bodies = body_motions(self.constraints.bodies, self.q, self.v, accelerations)
         joint_force, efforts = self.constraints.reactions(rows, multipliers)
         for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second

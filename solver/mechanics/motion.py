@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import count
 from types import MappingProxyType
 from typing import Any
 
 from jointplay.solver.laws.force import Effect, Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.play import Contact, Interaction, contact
-from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar, Scalars
 from jointplay.solver.scene.document import Revolute, Scene
 
 NOTHING: Mapping[str, Any] = MappingProxyType({})
@@ -50,6 +51,16 @@ class BodyMotion:
     spin: Scalar
     acceleration: Pair
     angular_acceleration: Scalar
+
+
+def body_motions(names: Iterable[str], q: Scalars, v: Scalars, a: Scalars) -> dict[str, BodyMotion]:
+    """Return the motion of bodies from x, y, theta of each, their rates and accelerations."""
+    return {
+        name: BodyMotion(
+            (q[i], q[i + 1]), q[i + 2], (v[i], v[i + 1]), v[i + 2], (a[i], a[i + 1]), a[i + 2]
+        )
+        for i, name in zip(count(0, 3), names)
+    }
 
 
 @dataclass(frozen=True)

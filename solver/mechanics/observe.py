@@ -1,7 +1,10 @@
 """From a mechanism in motion to the values of its channels and the terms of its energy ledger."""
 
-from jointplay.solver.mechanics.motion import Motion
+from collections.abc import Sequence
+
+from jointplay.solver.mechanics.motion import BodyMotion, Motion
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.channels import BODY, JOINT, PLAY
 from jointplay.solver.scene.document import Scene
 
 
@@ -9,23 +12,13 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     """Return the value of every channel by name; see `scene.channels` for units and meaning."""
     values: dict[str, Scalar] = {}
     for name, body in motion.bodies.items():
-        values[f"{name}.x"], values[f"{name}.y"] = body.position
-        values[f"{name}.theta"] = body.angle
-        values[f"{name}.vx"], values[f"{name}.vy"] = body.velocity
-        values[f"{name}.omega"] = body.spin
-        values[f"{name}.ax"], values[f"{name}.ay"] = body.acceleration
-        values[f"{name}.alpha"] = body.angular_acceleration
-    for name, (x, y) in motion.joint_force.items():
-        values[f"{name}.force_x"], values[f"{name}.force_y"] = x, y
+        values |= _named(name, BODY, body_values(body))
+    for name, force in motion.joint_force.items():
+        values |= _named(name, JOINT, force)
     for name, found in motion.contacts.items():
-        values[f"{name}.eccentricity_x"], values[f"{name}.eccentricity_y"] = found.eccentricity
-        rate_x, rate_y = found.eccentricity_rate
-        values[f"{name}.eccentricity_rate_x"] = rate_x
-        values[f"{name}.eccentricity_rate_y"] = rate_y
-        values[f"{name}.penetration"] = found.penetration
-        values[f"{name}.normal_force"] = found.normal_force
-        values[f"{name}.friction_force"] = found.friction_force
-        values[f"{name}.slip_velocity"] = found.slip_velocity
+        pairs = (*found.eccentricity, *found.eccentricity_rate)
+        forces = (found.normal_force, found.friction_force, found.slip_velocity)
+        values |= _named(name, PLAY, (*pairs, found.penetration, *forces))
         values |= {f"{name}.{state}": value for state, value in found.inner.items()}
     for name, effort in motion.driver_effort.items():
         values[f"{name}.torque"] = effort
@@ -37,6 +30,23 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     for output in numbers.outputs:
         values[output.name] = output.factor * values[output.channel] + output.offset
     return values
+
+
+def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
+    """Return the values of a body's channels, in the order of `BODY`."""
+    return (
+        *(*body.position, body.angle),
+        *(*body.velocity, body.spin),
+        *(*body.acceleration, body.angular_acceleration),
+    )
+
+
+def _named(
+    owner: str, table: tuple[tuple[str, str, str], ...], values: Sequence[Scalar]
+) -> dict[str, Scalar]:
+    return {
+        f"{owner}.{quantity}": value for (quantity, _, _), value in zip(table, values, strict=True)
+    }
 
 
 def energies(numbers: Scene, motion: Motion) -> tuple[Scalar, Scalar]:

@@ -5,8 +5,6 @@ joint removes coordinates, a joint with play is a force. With partial velocities
 Σ_b (m J·J + I Jω Jω) q̈ = Σ_b J·(m (g - bias) + F) + Jω T.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
@@ -14,9 +12,15 @@ from jointplay.solver.mechanics.elimination import solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
-from jointplay.solver.mechanics.tree import Tree
+from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
+
+Load = tuple[Scalar, Scalar, Scalar]
+"""Force (x and y, N) and moment (N m)."""
+Loads = Mapping[str, Load]
+"""On bodies, by name."""
+NO_LOAD: Load = (0.0, 0.0, 0.0)
 
 
 class ReducedMechanism:
@@ -49,7 +53,7 @@ class ReducedMechanism:
         forces = forces_between(
             self.numbers, self._ends, self.tree.play, modes, impact_rates, inner
         )
-        loads = _Loads(self.kinematics, forces)
+        loads = _about_references(self.kinematics, forces)
         accelerations = self._accelerations(loads) if known is None else known
         bodies = self._bodies(accelerations)
         joint_force, moments = self._reactions(loads, bodies)
@@ -70,7 +74,7 @@ class ReducedMechanism:
             (k.carried[here].spin, k.carried[there].spin),
         )
 
-    def _accelerations(self, loads: _Loads) -> list[Scalar]:
+    def _accelerations(self, loads: Loads) -> list[Scalar]:
         """Solve M q̈ = Q; M from partial velocities, Q by one pass from the leaves inwards."""
         k = self.kinematics
         names = self.tree.coordinates
@@ -101,9 +105,7 @@ class ReducedMechanism:
         right = [generalised.get(name, 0.0) for name in names]
         return solve_symmetric(mass_matrix, right)
 
-    def _project(
-        self, loads: _Loads, extra: Mapping[str, tuple[Scalar, Scalar, Scalar]]
-    ) -> dict[str, Scalar]:
+    def _project(self, loads: Loads, extra: Loads) -> dict[str, Scalar]:
         """Return generalised forces of all loads: subtree sums from the leaves to the ground."""
         sums, moments = self._subtree(loads, extra)
         generalised: dict[str, Scalar] = {}
@@ -121,9 +123,7 @@ class ReducedMechanism:
                 generalised[x], generalised[y], generalised[theta] = total[0], total[1], moment
         return generalised
 
-    def _subtree(
-        self, loads: _Loads, extra: Mapping[str, tuple[Scalar, Scalar, Scalar]]
-    ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
+    def _subtree(self, loads: Loads, extra: Loads) -> tuple[dict[str, Pair], dict[str, Scalar]]:
         """Sum forces outboard of each tree joint, and the moments that it does not let turn.
 
         The moment is about the body's reference point. Across a free revolute joint the outboard
@@ -133,7 +133,7 @@ class ReducedMechanism:
         sums: dict[str, Pair] = {}
         moments: dict[str, Scalar] = {}
         for branch in self.tree.branches:
-            fx, fy, moment = loads.about_reference(branch.body)
+            fx, fy, moment = loads.get(branch.body, NO_LOAD)
             ex, ey, turning = extra[branch.body]
             centre = k.centre(branch.body).world()
             sums[branch.body] = (fx + ex, fy + ey)
@@ -149,15 +149,14 @@ class ReducedMechanism:
             if branch.kind != "revolute" or branch.driver is not None:
                 handed = handed + moments[branch.body]
                 if branch.kind == "prismatic":
-                    handed = handed + cross(self._travel(branch.body, arm), total)
+                    handed = handed + cross(self._travel(branch, arm), total)
             moments[branch.parent] = moments[branch.parent] + handed
         return sums, moments
 
-    def _travel(self, body: str, arm: FrameVector) -> Pair:
+    def _travel(self, branch: Branch, arm: FrameVector) -> Pair:
         """Return the vector from a prismatic joint's point on the parent to that on the body."""
-        branch = self.tree.branch(body)
         parent = self.kinematics.carried[branch.parent].origin + arm
-        return (self.kinematics.carried[body].origin + parent.scaled(-1.0)).world()
+        return (self.kinematics.carried[branch.body].origin + parent.scaled(-1.0)).world()
 
     def _bodies(self, accelerations: list[Scalar]) -> dict[str, BodyMotion]:
         k = self.kinematics
@@ -181,7 +180,7 @@ class ReducedMechanism:
         return bodies
 
     def _reactions(
-        self, loads: _Loads, bodies: Mapping[str, BodyMotion]
+        self, loads: Loads, bodies: Mapping[str, BodyMotion]
     ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
         """Return force on the second body and moment on the outboard body of each tree joint."""
         gx, gy = self.numbers.gravity
@@ -218,28 +217,19 @@ class ReducedMechanism:
         return efforts
 
 
-class _Loads:
-    """Forces on the bodies, as force and moment about each body's reference point."""
-
-    def __init__(self, kinematics: Kinematics, forces: Forces) -> None:
-        self._sums: dict[str, tuple[Scalar, Scalar, Scalar]] = {}
-        for acting in forces.interactions:
-            fx, fy = acting.force_on_second
-            for reference, force, moment in (
-                (acting.second, (fx, fy), acting.moment_on_second),
-                (acting.first, (-fx, -fy), acting.moment_on_first),
-            ):
-                body, point = reference.split(".")
-                if body == WORLD:
-                    continue
-                arm = kinematics.arm(body, point).world()
-                x, y, turning = self._sums.get(body, (0.0, 0.0, 0.0))
-                self._sums[body] = (
-                    x + force[0],
-                    y + force[1],
-                    turning + moment + cross(arm, force),
-                )
-
-    def about_reference(self, body: str) -> tuple[Scalar, Scalar, Scalar]:
-        """Return force (N) and moment (N m) about a body's reference point."""
-        return self._sums.get(body, (0.0, 0.0, 0.0))
+def _about_references(kinematics: Kinematics, forces: Forces) -> Loads:
+    """Return forces (N) and moments (N m) about each body's reference point."""
+    sums: dict[str, Load] = {}
+    for acting in forces.interactions:
+        fx, fy = acting.force_on_second
+        for reference, force, moment in (
+            (acting.second, (fx, fy), acting.moment_on_second),
+            (acting.first, (-fx, -fy), acting.moment_on_first),
+        ):
+            body, point = reference.split(".")
+            if body == WORLD:
+                continue
+            arm = kinematics.arm(body, point).world()
+            x, y, turning = sums.get(body, NO_LOAD)
+            sums[body] = (x + force[0], y + force[1], turning + moment + cross(arm, force))
+    return sums

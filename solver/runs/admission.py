@@ -6,6 +6,7 @@ from typing import Any
 from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import section_offset
 
 STANDARD_TOLERANCE = 1e-6
 """Local error per step of the named accuracy "standard"."""
@@ -45,6 +46,13 @@ class Admission:
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.job["tolerance"])
+
+    @property
+    def offset(self) -> float:
+        """Time of the first section, s; 0 without a period."""
+        if self.period is None:
+            return 0.0
+        return section_offset(self.scene, self.period, self.job["section"]["crank_angle"])
 
     def scene_document(self) -> dict[str, Any]:
         """Return the scene as stores keep it."""

@@ -1,13 +1,21 @@
 """Results of a lane: its extremes, what it cost, its energy ledger, and how it failed."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.peak import Peak
+from jointplay.solver.kernels.emit.places import TIME
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import Status
-from jointplay.solver.runs.prescribed import prescribed_peaks
+from jointplay.solver.quantities.extremes import refined_peaks
+
+INSTANTS_A_PERIOD = 720
+MOST_INSTANTS = 200_000
 
 
 def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]:
@@ -23,6 +31,29 @@ def peaks_of(bundle: Bundle, lane: int, names: Sequence[str]) -> dict[str, Peak]
     if unwatched:
         found |= prescribed_peaks(bundle, lane, unwatched, at.time)
     return {name: found[name] for name in names}
+
+
+def prescribed_peaks(
+    bundle: Bundle, lane: int, names: list[str], reached: float
+) -> dict[str, Peak]:
+    """Return extremes, over 0..reached, s, of channels that drivers prescribe.
+
+    They are functions of time alone, sought afterwards; a common period is looked at once.
+    """
+    kernel, at = bundle.kernel, bundle.lane(lane)
+    period, common = float(at.run["period"]), bool(at.run["common"])
+    span = min(reached, period) if common else reached
+    columns = np.array([kernel.rows.index(name) for name in names], dtype=np.int64)
+
+    def evaluate(times: Floats) -> Floats:
+        rows = np.zeros((len(times), kernel.row.width))
+        rows[:, TIME] = times
+        rows[:, kernel.row.phase : kernel.row.wound] = at["driver_start"]
+        return bundle.observe(lane, rows, columns)
+
+    count = min(math.ceil(INSTANTS_A_PERIOD * span / period) + 16, MOST_INSTANTS)
+    times = np.linspace(0.0, span, count)
+    return refined_peaks(names, evaluate, times, evaluate(times))
 
 
 def statistics_of(bundle: Bundle, lane: int) -> dict[str, Any]:

@@ -142,8 +142,7 @@ def processes(
             context.Array("l", most_calls, lock=False),
             context.Value("b", 0, lock=False),
         )
-        begin = (shared.fractions, shared.parts, shared.leave)
-        pool = ProcessPoolExecutor(count, context, _begin, begin)
+        pool = ProcessPoolExecutor(count, context, _begin, (shared,))
     try:
         yield Processes(pool, shared, asked_to_end)
     finally:
@@ -183,10 +182,10 @@ _shared: _Shared | None = None
 """Set in a process of the pool when it begins."""
 
 
-def _begin(fractions: MutableSequence[float], parts: MutableSequence[int], leave: Any) -> None:
+def _begin(shared: _Shared) -> None:
     global _shared
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _shared = _Shared(fractions, parts, leave)
+    _shared = shared
 
 
 def _nothing() -> None:

@@ -13,6 +13,7 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.runs import stiff_method
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.certificate.certificate import Certificate
@@ -20,18 +21,6 @@ from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
-from jointplay.solver.runs.stiff_method import (
-    IMPLICIT,
-    attempts_left,
-    is_open,
-    joined,
-    reason_for,
-    stiff,
-    tightened,
-    withheld,
-)
-from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import section_offset
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "simulation"
@@ -51,12 +40,8 @@ class Simulation:
             The scene's equations are too long to compile.
         """
         self.admission = admission
-        scene = admission.scene
-        self._run: _Run = (
-            IdealRun(admission, scene)
-            if assemble(scene).freedom_with_play == 0
-            else DynamicRun(admission, scene)
-        )
+        ideal = assemble(admission.scene).freedom_with_play == 0
+        self._run: _Run = IdealRun(admission) if ideal else DynamicRun(admission)
         if checkpoint is not None:
             self._run.restore(checkpoint)
 
@@ -94,33 +79,29 @@ class Simulation:
 class DynamicRun:
     """A run of a scene that moves freely somewhere: lane 0 of a bundle, companions beside it."""
 
-    def __init__(self, admission: Admission, scene: Scene) -> None:
+    def __init__(self, admission: Admission) -> None:
         self.admission = admission
         job = admission.job
-        offset = 0.0
-        if admission.period is not None:
-            angle = job["section"]["crank_angle"]
-            offset = section_offset(scene, admission.period, angle)
         self.problem = LaneProblem(
-            scene,
+            admission.scene,
             job["duration"],
             admission.tolerance,
             job["output_step"],
             admission.samples,
             admission.sections,
-            offset,
+            admission.offset,
             step=job["step"],
         )
         self.seconds = 0.0
-        self.open = is_open(admission)
+        self.open = stiff_method.is_open(admission)
         """Whether the method is still to be chosen."""
-        self._start(admission.method, reason_for(admission))
+        self._start(admission.method, stiff_method.reason_for(admission))
 
     def _start(self, method: str, reason: str) -> None:
         """Begin with a method."""
         formulation, problem = self.admission.job["formulation"], self.problem
         if method != self.admission.method:
-            problem = tightened(problem)
+            problem = stiff_method.tightened(problem)
         self.reason = reason
         self.kernel = ready_kernel(problem.scene, formulation, method)
         self.bundle = Bundle(self.kernel, [problem])
@@ -139,7 +120,7 @@ class DynamicRun:
             begun, before = time.perf_counter(), self.bundle.attempts
             allowed = budget.attempts
             if self.open:
-                allowed = min(allowed, attempts_left(self.bundle))
+                allowed = min(allowed, stiff_method.attempts_left(self.bundle))
             (self.survey or self.bundle).advance(allowed)
             found = self._slice()
             spent = time.perf_counter() - begun
@@ -147,10 +128,9 @@ class DynamicRun:
             budget.adapt(self.bundle.attempts - before, spent)
             if self.open:
                 held.append(found)
-                if attempts_left(self.bundle):
-                    yield withheld(found)
-                    continue
-                found = joined(held) if self._goes_on() else withheld(found)
+                still_open = stiff_method.attempts_left(self.bundle) != 0
+                told = not still_open and self._goes_on()
+                found = stiff_method.joined(held) if told else stiff_method.withheld(found)
             yield found
         if self.bundle.lane(LANE).status != Status.DONE:
             raise failure_of(self.bundle, LANE, self.admission.tolerance)
@@ -159,9 +139,9 @@ class DynamicRun:
         """Choose the method: whether the run goes on, or begins again with the implicit one."""
         begun = time.perf_counter()
         self.open = False
-        reason = stiff(self.bundle, self.problem, self.admission.job["formulation"])
+        reason = stiff_method.stiff(self.bundle, self.problem, self.admission.job["formulation"])
         if reason:
-            self._start(IMPLICIT, reason)
+            self._start(stiff_method.IMPLICIT, reason)
         self.seconds += time.perf_counter() - begun
         return not reason
 

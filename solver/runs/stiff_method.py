@@ -66,11 +66,6 @@ def stiff(bundle: Bundle, problem: LaneProblem, formulation: str) -> str:
     """Return why an explicit run should begin again with the implicit method; empty: it need not.
 
     Compiles the implicit kernel where it is not cached, which takes seconds.
-
-    Raises
-    ------
-    LimitExceeded
-        The scene's equations are too long to compile for it.
     """
     lane = bundle.lane(LANE)
     if lane.attempts < ATTEMPTS or not _is_early(lane):

@@ -5,6 +5,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from pydantic import BaseModel
+
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene
@@ -68,23 +70,29 @@ def targeted_paths(scene: Scene) -> frozenset[str]:
     )
 
 
+def value_at(node: Any, path: str) -> Any:
+    """Return what stands at a JSON pointer of a document or a part; None where nothing does."""
+    for key in filter(None, path.split("/")):
+        if isinstance(node, BaseModel):
+            node = getattr(node, key, None)
+        elif isinstance(node, Mapping):
+            node = node.get(key)
+        elif isinstance(node, list) and key.isdigit() and int(key) < len(node):
+            node = node[int(key)]
+        else:
+            return None
+    return node
+
+
 def has_place(document: Any, path: str) -> bool:
     """Whether a JSON pointer leads to a single value, or to a field beside existing ones.
 
     What holds other values is no place: two parameters might then be put into each other.
     """
-    *parents, last = path.strip("/").split("/")
-    for key in parents:
-        if isinstance(document, list) and key.isdigit() and int(key) < len(document):
-            document = document[int(key)]
-        elif isinstance(document, dict) and key in document:
-            document = document[key]
-        else:
-            return False
-    if isinstance(document, dict):
-        return not isinstance(document.get(last), dict | list)
-    inside = isinstance(document, list) and last.isdigit() and int(last) < len(document)
-    return inside and not isinstance(document[int(last)], dict | list)
+    parents, _, last = path.rpartition("/")
+    parent, value = value_at(document, parents), value_at(document, path)
+    inside = isinstance(parent, list) and last.isdigit() and int(last) < len(parent)
+    return (inside or isinstance(parent, dict)) and not isinstance(value, dict | list)
 
 
 def _complaint(name: str, parameter: Parameter, value: object) -> str | None:

@@ -1,10 +1,11 @@
 """Schema errors as sentences: which field, and what would be right, with its unit."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import did_you_mean
@@ -15,49 +16,33 @@ JOINTS = frozenset({"revolute", "prismatic", "fixed"})
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
 
-Sentence = Callable[[str, str, Mapping[str, Any]], str]
-"""Takes a field, its unit (with a space before) and pydantic's context."""
-
-
-def _in(unit: str) -> str:
-    return f", in{unit}" if unit else ""
-
-
-def _of(unit: str) -> str:
-    return f" of{unit}" if unit else ""
-
-
-SENTENCES: dict[str, Sentence] = {
-    "missing": lambda field, _unit, _c: f"The field '{field}' is required.",
-    "greater_than": lambda field, unit, c: f"'{field}' must be greater than {c['gt']:g}{unit}.",
-    "greater_than_equal": lambda field, unit, c: f"'{field}' must be at least {c['ge']:g}{unit}.",
-    "less_than": lambda field, unit, c: f"'{field}' must be less than {c['lt']:g}{unit}.",
-    "less_than_equal": lambda field, unit, c: f"'{field}' must be at most {c['le']:g}{unit}.",
-    "finite_number": lambda field, unit, _c: f"'{field}' must be a finite number{_in(unit)}.",
-    "float_type": lambda field, unit, _c: f"'{field}' must be a number{_in(unit)}.",
-    "int_type": lambda field, unit, _c: f"'{field}' must be a whole number{_of(unit)}.",
-    "int_from_float": lambda field, unit, _c: f"'{field}' must be a whole number{_of(unit)}.",
-    "string_type": lambda field, _unit, _c: f"'{field}' must be a string.",
-    "list_type": lambda field, _unit, _c: f"'{field}' must be a list.",
-    "dict_type": lambda field, _unit, _c: f"'{field}' must be an object.",
-    "model_type": lambda field, _unit, _c: f"'{field}' must be an object.",
-    "literal_error": lambda field, _unit, c: f"'{field}' must be {c['expected']}.",
-    "union_tag_invalid": lambda _f, _u, c: f"'type' must be one of {c['expected_tags']}.",
-    "union_tag_not_found": lambda _f, _u, _c: (
-        "The field 'type' is required: 'revolute', 'prismatic' or 'fixed'."
+SENTENCES = {
+    "missing": "The field '{field}' is required.",
+    "greater_than": "'{field}' must be greater than {gt:g}{unit}.",
+    "greater_than_equal": "'{field}' must be at least {ge:g}{unit}.",
+    "less_than": "'{field}' must be less than {lt:g}{unit}.",
+    "less_than_equal": "'{field}' must be at most {le:g}{unit}.",
+    "finite_number": "'{field}' must be a finite number{in_unit}.",
+    "float_type": "'{field}' must be a number{in_unit}.",
+    "int_type": "'{field}' must be a whole number{of_unit}.",
+    "int_from_float": "'{field}' must be a whole number{of_unit}.",
+    "string_type": "'{field}' must be a string.",
+    "list_type": "'{field}' must be a list.",
+    "dict_type": "'{field}' must be an object.",
+    "model_type": "'{field}' must be an object.",
+    "literal_error": "'{field}' must be {expected}.",
+    "union_tag_invalid": "'type' must be one of {expected_tags}.",
+    "union_tag_not_found": "The field 'type' is required: 'revolute', 'prismatic' or 'fixed'.",
+    "too_short": "'{field}' needs at least {min_length} entries.",
+    "too_long": "'{field}' may have at most {max_length} entries.",
+    "string_too_long": "'{field}' may have at most {max_length} characters.",
+    "string_too_short": "'{field}' must not be empty.",
+    "string_pattern_mismatch": (
+        "'{field}' must begin with a letter and have at most 32 letters, digits, - or _."
     ),
-    "too_short": lambda field, _u, c: f"'{field}' needs at least {c['min_length']} entries.",
-    "too_long": lambda field, _u, c: f"'{field}' may have at most {c['max_length']} entries.",
-    "string_too_long": lambda field, _u, c: (
-        f"'{field}' may have at most {c['max_length']} characters."
-    ),
-    "string_too_short": lambda field, _u, _c: f"'{field}' must not be empty.",
-    "string_pattern_mismatch": lambda field, _u, c: (
-        f"'{field}' must be body.point, for example crank.pin or ground.O."
-        if r"\." in c["pattern"]
-        else f"'{field}' must begin with a letter and have at most 32 letters, digits, - or _."
-    ),
+    "reference": "'{field}' must be body.point, for example crank.pin or ground.O.",
 }
+"""By pydantic's type of error, in its context; a reference is a string with a point."""
 
 
 def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
@@ -70,12 +55,21 @@ def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Probl
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
         if item["type"] == "extra_forbidden":
             sentence = _no_such_field(field, root)
-        elif item["type"] in SENTENCES:
-            sentence = SENTENCES[item["type"]](field, _unit(place, root), item.get("ctx", {}))
         else:
-            sentence = f"{item['msg']}."
+            sentence = _sentence(item, field, _unit(place, root))
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
+
+
+def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
+    """Return what is wrong with a field; `unit` has a space before."""
+    kind, context = item["type"], item.get("ctx", {})
+    if kind not in SENTENCES:
+        return f"{item['msg']}."
+    if r"\." in context.get("pattern", ""):
+        kind = "reference"
+    units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
+    return SENTENCES[kind].format(field=field, **units, **context)
 
 
 def _place(location: list[str]) -> list[str]:

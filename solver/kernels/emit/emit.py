@@ -20,15 +20,20 @@ HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
 
 from numba import float64, int64, njit, void
 
-from jointplay.solver.kernels.emit.straight_line import over_lanes, over_one_lane
-from jointplay.solver.kernels.emit.straight_line import over_one_row, over_rows
+from jointplay.solver.kernels.emit.straight_line import straight_line
 
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
 '''
 DECORATOR = "@njit(void(float64[:, ::1]), **options)"
 RETURNING = "@njit(float64(float64[:, ::1]), **options)"
 
-TYPES = {"W": "float64[:, ::1]", "S": "float64[:, ::1]", "lane": "int64", "row": "int64"}
+SIGNATURES = {
+    "lanes": ("void(float64[:, ::1])", "W", "W, W, 0"),
+    "instants": ("void(float64[:, ::1], float64[:, ::1], int64)", "W, S, lane", "W, S, lane"),
+    "row": ("void(float64[:, ::1], int64)", "W, row", "W, W, row"),
+    "rows": ("int64(float64[:, ::1])", "W", "W, W, 0"),
+}
+"""Types, arguments, and arguments of the tape, by what a function goes over."""
 
 LONGEST = 3 * MOST_STATEMENTS
 """Lines of a tape: dense output, equations and channels, each within the limit, are on some."""
@@ -121,36 +126,20 @@ class Tape:
         for (name, _), value in zip(outputs, values, strict=True):
             self.lines.append(f"store {self.layout[name]}+ {value}")
 
-    def function(self, name: str) -> str:
-        """Return the source of a function of W."""
-        value = "float64" if self.lines[-1].startswith("return") else "void"
-        return self._source(name, value, "W", "over_lanes")
-
-    def function_of_one_lane(self, name: str) -> str:
-        """Return the source of a function of W, S and a lane: S is written, from a lane of W."""
-        return self._source(name, "void", "W, S, lane", "over_one_lane")
-
-    def function_of_one_row(self, name: str) -> str:
-        """Return the source of a function of W and a row."""
-        return self._source(name, "void", "W, row", "over_one_row")
-
-    def function_of_rows(self, name: str, rows: int) -> str:
-        """Return the source of a function of W that runs the tape for each row."""
-        return self._source(name, "int64", "W", "over_rows", f", {rows}")
-
-    def _source(
-        self, name: str, value: str, arguments: str, compiler: str, further: str = ""
-    ) -> str:
-        types = ", ".join(TYPES[argument] for argument in arguments.split(", "))
+    def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
+        """Return the source of a function; see `straight_line` for what it goes over."""
+        types, arguments, of_tape = SIGNATURES[over]
+        if self.lines[-1].startswith("return"):
+            types = types.replace("void", "float64")
         lines = [
-            f'{name}_tape = {compiler}("""',
+            f'{name}_tape = straight_line("""',
             *self.lines,
-            f'"""{further})',
+            f'""", "{over}", {rows})',
             "",
             "",
-            f"@njit({value}({types}), **options)",
+            f"@njit({types}, **options)",
             f"def {name}({arguments}):",
-            f"    {'' if value == 'void' else 'return '}{name}_tape({arguments})",
+            f"    {'' if types.startswith('void') else 'return '}{name}_tape({of_tape})",
         ]
         return "\n".join(lines) + "\n"
 

@@ -52,10 +52,10 @@ def source(
     surroundings.keep(["stage_time"])
     return "\n\n".join(
         [
-            states.function_of_one_lane("states_within"),
-            approaches.function_of_one_lane("gaps_within"),
-            channels.function_of_one_lane("channels_within"),
-            surroundings.function_of_one_lane("channels_around"),
+            states.function("states_within", "instants"),
+            approaches.function("gaps_within", "instants"),
+            channels.function("channels_within", "instants"),
+            surroundings.function("channels_around", "instants"),
         ]
     )
 

@@ -64,13 +64,20 @@ def contact_flags(
     dip: Expression | float = 0.0
     if shortened:
         near = extreme + 0.1 * abs(extreme - maximum(gap, start))
-        touches = select_positive(near, ONSET, 0.0)
-        grazing = select_positive(start_rate, select_positive(-rate, touches, 0.0), 0.0)
+        touches = _where(ONSET, near)
+        grazing = _where(touches, -rate, start_rate)
         away = 0.1 * abs(extreme - minimum(gap, start)) - extreme
-        parts = select_positive(away, RELEASE, 0.0)
-        dip = select_positive(rate, select_positive(-start_rate, parts, 0.0), 0.0)
+        parts = _where(RELEASE, away)
+        dip = _where(parts, -start_rate, rate)
     onset = select_positive(gap, ONSET, grazing)
-    opened = select_positive(maximum(-rate, start - LANDED), RELEASE, 0.0)
+    opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
-    closed = v(f"mode{j}")
-    return select_positive(closed, 0.0, onset), select_positive(closed, release, 0.0)
+    touching = v(f"mode{j}")
+    return select_positive(touching, 0.0, onset), _where(release, touching)
+
+
+def _where(value: Expression | float, *positive: Expression) -> Expression:
+    """Return a value where all of some expressions are positive, else 0."""
+    for condition in positive:
+        value = select_positive(condition, value, 0.0)
+    return value  # type: ignore[return-value]

@@ -24,7 +24,7 @@ from jointplay.solver.kernels.record.equations import (
     slopes,
     trigonometry,
 )
-from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
+from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.kernels.record.rows import Rows, arrange
 from jointplay.solver.mechanics.tree import Tree
@@ -159,7 +159,7 @@ def _slope_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> 
     kept = {"slope": "k1_", "ledger": "kledger1_"}
     named = [(name.rstrip("0123456789"), name, value) for name, value in slopes(equations)]
     tape.store_rows([(name.replace(block, kept[block]), value) for block, name, value in named])
-    return tape.function_of_one_row("slopes")
+    return tape.function("slopes", "row")
 
 
 def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:
@@ -177,5 +177,5 @@ def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, floa
         return numbers[str(node.data)]
     if node.index not in found:
         arguments = [_evaluate(a, numbers, found) for a in node.arguments]
-        found[node.index] = ON_FLOATS[node.operation](*arguments)
+        found[node.index] = OPERATIONS[node.operation].on_floats(*arguments)
     return found[node.index]

@@ -60,4 +60,4 @@ def _scan(name: str, layout: Layout, rows: int) -> str:
     tape = Tape(layout, fetch=lambda name: f"load {layout[name]}{'+' * (name in blocks)}")
     tape.mark("marked0", found)
     tape.store_rows([("previous0", value), ("change0", change)])
-    return tape.function_of_rows(name, rows)
+    return tape.function(name, "rows", rows)

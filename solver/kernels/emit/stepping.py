@@ -4,6 +4,9 @@ The functions work on the slots of one work array (`allocate` names them). They 
 flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want attention.
 """
 
+from collections.abc import Iterable
+from itertools import count
+
 from jointplay.solver.integrators import Method
 from jointplay.solver.kernels.emit.emit import (
     RETURNING,
@@ -79,6 +82,13 @@ class StepRecorder:
         """Return the expression of a slot."""
         return self.recorder.variable(name)
 
+    def _sum(self, weights: Iterable[float | Expression], slots: Iterable[str]) -> Expression:
+        """Return a weighted sum of slots, of as many as there are weights."""
+        total: Expression = self.recorder.constant(0.0)
+        for weight, slot in zip(weights, slots, strict=False):
+            total = total + weight * self.variable(slot)
+        return total
+
     def source(self, energies: Outputs, fixed: FixedNodes) -> str:
         """Return the source of all functions of a step.
 
@@ -120,10 +130,7 @@ class StepRecorder:
         step = self._tried() if s == 2 else v("tried")
         outputs = [("tried", step), *self._held()] if s == 2 else []
         for i in range(self.states):
-            total: Expression = self.recorder.constant(0.0)
-            for j, a in enumerate(weights, start=1):
-                total = total + a * v(f"k{j}_{i}")
-            moved = v(f"y{i}") + step * total
+            moved = v(f"y{i}") + step * self._sum(weights, (f"k{s}_{i}" for s in count(1)))
             outputs.append((f"stage{i}", moved))
             coordinate = i - self.coordinates
             if 0 <= coordinate < self.coordinates and s < self.tableau.stages:
@@ -189,9 +196,7 @@ class StepRecorder:
         """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
         squared: Expression = self.recorder.constant(SMALLEST_ERROR)
         for i in range(self.states):
-            error: Expression = self.recorder.constant(0.0)
-            for s, weight in enumerate(weights, start=1):
-                error = error + weight * self.variable(self._slope(s + self.unweighed, i))
+            error = self._sum(weights, (self._slope(s, i) for s in count(1 + self.unweighed)))
             scaled = error * self._weighed(i)
             squared = squared + scaled * scaled
         return squared
@@ -237,10 +242,8 @@ class StepRecorder:
             gross = gross + abs(v(energy) - v(f"{energy}_start"))
             outputs.append((f"{energy}_start", v(energy)))
         for i in range(self.ledger):
-            total: Expression = self.recorder.constant(0.0)
-            for s, b in enumerate(self._ledger_weights(), start=1):
-                total = total + b * v(self._ledger_at(s, i))
-            added = v("tried") * total
+            slots = (self._ledger_at(s, i) for s in count(1))
+            added = v("tried") * self._sum(self._ledger_weights(), slots)
             if i == 0:  # what went into contacts and is not stored there is lost
                 added = added - (v("stored") - v("stored_start"))
             outputs.append((f"total{i}", v(f"total{i}") + added))
@@ -288,9 +291,7 @@ class StepRecorder:
             weights.append(total)
         outputs = [("stage_time", v("time") + theta * step)]
         for i in range(self.states):
-            slope: Expression = self.recorder.constant(0.0)
-            for s, weight in enumerate(weights, start=1):
-                slope = slope + weight * v(self._slope(s, i))
+            slope = self._sum(weights, (self._slope(s, i) for s in count(1)))
             outputs.append((f"stage{i}", v(f"y{i}") + step * slope))
         for j in range(self.joints):
             outputs.append((f"mode{j}", v(f"mode{j}")))

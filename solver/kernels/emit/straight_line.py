@@ -7,7 +7,7 @@ A tape has one statement a line::
     v0 = spread 12 45       the same; slot 45 at the last four instants
     v0 = given 12           slot 12 of S
     v0 = instants 0.0 0.25 … eight numbers
-    v3 = mul v1 0.5         arithmetic: see `solver.kernels.emit.lane_arithmetic`
+    v3 = mul v1 0.5         arithmetic: see `solver.kernels.record.operations`
     store 14 v3             into slot 14 of S, or of W where there is no S
     return v3               the largest of its lanes
 
@@ -39,8 +39,8 @@ from numba.extending import intrinsic
 from jointplay.solver.kernels.emit.lane_arithmetic import (
     MARKS,
     NUMBERS,
-    OPERATIONS,
     WORD,
+    Lanes,
     everywhere,
     largest,
     lower_and_upper,
@@ -49,6 +49,7 @@ from jointplay.solver.kernels.emit.lane_arithmetic import (
 )
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.record.operations import OPERATIONS
 
 PARTS = INSTANTS // LANES
 """Halves, or the whole, of the instants."""
@@ -56,80 +57,43 @@ ALIGNED = 8
 """Bytes that an address is surely a multiple of; `kernels.loop.bundle` has arrays begin on 64."""
 
 
-def over_lanes(tape: str) -> Any:
-    """Return a function of W, inside kernels, that does what the tape says."""
+def straight_line(tape: str, over: str, rows: int = 0) -> Any:
+    """Return a function of W, S and an index, inside kernels, that does what the tape says.
 
-    @intrinsic
-    def run(_typing, W):  # noqa: N803  (as in every generated kernel)
-        def generate(context, builder, signature, arguments):
-            work = _first_number(context, builder, signature, arguments, 0)
-            return _run(tape, _Tape(builder, work, work)) or context.get_dummy_value()
-
-        return (float64 if "\nreturn " in tape else types.void)(W), generate
-
-    return run
-
-
-def over_one_lane(tape: str) -> Any:
-    """Return a function of W, S and a lane of W, inside kernels, that does what the tape says."""
-
-    @intrinsic
-    def run(_typing, W, S, lane):  # noqa: N803
-        def generate(context, builder, signature, arguments):
-            work, spare = (
-                _first_number(context, builder, signature, arguments, i) for i in range(2)
-            )
-            if PARTS == 1:
-                _run(tape, _Tape(builder, work, spare, lane=arguments[2]))
-            else:
-                with cgutils.for_range(builder, WORD(PARTS)) as loop:
-                    _run(tape, _Tape(builder, work, spare, lane=arguments[2], part=loop.index))
-            return context.get_dummy_value()
-
-        return types.void(W, S, lane), generate
-
-    return run
-
-
-def over_one_row(tape: str) -> Any:
-    """Return a function of W and a row, inside kernels, that does what the tape says."""
-
-    @intrinsic
-    def run(_typing, W, row):  # noqa: N803
-        def generate(context, builder, signature, arguments):
-            work = _first_number(context, builder, signature, arguments, 0)
-            _run(tape, _Tape(builder, work, work, row=arguments[1]))
-            return context.get_dummy_value()
-
-        return types.void(W, row), generate
-
-    return run
-
-
-def over_rows(tape: str, rows: int) -> Any:
-    """Return a function of W, inside kernels, that does what the tape says for each row.
-
-    It is a loop, and its value tells which lanes were marked in any row, bit k for lane k: written
-    out, the rows would push everything else that a step does out of the cache of instructions.
+    Parameters
+    ----------
+    over
+        ``lanes``: all, of W alone. ``instants``: those inside the step of the lane of this index,
+        written to S. ``row``: all lanes, in the row of this index. ``rows``: the same for each
+        row; the value tells which lanes were marked in any, bit k for lane k.
+    rows
+        Number of rows. They are a loop: written out, they would push everything else that a step
+        does out of the cache of instructions.
     """
+    value = {"rows": int64}.get(over, float64 if "\nreturn " in tape else types.void)
 
     @intrinsic
-    def run(_typing, W):  # noqa: N803
+    def run(_typing, W, S, index):  # noqa: N803  (as in every generated kernel)
         def generate(context, builder, signature, arguments):
-            work = _first_number(context, builder, signature, arguments, 0)
-            marks = cgutils.alloca_once_value(builder, MARKS(0))
-            with cgutils.for_range(builder, WORD(rows)) as loop:
-                _run(tape, _Tape(builder, work, work, row=loop.index, marks=marks))
-            return builder.zext(builder.load(marks), WORD)
+            source, target = (
+                context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
+                for i in (0, 1 if over == "instants" else 0)
+            )
+            if over == "rows":
+                marks = cgutils.alloca_once_value(builder, MARKS(0))
+                with cgutils.for_range(builder, WORD(rows)) as loop:
+                    _run(tape, _Tape(builder, source, target, row=loop.index, marks=marks))
+                return builder.zext(builder.load(marks), WORD)
+            if over == "instants" and PARTS > 1:
+                with cgutils.for_range(builder, WORD(PARTS)) as loop:
+                    _run(tape, _Tape(builder, source, target, lane=arguments[2], part=loop.index))
+                return context.get_dummy_value()
+            state = _Tape(builder, source, target, lane=arguments[2], row=arguments[2])
+            return _run(tape, state) or context.get_dummy_value()
 
-        return int64(W), generate
+        return value(W, S, index), generate
 
     return run
-
-
-def _first_number(context, builder, signature, arguments, i):
-    """Return the address of an argument's first number."""
-    return context.make_array(signature.args[i])(context, builder, value=arguments[i]).data
 
 
 def _run(tape: str, state: _Tape) -> Any:
@@ -152,7 +116,7 @@ def _run(tape: str, state: _Tape) -> Any:
                 state.values[name] = state.instants(*map(float, numbers))
             case [name, operation, *operands]:
                 values = map(state.value, operands)
-                state.values[name] = OPERATIONS[operation](state.builder, *values)
+                state.values[name] = OPERATIONS[operation].on_lanes(state.lanes, *values)
     return None
 
 
@@ -163,6 +127,7 @@ class _Tape:
         self, builder, source, target, *, lane=None, row=None, marks=None, part=None
     ) -> None:
         self.builder, self.source, self.target = builder, source, target
+        self.lanes = Lanes(builder)
         self.lane, self.row, self.marks, self.part = lane, row, marks, part
         self.values: dict[str, Any] = {}
 

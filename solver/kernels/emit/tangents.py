@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import kinks, tangent_step
-from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, lane_function, nothing
+from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function, nothing
 from jointplay.solver.kernels.emit.functions import addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel, values_of
 from jointplay.solver.kernels.emit.kinks import Kinks
@@ -43,15 +43,12 @@ class Tangents:
         The kernel's functions and those of tangents.
     fixed
         Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`.
-    kinks
-        Number of piecewise linear functions in the equations.
     """
 
     module: ModuleType
     layout: Layout
     places: NDArray[np.void]
     fixed: tuple[tuple[int, Expression], ...]
-    kinks: int
     addresses: NDArray[np.void]
 
     def fixed_values(self, scene: Scene) -> Floats:
@@ -90,7 +87,6 @@ def compile_tangents(kernel: Kernel) -> Tangents:
         layout,
         places,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
-        len(bends),
         addresses_of(kernel.module, module),
     )
 
@@ -104,17 +100,6 @@ def allocate(layout: Layout, states: int, joints: int, bends: int) -> None:
     tangent_step.allocate(layout, states)
 
 
-class _Renamed(Layout):
-    """A layout in which some quantities are found under other names."""
-
-    def __init__(self, layout: Layout, names: dict[str, str]) -> None:
-        super().__init__()
-        self._layout, self._names = layout, names
-
-    def __getitem__(self, name: str) -> int:
-        return self._layout[self._names.get(name, name)]
-
-
 def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: FixedNodes) -> str:
     """Return the source of carried_slopes(W): J w at a point that the step passes.
 
@@ -126,13 +111,12 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
         along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
     kinks.bend(derivative, bends)
-    outputs = [  # the slopes of coordinates are the carried speeds
-        (f"carried_slope{i}", derivative(rate)) for i, rate in equations.slopes
-    ]
-    names = {f"stage{i}": f"passing{i}" for i in range(equations.states)} | {
-        "stage_time": "passing_time"
-    }
-    return lane_function("carried_slopes", outputs, _Renamed(layout, names), fixed)
+    passing = {f"stage{i}": f"passing{i}" for i in range(equations.states)}
+    passing["stage_time"] = "passing_time"
+    tape = Tape(layout, fixed, fetch=lambda name: f"load {layout[passing.get(name, name)]}")
+    # the slopes of coordinates are the carried speeds
+    tape.store([(f"carried_slope{i}", derivative(rate)) for i, rate in equations.slopes])
+    return tape.function("carried_slopes")
 
 
 def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:

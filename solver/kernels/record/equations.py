@@ -165,7 +165,7 @@ def trigonometry(equations: Equations) -> list[Expression]:
     return [
         node
         for node in reachable(expression for _, expression in right_hand_side(equations))
-        if node.index in functions and functions[node.index].name in ("sine", "cosine")
+        if node.index in functions and functions[node.index].name in ("sin", "cos")
     ]
 
 

@@ -9,49 +9,18 @@ by side, in a quarter of the time of the others.
 """
 
 import math
-import operator
-from collections.abc import Callable
 from typing import Any
 
+from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.quantities.scalars import select_positive
 
 
-def _exponent_of(x: float) -> float:
-    return float(math.frexp(x)[1] - 1)
+def operate(name: str, x: Any, *others: Any) -> Any:
+    """Return what an operation gives, of floats or of expressions."""
+    if isinstance(x, float):
+        return OPERATIONS[name].on_floats(x, *others)
+    return x.recorder.apply(name, x, *others)
 
-
-def _mantissa_of(x: float) -> float:
-    return 2.0 * math.frexp(x)[0]
-
-
-def _power_of_two(x: float) -> float:
-    return math.ldexp(1.0, int(min(max(x, -1022.0), 1023.0)))
-
-
-def _quarter_turns(n: float, sine: float, cosine: float) -> float:
-    """Return the sine of an angle n quarter turns on."""
-    return (sine, cosine, -sine, -cosine)[int(n) % 4]
-
-
-ON_FLOATS: dict[str, Callable[..., float]] = {
-    "add": operator.add,
-    "sub": operator.sub,
-    "mul": operator.mul,
-    "div": operator.truediv,
-    "neg": operator.neg,
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "floor": math.floor,
-    "sin": math.sin,
-    "cos": math.cos,
-    "pow": operator.pow,
-    "select": lambda x, a, b: a if x > 0.0 else b,
-    "exponent_of": _exponent_of,
-    "mantissa_of": _mantissa_of,
-    "power_of_two": _power_of_two,
-    "quarter_turns": _quarter_turns,
-}
-"""Every operation of the recorder on floats."""
 
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = (1.5707963267341256, 6.0771005065061922e-11)
@@ -77,11 +46,6 @@ COSINE = (
 """Minimax coefficients on [-pi/4, pi/4] (fdlibm, Sun Microsystems 1993)."""
 
 
-def floor(x: Any) -> Any:
-    """Largest whole number not above x."""
-    return math.floor(x) * 1.0 if isinstance(x, float) else x.floor()
-
-
 def _polynomial(x: Any, coefficients: tuple[float, ...]) -> Any:
     total: Any = coefficients[-1]
     for coefficient in reversed(coefficients[:-1]):
@@ -96,28 +60,14 @@ def of_six(z: Any, w: Any, c: tuple[float, ...]) -> Any:
 
 def sine_cosine(x: Any) -> tuple[Any, Any]:
     """Sine and cosine for angles up to 1e6 rad, within two units in the last place of 1."""
-    n = floor(x * TWO_OVER_PI + 0.5)
+    n = operate("floor", x * TWO_OVER_PI + 0.5)
     r = (x - n * HALF_PI[0]) - n * HALF_PI[1]
     z = r * r
     w = z * z
     sine = r + (r * z) * of_six(z, w, SINE)
     cosine = (1.0 - 0.5 * z) + w * of_six(z, w, COSINE)
-    if isinstance(x, float):
-        return _quarter_turns(n, sine, cosine), _quarter_turns(n + 1.0, sine, cosine)
-    return sine.quarter_turns(n, cosine), sine.quarter_turns(n + 1.0, cosine)
-
-
-def split(x: Any) -> tuple[Any, Any]:
-    """Return e and m with x = m 2^e and 1 <= m < 2, for a normal x > 0."""
-    if isinstance(x, float):
-        return _exponent_of(x), _mantissa_of(x)
-    exponent, mantissa = x.exponent_and_mantissa()
-    return exponent, mantissa
-
-
-def power_of_two(whole: Any) -> Any:
-    """2^n for a whole number n, limited to the range of a float."""
-    return _power_of_two(whole) if isinstance(whole, float) else whole.power_of_two()
+    turned = operate("quarter_turns", n, sine, cosine)
+    return turned, operate("quarter_turns", n + 1.0, sine, cosine)
 
 
 LOG2_E = 1.4426950408889634
@@ -131,7 +81,7 @@ SMALLEST = 1e-300
 
 def log2(x: Any) -> Any:
     """Base-2 logarithm of x > 0, within 4e-16 of max(1, |log2 x|)."""
-    exponent, mantissa = split(x)
+    exponent, mantissa = operate("exponent_of", x), operate("mantissa_of", x)
     upper = mantissa - math.sqrt(2.0)
     mantissa = select_positive(upper, 0.5 * mantissa, mantissa)
     exponent = select_positive(upper, exponent + 1.0, exponent)
@@ -141,9 +91,9 @@ def log2(x: Any) -> Any:
 
 def exp2(x: Any) -> Any:
     """2 ** x, relative error within 4e-16 for |x| < 1000."""
-    whole = floor(x + 0.5)
+    whole = operate("floor", x + 0.5)
     fraction = _polynomial((x - whole) * LN_2, EXPONENTIAL_SERIES)
-    return fraction * power_of_two(whole)
+    return fraction * operate("power_of_two", whole)
 
 
 def power(x: Any, exponent: Any) -> Any:
@@ -177,12 +127,12 @@ EXP2 = (
 
 def coarse_log2(x: Any) -> Any:
     """Base-2 logarithm of a normal x > 0, within 1.3e-5."""
-    exponent, mantissa = split(x)
+    exponent, mantissa = operate("exponent_of", x), operate("mantissa_of", x)
     return exponent + of_six(mantissa, mantissa * mantissa, LOG2)
 
 
 def coarse_exp2(x: Any) -> Any:
     """2 ** x, relative error within 1.2e-7 for |x| < 1000."""
-    whole = floor(x + 0.5)
+    whole = operate("floor", x + 0.5)
     fraction = x - whole
-    return of_six(fraction, fraction * fraction, EXP2) * power_of_two(whole)
+    return of_six(fraction, fraction * fraction, EXP2) * operate("power_of_two", whole)

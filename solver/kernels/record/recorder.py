@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.record import lane_functions
+from jointplay.solver.kernels.record.operations import OPERATIONS
 
 MOST_STATEMENTS = 10_000
 """Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000)."""
@@ -81,7 +82,7 @@ class Recorder:
     def apply(self, operation: str, *arguments: Expression) -> Expression:
         """Return the node of an operation, folded where all arguments are literals."""
         if all(e.operation == "constant" for e in arguments):
-            return self.constant(lane_functions.ON_FLOATS[operation](*(e.value for e in arguments)))
+            return self.constant(OPERATIONS[operation].on_floats(*(e.value for e in arguments)))
         return self.node(operation, arguments, None, fixed=all(e.fixed for e in arguments))
 
 
@@ -188,23 +189,6 @@ class Expression:
         """Square root."""
         return self.recorder.apply("sqrt", self)
 
-    def floor(self) -> Expression:
-        """Largest whole number not above."""
-        return self.recorder.apply("floor", self)
-
-    def exponent_and_mantissa(self) -> tuple[Expression, Expression]:
-        """Return e and m with x = m 2^e and 1 <= m < 2, for x > 0."""
-        apply = self.recorder.apply
-        return apply("exponent_of", self), apply("mantissa_of", self)
-
-    def power_of_two(self) -> Expression:
-        """2^x for a whole number x, limited to the range of a float."""
-        return self.recorder.apply("power_of_two", self)
-
-    def quarter_turns(self, n: Expression, cosine: Expression) -> Expression:
-        """Return the sine of an angle n quarter turns on, of which this is the sine."""
-        return self.recorder.apply("quarter_turns", n, self, cosine)
-
     def select_positive(self, if_positive: object, otherwise: object) -> Expression:
         """`if_positive` where x > 0, else `otherwise`."""
         a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)
@@ -219,8 +203,8 @@ class Expression:
         if self.fixed:
             return self.recorder.apply("sin", self), self.recorder.apply("cos", self)
         sine, cosine = lane_functions.sine_cosine(self)
-        self.recorder.functions[sine.index] = Function("sine", self, cosine)
-        self.recorder.functions[cosine.index] = Function("cosine", self, sine)
+        self.recorder.functions[sine.index] = Function("sin", self, cosine)
+        self.recorder.functions[cosine.index] = Function("cos", self, sine)
         return sine, cosine
 
     def kinked(self, argument: Expression) -> Expression:
@@ -236,7 +220,7 @@ class Expression:
             return self.recorder.apply("pow", self, lifted)
         result: Expression = lane_functions.power(self, lifted)
         if lifted.fixed:
-            self.recorder.functions[result.index] = Function("power", self, lifted)
+            self.recorder.functions[result.index] = Function("pow", self, lifted)
         return result
 
 

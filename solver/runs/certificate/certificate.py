@@ -12,17 +12,8 @@ from jointplay.records.arrays import Floats
 from jointplay.records.channel import Channel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.runs import Status
+from jointplay.solver.runs.certificate import estimate
 from jointplay.solver.runs.certificate.companions import LADDER, PERTURBED, RUN, Companions
-from jointplay.solver.runs.certificate.estimate import (
-    BINS,
-    CONVERGED,
-    SAFETY,
-    estimated_error,
-    histogram,
-    spans,
-    until,
-    within,
-)
 from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.starts import start_scales
@@ -82,9 +73,9 @@ class Certificate:
             nothing,
             np.full(channels, duration),
             np.full((channels, 4), np.nan),
-            np.full((BINS + 1, channels), np.nan),
-            np.full((BINS, channels), np.nan),
-            np.full((BINS, channels), np.nan),
+            np.full((estimate.BINS + 1, channels), np.nan),
+            np.full((estimate.BINS, channels), np.nan),
+            np.full((estimate.BINS, channels), np.nan),
             facts,
         )
 
@@ -114,23 +105,23 @@ def certify(
     motion = _motion(scene)
     columns = np.array([rows.index(name) for name in [*names, *motion]], dtype=np.int64)
     values = companions.values(columns)
-    error = estimated_error(values)
+    error = estimate.estimated_error(values)
     units = [channel.unit for channel in channels] + list(motion.values())
     scales = _scales(values, [*names, *motion], units, scene)
     count = len(names)
-    small = within(error, scales)
-    known = spans(small[:, count:], time)
-    edges, share, spread = histogram(values[:, :, :count], time)
+    small = estimate.within(error, scales)
+    known = estimate.spans(small[:, count:], time)
+    edges, share, spread = estimate.histogram(values[:, :, :count], time)
     energy = ledger_of(bundle, RUN)
     gross = energy["gross_work"]
     facts = {
         "note": "",
         "horizon": known[0][1],
         "converged": known,
-        "criterion": f"the estimated error of each journal's centre is below {CONVERGED:g} of its"
-        f" clearance from side to side, and that of each body's position and angle below"
-        f" {CONVERGED:g} of its range",
-        "safety": SAFETY,
+        "criterion": f"the estimated error of each journal's centre is below"
+        f" {estimate.CONVERGED:g} of its clearance from side to side, and that of each body's"
+        f" position and angle below {estimate.CONVERGED:g} of its range",
+        "safety": estimate.SAFETY,
         "exponent": None if exponent is None else asdict(exponent),
         "exponent_note": ""
         if exponent is not None
@@ -145,7 +136,7 @@ def certify(
     return Certificate(
         time,
         error[:, :count],
-        until(small[:, :count], time),
+        estimate.until(small[:, :count], time),
         _extremes(companions, names),
         edges,
         share,

@@ -14,7 +14,7 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
-from jointplay.solver.mechanics.motion import BodyMotion, Motion, forces_between
+from jointplay.solver.mechanics.motion import Motion, body_motions, forces_between
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import characteristic_time
@@ -71,17 +71,9 @@ class IdealMotion:
         self.mechanism.apply(acting, applied, *at)
         force = np.stack(applied, axis=1)
         multipliers = _solve(jacobian.transpose(0, 2, 1), force)
-        bodies = {
-            name: BodyMotion(
-                (q[:, 3 * i], q[:, 3 * i + 1]),
-                q[:, 3 * i + 2] + turned[:, 3 * i + 2],
-                (v[:, 3 * i], v[:, 3 * i + 1]),
-                v[:, 3 * i + 2],
-                (a[:, 3 * i], a[:, 3 * i + 1]),
-                a[:, 3 * i + 2],
-            )
-            for i, name in enumerate(self.mechanism.bodies)
-        }
+        shown = q.copy()
+        shown[:, 2::3] += turned[:, 2::3]
+        bodies = body_motions(self.mechanism.bodies, *map(_columns, (shown, v, a)))
         forces, efforts = self.mechanism.reactions(rows, _columns(multipliers))
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
         return Motion(list(_columns(a)), bodies, acting, forces, efforts, speeds)

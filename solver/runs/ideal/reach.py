@@ -6,12 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.motion import IdealMotion
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.channels import BODY
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import common_period
+from jointplay.solver.scene.references import clearances
 
-POSITIONS = ("x", "y", "theta")
-RATES = ("vx", "vy", "omega", "ax", "ay", "alpha")
+QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 SLACK = 0.01
 """Share of a range that is granted beyond it: extremes lie between the instants looked at."""
 SECOND_ORDER = 2.0
@@ -41,12 +43,8 @@ class MotionReach:
     def __init__(self, scene: Scene, period: float) -> None:
         self.motion = IdealMotion(scene, period, period)
         self.bodies = list(scene.bodies)
-        self.play = {
-            name: joint.clearance.radial_clearance
-            for name, joint in scene.joints.items()
-            if isinstance(joint, Revolute) and joint.clearance is not None
-        }
-        self.strayed = SECOND_ORDER * self.motion.displacements(self.play)
+        play = {name: found.radial_clearance for name, found in clearances(scene).items()}
+        self.strayed = SECOND_ORDER * self.motion.displacements(play)
 
     def of(self, body: str, quantity: str) -> Reach | None:
         """Return the reach of a body's channel; None where play leaves it open.
@@ -54,28 +52,20 @@ class MotionReach:
         With play a velocity or an acceleration can be anything, unless the play does not reach
         the body at all: then it moves as the ideal one does.
         """
-        first = 3 * self.bodies.index(body)
-        if quantity in POSITIONS:
-            column = first + POSITIONS.index(quantity)
+        order, axis = divmod(QUANTITIES.index(quantity), 3)
+        column = 3 * self.bodies.index(body) + axis
+        if order == 0:
             path, strayed = self.motion.table[:, column], self.strayed[:, column]
             turns = 0
             if quantity == "theta":
                 turns = round((path[-1] - path[0]) / (2.0 * math.pi))
             return _widened(path - strayed, path + strayed, turns)
-        axis = RATES.index(quantity) % 3
-        if quantity not in RATES or self.strayed[:, first + axis].any():
+        if self.strayed[:, column].any():
             return None
         instants = np.linspace(0.0, self.motion.unit, len(self.motion.table))
-        moved = self.motion.at(instants, instants).bodies[body]
-        found = {
-            "vx": moved.velocity[0],
-            "vy": moved.velocity[1],
-            "omega": moved.spin,
-            "ax": moved.acceleration[0],
-            "ay": moved.acceleration[1],
-            "alpha": moved.angular_acceleration,
-        }
-        return _widened(found[quantity], found[quantity], 0)
+        values = body_values(self.motion.at(instants, instants).bodies[body])
+        moved = values[QUANTITIES.index(quantity)]
+        return _widened(moved, moved, 0)
 
 
 def motion_reach(scene: Scene) -> MotionReach | None:

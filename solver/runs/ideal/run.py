@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,13 +13,11 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.solver.mechanics.observe import channel_values
-from jointplay.solver.quantities.extremes import refine_extreme
+from jointplay.solver.quantities.extremes import refined_peaks, sampled_peak
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.results import Slice, Summary
-from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.periods import section_offset
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "ideal run"
@@ -33,19 +31,16 @@ ROWS_A_SLICE = 1000
 class IdealRun:
     """A run of an ideal mechanism: samples, then sections, then extremes."""
 
-    def __init__(self, admission: Admission, scene: Scene) -> None:
+    def __init__(self, admission: Admission) -> None:
         self.admission = admission
         self.duration = float(admission.job["duration"])
-        self.motion = IdealMotion(scene, admission.period, self.duration)
+        self.motion = IdealMotion(admission.scene, admission.period, self.duration)
         self.names = [channel.name for channel in admission.channels]
         self.samples_done = 0
         self.sections_done = 0
         self.seconds = 0.0
         self.peaks: dict[str, Peak] = {}
-        self.offset = 0.0
-        if admission.period is not None:
-            angle = admission.job["section"]["crank_angle"]
-            self.offset = section_offset(scene, admission.period, angle)
+        self.offset = admission.offset
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
@@ -90,7 +85,7 @@ class IdealRun:
         if not peaks and self.samples_done:
             times = np.arange(self.samples_done) * self.admission.job["output_step"]
             values = self.channels(times)
-            peaks = {name: _sampled(times, values[:, c]) for c, name in enumerate(self.names)}
+            peaks = {name: sampled_peak(times, values[:, c]) for c, name in enumerate(self.names)}
         statistics: dict[str, Any] = {
             "steps": 0,
             "rejections": 0,
@@ -176,21 +171,4 @@ class IdealRun:
         values = np.concatenate(
             [self.channels(times[i : i + ROWS_A_SLICE]) for i in range(0, len(times), ROWS_A_SLICE)]
         )
-        peaks = {}
-        for c, name in enumerate(self.names):
-            column = values[:, c]
-            if column.min() == column.max():
-                peaks[name] = _sampled(times, column)
-                continue
-            low_time, low = refine_extreme(self._channel(c), times, column, -1.0)
-            high_time, high = refine_extreme(self._channel(c), times, column, 1.0)
-            peaks[name] = Peak(low, low_time, high, high_time)
-        return peaks
-
-    def _channel(self, column: int) -> Callable[[Floats], Floats]:
-        return lambda times: self.channels(times)[:, column]
-
-
-def _sampled(times: Floats, values: Floats) -> Peak:
-    low, high = int(values.argmin()), int(values.argmax())
-    return Peak(float(values[low]), float(times[low]), float(values[high]), float(times[high]))
+        return refined_peaks(self.names, self.channels, times, values)

@@ -15,8 +15,9 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
-from jointplay.solver.runs.study.scenes import PointScenes, replaced, value_at
+from jointplay.solver.runs.study.scenes import PointScenes, replaced
 from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.parameters import value_at
 
 _CONFIG = ConfigDict(
     strict=Strict.model_config["strict"],

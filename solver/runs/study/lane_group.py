@@ -38,13 +38,7 @@ class LaneGroup:
     """A kernel's lanes, each with the point that it computes, or free."""
 
     def __init__(self, study: Study, structure: int) -> None:
-        """Compile or load the kernel of a structure, and its tangents where they are wanted.
-
-        Raises
-        ------
-        LimitExceeded
-            The scene's equations are too long to compile.
-        """
+        """Compile or load the kernel of a structure, and its tangents where they are wanted."""
         point = int(np.flatnonzero(study.structure == structure)[0])
         kernel = ready_kernel(study.point_scene(point), study.job["formulation"], study.method)
         tangents = compile_tangents(kernel) if "lyapunov" in study.indicators else None

@@ -35,7 +35,7 @@ class PointRun:
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
     tallies: list[Floats] = field(default_factory=list)
-    """Tallies of the job's statistics, in its order; see `solver.runs.study.point_run`."""
+    """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0
     """Samples that they have had."""
     settling: Settling | None = field(default=None, repr=False)
@@ -44,13 +44,8 @@ class PointRun:
         """Look at the sections of the last leg; return whether the motion has settled."""
         found = self.settling or Settling(scales, RECURS, max(most, 1))
         if found.result is None:
-            states = (
-                unwound(np.concatenate(self.seen), angles)
-                if self.seen
-                else np.zeros((0, len(scales)))
-            )
-            new = states[len(found.sections) :]
-            found.feed(new)
+            states = np.concatenate([np.zeros((0, len(scales))), *self.seen])
+            found.feed(unwound(states, angles)[len(found.sections) :])
         self.settling = found
         return found.result is not None and found.result.code != SETTLINGS["unsettled"]
 

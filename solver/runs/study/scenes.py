@@ -15,6 +15,7 @@ from pydantic import BaseModel
 
 from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.parameters import value_at
 
 Branches = dict[str, Any]
 
@@ -94,20 +95,6 @@ def leaves_of(
             elif echo.get(name) is not None:
                 found.pop(target.path, None)
     return tuple(found.values())
-
-
-def value_at(node: Any, path: str) -> Any:
-    """Return what stands at a JSON pointer of a parsed document; None where nothing does."""
-    for key in path.strip("/").split("/"):
-        if isinstance(node, BaseModel):
-            node = getattr(node, key, None)
-        elif isinstance(node, Mapping):
-            node = node.get(key)
-        elif isinstance(node, list) and key.isdigit() and int(key) < len(node):
-            node = node[int(key)]
-        else:
-            return None
-    return node
 
 
 def replaced(node: Any, keys: Sequence[str], value: float) -> Any:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Protocol
+from typing import Any
 
-from jointplay.records.arrays import Floats
+from jointplay.records.study import StudySource
 from jointplay.solver.runs.work_precision.plan import DEFAULT
 
 
@@ -79,30 +79,6 @@ def advice(points: Sequence[Point], uncertainty: float) -> str:
     )
 
 
-class Found(Protocol):
-    """A stored study, as far as it is read here; a reader of its store is one."""
-
-    @property
-    def attributes(self) -> Mapping[str, Any]:
-        """At least "job" and "runs", what each point stands for."""
-        ...
-
-    @property
-    def complete(self) -> bool:
-        """Every run has ended."""
-        ...
-
-    @property
-    def statistics(self) -> Mapping[str, Floats]:
-        """(points,) by the names of `solver.runs.work_precision.plan.OUTPUTS`, and "steps"."""
-        ...
-
-    @property
-    def failures(self) -> Mapping[int, Any]:
-        """By point, why a run did not come to its end, each with a sentence `detail`."""
-        ...
-
-
 @dataclass(frozen=True)
 class WorkPrecision:
     """A work-precision study as far as it has come.
@@ -119,7 +95,7 @@ class WorkPrecision:
     """The runs that were computed, without the references."""
 
     @classmethod
-    def of(cls, found: Found) -> WorkPrecision:
+    def of(cls, found: StudySource) -> WorkPrecision:
         """Return the study that a store holds."""
         runs, columns = found.attributes["runs"], found.statistics
 

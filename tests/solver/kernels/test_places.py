@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.emit.functions import SIGNATURES, addresses_of
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
-from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
 from jointplay.solver.kernels.emit.places import (
     DERIVED,
     NAMES,
@@ -26,8 +25,6 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
-from jointplay.solver.kernels.record.derivative import RULES
-from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
 from jointplay.solver.mechanics.tree import spanning_tree
 from tests.solver.readable_mechanics import preset
 
@@ -129,10 +126,3 @@ def test_a_lane_goes_on_from_its_own_row_where_it_was() -> None:
     again = Bundle(kernel, [LaneProblem(scene, 0.3, 1e-8, 0.3, 2, 0, 0.0, start=start)]).lane(0)
     for name in ("y", "time", "mode", "impact_rate", "k1_", "phase"):
         assert again[name].tobytes() == lane[name].tobytes(), name
-
-
-def test_every_operation_has_its_floats_its_vectors_and_its_derivative() -> None:
-    of_numbers_alone = {"sin", "cos", "pow"}  # evaluated once a run, outside of the kernel
-    of_functions = {"sine", "cosine", "power"}  # recorded as arithmetic
-    assert OPERATIONS.keys() == ON_FLOATS.keys() - of_numbers_alone
-    assert RULES.keys() - of_functions == OPERATIONS.keys()

@@ -10,8 +10,8 @@ from jointplay.records.failure import LimitExceeded
 from jointplay.records.names import RESERVED_OUTPUTS
 from jointplay.solver.integrators import TSITOURAS5
 from jointplay.solver.kernels.emit.kernel import compile_kernel
+from jointplay.solver.kernels.record import operations
 from jointplay.solver.kernels.record.equations import record
-from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
 from jointplay.solver.kernels.record.recorder import MOST_STATEMENTS, Expression, Recorder
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
 from jointplay.solver.mechanics.tree import spanning_tree
@@ -31,7 +31,7 @@ def evaluate(node: Expression, values: dict[str, float], found: dict[int, float]
         return values[str(node.data)]
     if node.index not in found:
         arguments = [evaluate(a, values, found) for a in node.arguments]
-        found[node.index] = ON_FLOATS[node.operation](*arguments)
+        found[node.index] = operations.OPERATIONS[node.operation].on_floats(*arguments)
     return found[node.index]
 
 

@@ -9,21 +9,16 @@ from hypothesis import strategies as st
 from numba import njit
 
 from jointplay.solver.kernels.emit.emit import Tape
-from jointplay.solver.kernels.emit.lane_arithmetic import OPERATIONS
-from jointplay.solver.kernels.emit.straight_line import (
-    over_lanes,
-    over_one_lane,
-    over_one_row,
-    over_rows,
-)
+from jointplay.solver.kernels.emit.straight_line import straight_line
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS, Layout
-from jointplay.solver.kernels.record.lane_functions import ON_FLOATS
+from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.record.recorder import Recorder
 
 SLOTS = 24
 POSITIVE = {"sqrt", "exponent_of", "mantissa_of"}
-EVERY_OPERATION = dict.fromkeys(OPERATIONS, 1) | {
+ON_LANES = {name for name, one in OPERATIONS.items() if one.on_lanes}
+EVERY_OPERATION = dict.fromkeys(ON_LANES, 1) | {
     "add": 2,
     "sub": 2,
     "mul": 2,
@@ -34,12 +29,12 @@ EVERY_OPERATION = dict.fromkeys(OPERATIONS, 1) | {
 """How many operands each has."""
 
 
-def compiled(tape, compiler=over_lanes, *further):
+def compiled(tape, over="lanes", rows=0):
     """Return what a tape does to W, or to W, S and a lane."""
-    run = compiler(tape, *further)
-    if compiler is over_one_lane:
+    run = straight_line(tape, over, rows)
+    if over == "instants":
         return njit(lambda work, spare, lane: run(work, spare, lane))
-    return njit(lambda work: run(work), error_model="numpy")
+    return njit(lambda work: run(work, work, 0), error_model="numpy")
 
 
 RUNS = {
@@ -53,7 +48,7 @@ RUNS = {
 }
 
 
-@pytest.mark.parametrize("operation", sorted(OPERATIONS))
+@pytest.mark.parametrize("operation", sorted(ON_LANES))
 @given(numbers=st.lists(st.floats(-1e3, 1e3), min_size=3 * LANES, max_size=3 * LANES))
 def test_every_operation_does_in_each_lane_what_it_does_to_floats(
     operation: str, numbers: list[float]
@@ -69,7 +64,8 @@ def test_every_operation_does_in_each_lane_what_it_does_to_floats(
     work = np.zeros((SLOTS, LANES))
     work[:3] = operands
     RUNS[operation](work)
-    expected = [ON_FLOATS[operation](*map(float, operands[:count, lane])) for lane in range(LANES)]
+    on_floats = OPERATIONS[operation].on_floats
+    expected = [on_floats(*map(float, operands[:count, lane])) for lane in range(LANES)]
     assert work[9].tolist() == expected
 
 
@@ -100,7 +96,7 @@ store 5 v0
 store 6 v4
 store 7 v3
 """
-    run = compiled(tape, over_one_lane)
+    run = compiled(tape, "instants")
     work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
     spare = 1000.0 * np.ones((SLOTS, INSTANTS))
     for lane in range(LANES):
@@ -122,7 +118,7 @@ def test_rows_mark_the_lanes_that_are_positive(numbers: list[float]) -> None:
     assert np.array_equal(work[16:21], 2.0 * work[8:13])
 
 
-ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", over_rows, 5)
+ROWS = compiled("v0 = load 8+\nv1 = mul 2.0 v0\nmark 1 v0\nstore 16+ v1", "rows", 5)
 
 
 def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
@@ -139,8 +135,8 @@ def test_a_tape_evaluates_what_slots_held_before_any_is_stored() -> None:
 
 
 def test_a_tape_for_one_row_moves_its_slots() -> None:
-    run = over_one_row("v0 = load 2\nv1 = load 4+\nv2 = add v0 v1\nstore 8+ v2")
-    moved = njit(lambda work, row: run(work, row))
+    run = straight_line("v0 = load 2\nv1 = load 4+\nv2 = add v0 v1\nstore 8+ v2", "row")
+    moved = njit(lambda work, row: run(work, work, row))
     work = np.arange(SLOTS * LANES, dtype=float).reshape(SLOTS, LANES)
     expected = work[2] + work[7]
     moved(work, 3)

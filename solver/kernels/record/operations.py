@@ -1,0 +1,212 @@
+"""Operations of recorded expressions: one table of what each is on floats, on lanes, derived.
+
+Nothing is reassociated on lanes; products and sums may become one operation (contract), the sign of
+zero does not matter (nsz), a division may become a product (arcp).
+
+Where an operation has no derivative it takes that of the branch in force: a select that of its
+chosen value, a floor and the powers of two none at all. A square root at zero counts as constant,
+so that the depth of a contact, x sqrt(x), has derivative 0 at its onset and not 0 / 0.
+"""
+
+import math
+import operator
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+Node = Any
+"""An expression of `solver.kernels.record.recorder`, which uses this table."""
+Rates = tuple[Node, ...]
+"""Derivatives of a node's arguments."""
+Lanes = Any
+"""Builder of code for vectors: `solver.kernels.emit.lane_arithmetic.Lanes`."""
+Vector = Any
+"""A vector of that code, a number a lane."""
+
+FLAGS = ("contract", "nsz", "arcp")
+MANTISSA_BITS, BIAS = 52, 1023
+MANTISSA_MASK = (1 << MANTISSA_BITS) - 1
+SIGN_BIT = 63
+WHOLE = 1.5 * 2.0**MANTISSA_BITS
+"""A number so large that the lowest bits of what is added are whole numbers' own."""
+
+
+@dataclass(frozen=True)
+class Operation:
+    """An operation of the recorder.
+
+    Attributes
+    ----------
+    on_floats
+        Its value for numbers.
+    rate
+        Its derivative, from a node and the derivatives of its arguments.
+    on_lanes
+        Its code, from a builder and vectors; none of what kernels have as arithmetic
+        (`solver.kernels.record.lane_functions`), whose node and one argument the recorder knows.
+    """
+
+    on_floats: Callable[..., float]
+    rate: Callable[[Node, Rates], Node]
+    on_lanes: Callable[..., Vector] | None = None
+
+
+def _nothing(node: Node, _rates: Rates) -> Node:
+    return node.recorder.constant(0.0)
+
+
+def _vanishing(node: Node) -> Node | None:
+    """Return what a node vanishes with: an expression that is not positive where the node is 0."""
+    while True:
+        if node.operation == "select":
+            return node.arguments[0] if node.arguments[2].is_literal(0.0) else None
+        if node.operation in ("neg", "sqrt", "div"):
+            node = node.arguments[0]
+        elif node.operation == "mul":
+            first = _vanishing(node.arguments[0])
+            if first is not None:
+                return first
+            node = node.arguments[1]
+        else:
+            return None
+
+
+def _share(factor: Node, rate: Node) -> Node:
+    """Return factor * rate; nothing where the factor vanishes, however large the rate is there.
+
+    A journal that hangs in the centre of its bearing has a normal that turns infinitely fast; what
+    keeps that out of the equations is that its contact force is 0.
+    """
+    condition = None if rate.is_literal(0.0) else _vanishing(factor)
+    product = factor * rate
+    return product if condition is None else condition.select_positive(product, 0.0)
+
+
+def _product_rate(node: Node, rates: Rates) -> Node:
+    (a, b), (da, db) = node.arguments, rates
+    for root, square, rate in ((a, b, db), (b, a, da)):
+        if root.operation == "sqrt" and root.arguments[0] is square:
+            return 1.5 * root * rate  # x sqrt(x): no division, and 0 at 0
+    return _share(b, da) + _share(a, db)
+
+
+def _quotient_rate(node: Node, rates: Rates) -> Node:
+    (a, b), (da, db) = node.arguments, rates
+    if da.is_literal(0.0) and a.is_literal(1.0):
+        return -(node * (node * db))
+    return (da - node * db) / b
+
+
+def _root_rate(node: Node, rates: Rates) -> Node:
+    (x,) = node.arguments
+    return x.select_positive(0.5 * rates[0] / node, 0.0)
+
+
+def _power_rate(node: Node, rates: Rates) -> Node:
+    known = node.recorder.functions[node.index]
+    slope = known.partner * node / known.argument
+    return known.argument.select_positive(slope * rates[0], 0.0)
+
+
+def _select(lanes: Lanes, x: Vector, a: Vector, b: Vector) -> Vector:
+    """Return a where x > 0, else b; a difference is compared, not formed: it may be a maximum."""
+    if getattr(x, "opname", "") == "fsub":
+        return lanes.builder.select(lanes.greater(*x.operands), a, b)
+    return lanes.builder.select(lanes.greater(x, lanes.same(0.0)), a, b)
+
+
+def _exponent(lanes: Lanes, x: Vector) -> Vector:
+    """Return e with x = m 2^e, 1 <= m < 2, for a normal positive x."""
+    shifted = lanes.builder.lshr(lanes.bits(x), lanes.word(MANTISSA_BITS))
+    return lanes.builder.sitofp(lanes.builder.sub(shifted, lanes.word(BIAS)), x.type)
+
+
+def _mantissa(lanes: Lanes, x: Vector) -> Vector:
+    """Return m with x = m 2^e, 1 <= m < 2, for a normal positive x."""
+    kept = lanes.builder.and_(lanes.bits(x), lanes.word(MANTISSA_MASK))
+    return lanes.numbers(lanes.builder.or_(kept, lanes.word(BIAS << MANTISSA_BITS)))
+
+
+def _power_of_two(lanes: Lanes, x: Vector) -> Vector:
+    """Return 2^x for a whole x, limited to -1022..1023; NaN gives the lower limit."""
+    builder, low, high = lanes.builder, lanes.same(-1022.0), lanes.same(1023.0)
+    x = builder.select(lanes.greater(x, low), x, low)
+    x = builder.select(lanes.greater(high, x), x, high)
+    bits = builder.add(lanes.whole(x), lanes.word(BIAS))
+    return lanes.numbers(builder.shl(bits, lanes.word(MANTISSA_BITS)))
+
+
+def _quarter_turns(lanes: Lanes, n: Vector, sine: Vector, cosine: Vector) -> Vector:
+    """Return the sine of an angle n quarter turns on; |n| < 2^50.
+
+    The lowest bits of n swap both and change the sign, which takes no multiplication.
+    """
+    builder, one = lanes.builder, lanes.word(1)
+    bits = lanes.bits(builder.fadd(n, lanes.same(WHOLE)))
+    odd = builder.icmp_unsigned("!=", builder.and_(bits, one), lanes.word(0))
+    sign = builder.and_(builder.shl(bits, lanes.word(SIGN_BIT - 1)), lanes.word(1 << SIGN_BIT))
+    turned = lanes.bits(builder.select(odd, cosine, sine))
+    return lanes.numbers(builder.xor(turned, sign))
+
+
+OPERATIONS: dict[str, Operation] = {
+    "add": Operation(
+        operator.add,
+        lambda _node, rates: rates[0] + rates[1],
+        lambda lanes, x, y: lanes.builder.fadd(x, y, flags=FLAGS),
+    ),
+    "sub": Operation(
+        operator.sub,
+        lambda _node, rates: rates[0] - rates[1],
+        lambda lanes, x, y: lanes.builder.fsub(x, y, flags=FLAGS),
+    ),
+    "mul": Operation(
+        operator.mul, _product_rate, lambda lanes, x, y: lanes.builder.fmul(x, y, flags=FLAGS)
+    ),
+    "div": Operation(
+        operator.truediv, _quotient_rate, lambda lanes, x, y: lanes.builder.fdiv(x, y, flags=FLAGS)
+    ),
+    "neg": Operation(
+        operator.neg,
+        lambda _node, rates: -rates[0],
+        lambda lanes, x: lanes.builder.fneg(x, flags=FLAGS),
+    ),
+    "abs": Operation(
+        abs,
+        lambda node, rates: node.arguments[0].select_positive(rates[0], -rates[0]),
+        lambda lanes, x: lanes.call("fabs", x),
+    ),
+    "sqrt": Operation(math.sqrt, _root_rate, lambda lanes, x: lanes.call("sqrt", x)),
+    "floor": Operation(
+        lambda x: float(math.floor(x)), _nothing, lambda lanes, x: lanes.call("floor", x)
+    ),
+    "select": Operation(
+        lambda x, a, b: a if x > 0.0 else b,
+        lambda node, rates: node.arguments[0].select_positive(rates[1], rates[2]),
+        _select,
+    ),
+    "exponent_of": Operation(lambda x: float(math.frexp(x)[1] - 1), _nothing, _exponent),
+    "mantissa_of": Operation(
+        lambda x: 2.0 * math.frexp(x)[0],
+        lambda node, rates: node / node.arguments[0] * rates[0],
+        _mantissa,
+    ),
+    "power_of_two": Operation(
+        lambda x: math.ldexp(1.0, int(min(max(x, -1022.0), 1023.0))), _nothing, _power_of_two
+    ),
+    "quarter_turns": Operation(
+        lambda n, sine, cosine: (sine, cosine, -sine, -cosine)[int(n) % 4],
+        lambda node, rates: node.recorder.apply(
+            "quarter_turns", node.arguments[0], rates[1], rates[2]
+        ),
+        _quarter_turns,
+    ),
+    "sin": Operation(
+        math.sin, lambda node, rates: node.recorder.functions[node.index].partner * rates[0]
+    ),
+    "cos": Operation(
+        math.cos, lambda node, rates: -1.0 * node.recorder.functions[node.index].partner * rates[0]
+    ),
+    "pow": Operation(operator.pow, _power_rate),
+}
+"""Every operation by its name on tapes."""
