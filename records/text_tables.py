@@ -1,6 +1,7 @@
-"""Tables and numbers as text: comma-separated values, and lists of JSON."""
+"""Tables and numbers as text: comma-separated values, and JSON in pieces."""
 
-from collections.abc import Iterable, Iterator, Sequence
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -46,3 +47,20 @@ def csv_lines(
 def json_numbers(values: NDArray[np.float64]) -> str:
     """Write numbers between commas, every bit of them; null for NaN, which JSON has not."""
     return ", ".join([repr(one) if np.isfinite(one) else "null" for one in values.tolist()])
+
+
+def json_object(members: Mapping[str, Iterable[str]]) -> Iterator[str]:
+    """Write an object whose members are JSON text in pieces."""
+    yield "{"
+    for position, (name, pieces) in enumerate(members.items()):
+        yield f"{', ' if position else ''}{json.dumps(name)}: "
+        yield from pieces
+    yield "}"
+
+
+def json_list(items: Iterable[str]) -> Iterator[str]:
+    """Write a list of items that are JSON text."""
+    yield "["
+    for position, item in enumerate(items):
+        yield f", {item}" if position else item
+    yield "]"

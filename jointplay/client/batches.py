@@ -47,7 +47,8 @@ class Batch:
 
     def refresh(self) -> Self:
         """Look at the batch once more."""
-        return self._renew(self._connection.get(self._path))
+        vars(self).update(_read(self._connection.get(self._path)))
+        return self
 
     def jobs(self) -> Iterator[Job]:
         """Yield the jobs in the order in which they were given, page by page as they are needed."""
@@ -55,7 +56,8 @@ class Batch:
 
     def cancel(self) -> Self:
         """Ask for every job that is not finished to be cancelled."""
-        return self._renew(self._connection.post(f"{self._path}/cancel"))
+        vars(self).update(_read(self._connection.post(f"{self._path}/cancel")))
+        return self
 
     def wait(
         self, *, report: Callable[[Self], None] | None = None, timeout: float | None = None
@@ -90,10 +92,6 @@ class Batch:
     @property
     def _path(self) -> str:
         return f"/v1/batches/{segment(self.id)}"
-
-    def _renew(self, document: Mapping[str, Any]) -> Self:
-        vars(self).update(_read(document))
-        return self
 
 
 def batch_of(connection: Connection, document: Mapping[str, Any]) -> Batch:

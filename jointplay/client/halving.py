@@ -17,19 +17,8 @@ def parts_that_fit(
 ) -> Iterator[tuple[Window, Answer]]:
     """Yield consecutive parts of a window with their answers.
 
-    Parameters
-    ----------
-    fetch
-        Asks the service for a window.
-    window
-        The whole window.
-    halves
-        Cuts a window in two; None if it cannot be cut.
-
-    Raises
-    ------
-    Refused
-        The service refuses for another reason, or a window cannot be cut any more.
+    ``fetch`` asks the service for a window, ``halves`` cuts one in two, or says None if it cannot
+    be cut; then, and where the service refuses for another reason, its `Refused` is raised.
     """
     try:
         answer = fetch(window)

@@ -9,14 +9,14 @@ from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
 from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
-from jointplay.client.results import Form, Impacts, Peak, Store
+from jointplay.client.results import Form, Impacts, Names, Peak, Seconds, Store
 from jointplay.client.window import Window, floats
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run import Dataset
 from jointplay.records.study import StudyDataset
 
-_Times = tuple[float | None, float | None]
+_Times = tuple[Seconds, Seconds]
 
 
 class HttpResults:
@@ -35,20 +35,14 @@ class HttpResults:
         }
         return Store(f"{self._connection.url}{self._path}/zarr", {"client_kwargs": session})
 
-    def window(
-        self,
-        channels: Sequence[str] | None,
-        start: float | None,
-        stop: float | None,
-        points: int | None,
-    ) -> Window:
+    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
         if points is None:
             return self._window("history", channels, start, stop)
         query = {"channels": channels, "start": start, "stop": stop, "points": points}
         return Window.from_document(self._get("history", **query))
 
-    def sections(self, channels: Sequence[str] | None) -> Window:
+    def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
         return self._window("poincare", channels)
 
@@ -82,10 +76,7 @@ class HttpResults:
         return self._get("accuracy")
 
     def study(
-        self,
-        observables: Sequence[str] | None,
-        channels: Sequence[str] | None,
-        sections: tuple[int, int] | None,
+        self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyDataset:
         """Return the points of a study, fetched as they are now."""
         if "sweep" in self._job.links:
@@ -94,9 +85,7 @@ class HttpResults:
         window = sections or (0, int(self._job.job["record"]))
         return studies.with_sections(self._job, fetch, window)
 
-    def source(
-        self, channels: Sequence[str] | None, start: float | None, stop: float | None
-    ) -> Dataset:
+    def source(self, channels: Names, start: Seconds, stop: Seconds) -> Dataset:
         """Return a window of a simulation, fetched."""
         return self.window(channels, start, stop, None).dataset()
 
@@ -111,8 +100,8 @@ class HttpResults:
         *,
         channels: Sequence[str],
         joints: Sequence[str],
-        start: float | None,
-        stop: float | None,
+        start: Seconds,
+        stop: Seconds,
     ) -> bytes:
         """Return a figure, drawn by the service."""
         shown = {"channels": channels or None, "joints": joints or None}
@@ -121,17 +110,13 @@ class HttpResults:
         return self._connection.content(path, query)
 
     def _window(
-        self,
-        name: str,
-        channels: Sequence[str] | None,
-        start: float | None = None,
-        stop: float | None = None,
+        self, name: str, channels: Names, start: Seconds = None, stop: Seconds = None
     ) -> Window:
         found = self._in_parts(name, start, stop, channels=channels)
         return Window.joined([Window.from_document(document) for document in found])
 
     def _in_parts(
-        self, name: str, start: float | None = None, stop: float | None = None, **query: Any
+        self, name: str, start: Seconds = None, stop: Seconds = None, **query: Any
     ) -> list[dict[str, Any]]:
         def fetch(window: _Times) -> dict[str, Any]:
             return self._get(name, **query, start=window[0], stop=window[1])

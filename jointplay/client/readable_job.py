@@ -9,7 +9,6 @@ from jointplay.client import tables
 from jointplay.client.job_record import JobRecord, read_job
 from jointplay.client.notebook import Picture
 from jointplay.client.results import Form, Results
-from jointplay.client.stored import open_group
 from jointplay.client.window import Window
 from jointplay.records.study import StudySource
 
@@ -51,7 +50,7 @@ class ReadableJob(JobRecord, ABC):
         if group in self._opened:
             return self._opened[group]
         final = self.is_finished
-        found = open_group(self, self.results.store(), group)
+        found = tables.open_group(self, self.results.store(), group)
         if final:
             self._opened[group] = found
         return found

@@ -13,6 +13,10 @@ from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
 Form = Literal["png", "svg"]
+Names = Sequence[str] | None
+"""Names or globs of channels; all if None."""
+Seconds = float | None
+"""A time, s; None is unbounded."""
 
 
 @dataclass(frozen=True)
@@ -55,16 +59,10 @@ class Results(Protocol):
     def store(self) -> Store:
         """Return where stock Zarr clients find the stored arrays."""
 
-    def window(
-        self,
-        channels: Sequence[str] | None,
-        start: float | None,
-        stop: float | None,
-        points: int | None,
-    ) -> Window:
-        """Return channels (names or globs; all if None) from ``start`` to ``stop``, in s."""
+    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
+        """Return channels from ``start`` to ``stop``."""
 
-    def sections(self, channels: Sequence[str] | None) -> Window:
+    def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
 
     def peaks(self) -> Mapping[str, Peak]:
@@ -83,16 +81,11 @@ class Results(Protocol):
         """Return what every method and tolerance costs and buys, of an accuracy-study."""
 
     def study(
-        self,
-        observables: Sequence[str] | None,
-        channels: Sequence[str] | None,
-        sections: tuple[int, int] | None,
+        self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudySource:
         """Return the points of a study as they are now."""
 
-    def source(
-        self, channels: Sequence[str] | None, start: float | None, stop: float | None
-    ) -> Source:
+    def source(self, channels: Names, start: Seconds, stop: Seconds) -> Source:
         """Return a window of a simulation as exports take it; it may hold more."""
 
     def figures(self) -> list[str]:
@@ -105,7 +98,7 @@ class Results(Protocol):
         *,
         channels: Sequence[str],
         joints: Sequence[str],
-        start: float | None,
-        stop: float | None,
+        start: Seconds,
+        stop: Seconds,
     ) -> bytes:
         """Return a figure as a file's bytes."""

@@ -29,24 +29,17 @@ def is_worth_repeating(response: httpx.Response) -> bool:
 
 
 def pause_before(repetition: int, response: httpx.Response | None) -> float:
-    """Return how long to wait before a repetition, s; infinite if that is too long.
+    """Return how long to wait before a repetition, 1 for the first, s; infinite: too long.
 
-    Parameters
-    ----------
-    repetition
-        1 for the first.
-    response
-        The answer that asks for it; none if the connection was lost.
-
-    Clients that were turned away together do not come back in the same moment: what they wait is
-    spread over half of the pause.
+    Without a response the connection was lost.  Clients that were turned away together do not come
+    back in the same moment: what they wait is spread over half of the pause.
     """
     pause = FIRST_PAUSE * 2.0 ** (repetition - 1)
     asked = 0.0 if response is None else _asked_for(response.headers.get("retry-after", ""))
     if asked > LONGEST_PAUSE:
         return float("inf")
     jitter = random.uniform(0.5, 1.0)  # noqa: S311
-    return asked + pause * jitter if asked > 0.0 else pause * jitter
+    return asked + pause * jitter
 
 
 def _asked_for(retry_after: str) -> float:

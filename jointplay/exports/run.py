@@ -1,13 +1,13 @@
 """Channels as CSV or JSON text, piece by piece: memory does not grow with the history."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from jointplay.records import text_tables
 from jointplay.records.channel import TIME, Channel, by_name
 from jointplay.records.channel_choice import no_such_channel
 from jointplay.records.run import Floats, Source
-from jointplay.records.text_tables import json_numbers
+from jointplay.records.text_tables import json_list, json_numbers, json_object
 
 
 def csv_lines(
@@ -42,12 +42,10 @@ def csv_lines(
     NoSuchChannel
         On the first piece, before any text.
     """
-    names = _names(source, channels)
-    described = by_name(source.channels)
-    titles = [one.title for one in (TIME, *(described[name] for name in names))]
-    blocks = source.blocks(names, *source.between(start, stop))
-    rows = ((time, *(columns[name] for name in names)) for time, columns in blocks)
-    yield from text_tables.csv_lines(titles, rows, comments)
+    chosen = _chosen(source, channels)
+    blocks = source.blocks([one.name for one in chosen], *source.between(start, stop))
+    rows = ((time, *(columns[one.name] for one in chosen)) for time, columns in blocks)
+    yield from text_tables.csv_lines([one.title for one in (TIME, *chosen)], rows, comments)
 
 
 def json_pieces(
@@ -56,12 +54,7 @@ def json_pieces(
     start: float | None = None,
     stop: float | None = None,
 ) -> Iterator[str]:
-    """Write a window of the history as one JSON document.
-
-    Parameters
-    ----------
-    source, channels, start, stop
-        As for `csv_lines`.
+    """Write a window of the history as one JSON document; arguments and errors as of `csv_lines`.
 
     Yields
     ------
@@ -69,41 +62,32 @@ def json_pieces(
         Pieces of `{"complete", "time": {"unit", "long_name", "values"}, "channels": {name:
         {"unit", "long_name", "values"}}}`. Numbers give back every bit; what was not computed
         is null, since JSON has no NaN.
-
-    Raises
-    ------
-    NoSuchChannel
-        On the first piece, before any text.
     """
-    names = _names(source, channels)
-    described = by_name(source.channels)
+    chosen = _chosen(source, channels)
     window = source.between(start, stop)
-    yield f'{{"complete": {json.dumps(source.complete)}, "time": '
+
+    def values_of(channel: Channel) -> Iterator[Floats]:
+        for _, columns in source.blocks([channel.name], *window):
+            yield columns[channel.name]
+
     times = (time for time, _ in source.blocks([], *window))
-    yield from _series(TIME, times)
-    yield ', "channels": {'
-    for position, name in enumerate(names):
-        yield f"{', ' if position else ''}{json.dumps(name)}: "
-        values = (columns[name] for _, columns in source.blocks([name], *window))
-        yield from _series(described[name], values)
-    yield "}}\n"
+    series = {channel.name: _series(channel, values_of(channel)) for channel in chosen}
+    complete = json.dumps(source.complete)
+    document = {"complete": [complete], "time": _series(TIME, times)}
+    yield from json_object({**document, "channels": json_object(series)})
+    yield "\n"
 
 
-def _series(channel: Channel, blocks: Iterator[Floats]) -> Iterator[str]:
+def _series(channel: Channel, blocks: Iterable[Floats]) -> Iterator[str]:
+    values = json_list(json_numbers(block) for block in blocks if len(block))
     unit, long_name = json.dumps(channel.unit), json.dumps(channel.long_name)
-    yield f'{{"unit": {unit}, "long_name": {long_name}, "values": ['
-    separator = ""
-    for block in blocks:
-        if len(block):
-            yield separator + json_numbers(block)
-            separator = ", "
-    yield "]}"
+    return json_object({"unit": [unit], "long_name": [long_name], "values": values})
 
 
-def _names(source: Source, channels: Sequence[str] | None) -> list[str]:
-    known = [channel.name for channel in source.channels]
-    if channels is None:
-        return known
-    if unknown := [name for name in channels if name not in known]:
-        raise no_such_channel(unknown, known)
-    return list(channels)
+def _chosen(source: Source, names: Sequence[str] | None) -> list[Channel]:
+    described = by_name(source.channels)
+    if names is None:
+        return list(described.values())
+    if unknown := [name for name in names if name not in described]:
+        raise no_such_channel(unknown, list(described))
+    return [described[name] for name in names]

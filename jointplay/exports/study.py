@@ -1,7 +1,7 @@
 """Studies as CSV or JSON text, piece by piece: memory does not grow with points and sections."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from jointplay.records.channel import TIME, by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.run import Floats
 from jointplay.records.study import StudySource
-from jointplay.records.text_tables import csv_lines, json_numbers
+from jointplay.records.text_tables import csv_lines, json_list, json_numbers, json_object
 
 _BLOCK = 200_000  # values that are held at a time
 
@@ -62,23 +62,13 @@ def point_lines(
 ) -> Iterator[str]:
     """Write one row a point: its values, what became of it, extremes, indicators and statistics.
 
-    Parameters
-    ----------
-    units
-        Of indicators and statistics, by name.
-
-    Yields
-    ------
-    str
-        Whole lines; numbers have 17 significant digits, what is not known is `nan`.
+    Whole lines; numbers have 17 significant digits, what is not known is `nan`.  `units` are those
+    of indicators and statistics, by name.
     """
+    columns: dict[str, Any] = dict(_words_of_points(source))
+    columns |= {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
+    columns |= _columns_of_points(source, channels, units)
     part = slice(points.start, points.stop)
-    values = {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
-    columns: dict[str, Any] = {
-        **_words_of_points(source),
-        **values,
-        **_columns_of_points(source, channels, units),
-    }
     rows = [points, *(column[part] for column in columns.values())]
     yield from csv_lines(["point", *columns], [rows], comments)
 
@@ -92,14 +82,10 @@ def section_json(source: StudySource, observables: Sequence[str], points: range)
         Pieces of `{"complete", "values": {parameter: [...]}, "status": [...], "time": [[...]],
         "sections": {observable: [[...]]}}`: one inner list a point.
     """
-    yield _head(source, points)
-    yield ', "time": '
-    yield from _rows(source, points, "")
-    yield ', "sections": {'
-    for position, name in enumerate(observables):
-        yield f"{', ' if position else ''}{json.dumps(name)}: "
-        yield from _rows(source, points, name)
-    yield "}}\n"
+    document = _head(source, points) | {"time": _rows(source, points, "")}
+    sections = {name: _rows(source, points, name) for name in observables}
+    yield from json_object({**document, "sections": json_object(sections)})
+    yield "\n"
 
 
 def point_json(
@@ -113,40 +99,40 @@ def point_json(
         Pieces of `{"complete", "values", "status", "verdict", "columns": {title: [...]}}`.
     """
     part = slice(points.start, points.stop)
-    yield _head(source, points)
+    document = _head(source, points)
     words = _words_of_points(source)
     if "verdict" in words:
-        yield f', "verdict": {json.dumps(words["verdict"][part])}'
-    yield ', "columns": {'
-    columns = _columns_of_points(source, channels, units)
-    for position, (title, column) in enumerate(columns.items()):
-        yield f"{', ' if position else ''}{json.dumps(title)}: [{json_numbers(column[part])}]"
-    yield "}}\n"
+        document["verdict"] = [json.dumps(words["verdict"][part])]
+    found = _columns_of_points(source, channels, units)
+    columns = {title: json_list([json_numbers(one[part])]) for title, one in found.items()}
+    yield from json_object({**document, "columns": json_object(columns)})
+    yield "\n"
 
 
-def _head(source: StudySource, points: range) -> str:
+def _head(source: StudySource, points: range) -> dict[str, Iterable[str]]:
     part = slice(points.start, points.stop)
-    values = {
-        one.name: source.values[part, column].tolist()
-        for column, one in enumerate(source.parameters)
+    columns = source.values[part].T.tolist()
+    document = {
+        "complete": source.complete,
+        "first_point": points.start,
+        "values": {one.name: columns[at] for at, one in enumerate(source.parameters)},
+        "status": [PointStatus(code).name for code in source.status[part]],
     }
-    status = [PointStatus(code).name for code in source.status[part]]
-    return (
-        f'{{"complete": {json.dumps(source.complete)}, "first_point": {points.start}, '
-        f'"values": {json.dumps(values)}, "status": {json.dumps(status)}'
-    )
+    return {name: [json.dumps(value)] for name, value in document.items()}
 
 
 def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
+    """Write the sections of each point as a list of its own; of no name their times."""
     counts = source.counts
-    yield "["
-    separator = ""
-    for first, last in _blocks(points, source.record):
-        table = source.sections(name, first, last) if name else source.section_times(first, last)
-        for point, row in enumerate(table, first):
-            yield f"{separator}[{json_numbers(row[: int(counts[point])])}]"
-            separator = ", "
-    yield "]"
+
+    def lists() -> Iterator[str]:
+        for first, last in _blocks(points, source.record):
+            window = (first, last)
+            table = source.sections(name, *window) if name else source.section_times(*window)
+            for point, row in enumerate(table, first):
+                yield f"[{json_numbers(row[: int(counts[point])])}]"
+
+    return json_list(lists())
 
 
 def _columns_of_points(
@@ -155,12 +141,12 @@ def _columns_of_points(
     columns: dict[str, Floats] = {}
     described = {one.name: one.unit for one in source.channels}
     for name in channels:
-        peaks = source.peaks(name)
-        columns[f"{name} minimum [{described[name]}]"] = peaks.minimum
+        peaks, unit = source.peaks(name), described[name]
+        columns[f"{name} minimum [{unit}]"] = peaks.minimum
         columns[f"{name} minimum at [s]"] = peaks.minimum_time
-        columns[f"{name} maximum [{described[name]}]"] = peaks.maximum
+        columns[f"{name} maximum [{unit}]"] = peaks.maximum
         columns[f"{name} maximum at [s]"] = peaks.maximum_time
-        columns[f"{name} range [{described[name]}]"] = peaks.maximum - peaks.minimum
+        columns[f"{name} range [{unit}]"] = peaks.maximum - peaks.minimum
     left_out = described.keys() - set(channels)
     for name, one in {**source.indicators, **source.statistics}.items():
         # a verdict is there as a word

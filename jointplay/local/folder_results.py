@@ -9,7 +9,7 @@ import numpy as np
 
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
-from jointplay.client.results import Form, Impacts, Peak, Store
+from jointplay.client.results import Form, Impacts, Names, Peak, Seconds, Store
 from jointplay.client.window import ChannelSeries, Window
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
@@ -37,13 +37,7 @@ class FolderResults:
             raise NotFound(sentence)
         return Store(str(self._store), None)
 
-    def window(
-        self,
-        channels: Sequence[str] | None,
-        start: float | None,
-        stop: float | None,
-        points: int | None,
-    ) -> Window:
+    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
         run = self._run("history")
         names = _chosen(channels, run)
@@ -58,7 +52,7 @@ class FolderResults:
         columns = {name: pair.ravel() for name, pair in found.items()}
         return _window(run, time.ravel(), columns, exact=False)
 
-    def sections(self, channels: Sequence[str] | None) -> Window:
+    def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections."""
         run = self._run("sections in time")
         return _window(
@@ -103,19 +97,14 @@ class FolderResults:
         return WorkPrecision.of(study).document()
 
     def study(
-        self,
-        observables: Sequence[str] | None,
-        channels: Sequence[str] | None,
-        sections: tuple[int, int] | None,
+        self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyReader:
         """Return the points of a study: all there is, whatever was asked for."""
         if isinstance(self._reader, StudyReader):
             return self._reader
         raise NotFound(f"{self._store} is of a simulation; it has a history and no points.")
 
-    def source(
-        self, channels: Sequence[str] | None, start: float | None, stop: float | None
-    ) -> ResultReader:
+    def source(self, channels: Names, start: Seconds, stop: Seconds) -> ResultReader:
         """Return a simulation: all there is, whatever was asked for."""
         return self._run("history")
 
@@ -130,8 +119,8 @@ class FolderResults:
         *,
         channels: Sequence[str],
         joints: Sequence[str],
-        start: float | None,
-        stop: float | None,
+        start: Seconds,
+        stop: Seconds,
     ) -> bytes:
         """Draw a figure."""
         with _refusals():
@@ -153,7 +142,7 @@ def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **mo
     return Window(np.asarray(time, np.float64), series, run.complete, **more)
 
 
-def _chosen(channels: Sequence[str] | None, run: ResultReader) -> list[str]:
+def _chosen(channels: Names, run: ResultReader) -> list[str]:
     with _refusals():
         known = [channel.name for channel in run.channels]
         return choose(None if channels is None else ",".join(channels), known)

@@ -55,8 +55,18 @@ def run(
     FileExistsError
         The folder is there already.
     """
-    admission = _admitted(_document(job, given))
-    folder = _made(output)
+    if not (isinstance(job, Mapping) and "kind" in job):
+        job = jobs.simulate(job, **given)
+    elif given:
+        name = next(iter(given))
+        raise TypeError(f"the job is given whole; {name!r} goes into its document")
+    admission = _admitted(job)
+    if output is not None:
+        folder = Path(output)
+        folder.mkdir(parents=True)
+    else:
+        folder = Path(tempfile.mkdtemp(prefix="jointplay-"))
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
     title = folder.name if output is not None else "run"
     with shown(title) if progress else nullcontext(lambda fraction, note: None) as report:
         from jointplay.worker.local.computing import compute
@@ -66,15 +76,6 @@ def run(
     if check:
         found.check()
     return found
-
-
-def _document(job: Scene, given: Mapping[str, Any]) -> Mapping[str, Any]:
-    if isinstance(job, Mapping) and "kind" in job:
-        if given:
-            name = next(iter(given))
-            raise TypeError(f"the job is given whole; {name!r} goes into its document")
-        return job
-    return jobs.simulate(job, **given)
 
 
 def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
@@ -89,13 +90,3 @@ def _admitted(document: Mapping[str, Any]) -> "Admission | Study":
             problem="limit-exceeded" if isinstance(error, LimitExceeded) else "invalid-job",
             fields=[FieldProblem(*problem) for problem in error.problems],
         ) from None
-
-
-def _made(output: Path | str | None) -> Path:
-    if output is not None:
-        folder = Path(output)
-        folder.mkdir(parents=True)
-        return folder
-    folder = Path(tempfile.mkdtemp(prefix="jointplay-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return folder
