@@ -2,13 +2,17 @@
 
 import shutil
 from pathlib import Path
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from jointplay.storage.packed.running import Running
 from jointplay.storage.places import Place, StoredObject, place_at
+
+Minutes = Annotated[float, Field(gt=0, le=600)]
+Hour = Annotated[float, Field(gt=0, le=3600)]
+Centuries = Annotated[float, Field(gt=0, le=1e10)]
 
 
 class Settings(BaseSettings):
@@ -22,74 +26,43 @@ class Settings(BaseSettings):
     )
 
     data: Path = Field(
-        default=Path(".jointplay"),
-        description="Folder of the catalogue, the results, the logs.",
+        Path(".jointplay"), description="Folder of the catalogue, the results, the logs."
     )
     catalogue_url: str = Field(
-        default="",
-        description="SQLAlchemy URL of the catalogue; empty: SQLite inside the data folder.",
+        "", description="SQLAlchemy URL of the catalogue; empty: SQLite inside the data folder."
     )
     results_url: str = Field(
-        default="",
+        "",
         description="Place for finished results, such as file:/srv/results; empty: the folder"
         " `results` inside the data folder.",
     )
     redis_url: str | None = Field(
-        default=None,
+        None,
         description="redis://host:port/0 or unix:///path; none: `jointplay serve` starts one.",
     )
-    lease: float = Field(
-        default=30.0,
-        gt=0,
-        le=3600,
-        description="A block whose worker is silent this long is lost.",
+    lease: Hour = Field(30.0, description="A block whose worker is silent this long is lost.")
+    heartbeat: Minutes = Field(5.0, description="A worker extends its lease this often.")
+    progress_period: Minutes = Field(
+        1.0, description="Progress and checkpoints are recorded this often."
     )
-    heartbeat: float = Field(
-        default=5.0, gt=0, le=600, description="A worker extends its lease this often."
+    reaper_period: Minutes = Field(1.0, description="Expired leases are looked for this often.")
+    relay_period: Minutes = Field(
+        0.5, description="The relay looks for work this often if not woken."
     )
-    progress_period: float = Field(
-        default=1.0,
-        gt=0,
-        le=600,
-        description="Progress and checkpoints are recorded this often.",
-    )
-    reaper_period: float = Field(
-        default=1.0, gt=0, le=600, description="Expired leases are looked for this often."
-    )
-    relay_period: float = Field(
-        default=0.5,
-        gt=0,
-        le=600,
-        description="The relay looks for work this often if not woken.",
-    )
-    republish_after: float = Field(
-        default=20.0,
-        gt=0,
-        le=3600,
-        description="A wake-up without effect is sent again after this long.",
+    republish_after: Hour = Field(
+        20.0, description="A wake-up without effect is sent again after this long."
     )
     relay_outstanding: int = Field(
-        default=256,
-        ge=1,
-        le=100_000,
-        description="Wake-ups that may wait in Redis at one time.",
+        256, ge=1, le=100_000, description="Wake-ups that may wait in Redis at one time."
     )
     max_attempts: int = Field(
-        default=3,
-        ge=1,
-        le=100,
-        description="A block that lost its worker this often has failed.",
+        3, ge=1, le=100, description="A block that lost its worker this often has failed."
     )
-    keep: float | None = Field(
-        default=None,
-        gt=0,
-        le=1e10,
-        description="Jobs expire this long after their submission; none: they are kept.",
+    keep: Centuries | None = Field(
+        None, description="Jobs expire this long after their submission; none: they are kept."
     )
-    longest: float = Field(
-        default=86_400.0,
-        gt=0,
-        le=1e10,
+    longest: Centuries = Field(
+        86_400.0,
         description="A run, or a block of a study, that computes longer fails with what it has.",
     )
     reserve: int = Field(
@@ -100,7 +73,7 @@ class Settings(BaseSettings):
         " less than twice as much no job is accepted.",
     )
     stall: float = Field(
-        default=600.0,
+        600.0,
         gt=0,
         le=86_400,
         description="A worker process that advances nothing for this long kills itself.",

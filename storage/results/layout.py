@@ -1,6 +1,7 @@
 """Layout of a results store: named columns with units, how many rows, and how they are cut."""
 
 import json
+from collections.abc import Container, Iterable
 from dataclasses import astuple, dataclass, field
 from hashlib import sha256
 from typing import Any, Final
@@ -98,22 +99,10 @@ class ResultLayout:
     partition: Partition = field(default_factory=Partition)
 
     def __post_init__(self) -> None:
-        seen: set[str] = set()
-        for channel in self.channels:
-            check_name(channel.name)
-            if channel.name in STORED:
-                raise InvalidLayout(
-                    f"{channel.name!r} cannot name a channel: the store uses that name itself"
-                )
-            if channel.name in seen:
-                raise InvalidLayout(f"channel {channel.name!r} occurs twice; names are unique")
-            seen.add(channel.name)
+        check_names(self.channels, "channel", STORED)
         if self.samples < 0 or self.sections < 0:
             raise InvalidLayout("samples and sections are counts and cannot be negative")
-        try:
-            json.dumps(self.attributes, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise InvalidLayout(f"attributes must be finite JSON values: {error}") from error
+        check_attributes(self.attributes)
 
     @property
     def digest(self) -> str:
@@ -129,10 +118,25 @@ class ResultLayout:
         return sha256(json.dumps(shape).encode()).hexdigest()
 
 
-def check_name(name: str) -> None:
-    """Raise `InvalidLayout` if an array cannot have this name."""
-    if not is_storable(name):
-        raise InvalidLayout(
-            f"{name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
-            "'.' and '-', not starting with '.' and not ending in .json or .partial"
-        )
+def check_names(specs: Iterable[Channel], what: str, reserved: Container[str] = ()) -> None:
+    """Raise `InvalidLayout` if arrays cannot have these names in one group of a store."""
+    seen: set[str] = set()
+    for name in (spec.name for spec in specs):
+        if not is_storable(name):
+            raise InvalidLayout(
+                f"{name!r} cannot name an array: use 1 to 64 letters, digits, '_', "
+                "'.' and '-', not starting with '.' and not ending in .json or .partial"
+            )
+        if name in reserved:
+            raise InvalidLayout(f"{name!r} cannot name a {what}: the store uses that name itself")
+        if name in seen:
+            raise InvalidLayout(f"{what} {name!r} occurs twice; names are unique")
+        seen.add(name)
+
+
+def check_attributes(attributes: dict[str, Any]) -> None:
+    """Raise `InvalidLayout` if a store's document cannot hold these attributes."""
+    try:
+        json.dumps(attributes, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise InvalidLayout(f"attributes must be finite JSON values: {error}") from error

@@ -41,6 +41,11 @@ def documents(attributes: Mapping[str, Any], nodes: Mapping[str, Document]) -> d
     return written | {FILE: group(attributes, nodes)}
 
 
+def groups_among(documents: Mapping[str, Document]) -> dict[str, Document]:
+    """Choose the groups' documents, which hold those of the arrays: what a growing store shows."""
+    return {key: one for key, one in documents.items() if one["node_type"] == "group"}
+
+
 def serialise(document: Mapping[str, Any]) -> bytes:
     """Give the bytes of a document: the same for the same document, everywhere.
 

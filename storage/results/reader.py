@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-import zarr
 from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
@@ -14,17 +13,17 @@ from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK, Peak
 from jointplay.records.run import CertificateRecord, Columns, Floats
-from jointplay.storage.errors import NotAStore, UnknownChannel
-from jointplay.storage.packed import Files, Packed, Running, files_at
-from jointplay.storage.packed.zarr_store import FilesStore
-from jointplay.storage.results import certificate_group, manifest
+from jointplay.storage.errors import UnknownChannel
+from jointplay.storage.packed import Files, Running
+from jointplay.storage.results import certificate_group
 from jointplay.storage.results.envelope import Envelope
 from jointplay.storage.results.live import columns_of, committed, root_of, rows_in_shards
 from jointplay.storage.results.metadata import Document
+from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.results.waiting import Waiting
 
 
-class ResultReader:
+class ResultReader(StoreReader):
     """One store, sealed or growing.
 
     Parameters
@@ -43,12 +42,10 @@ class ResultReader:
     """
 
     def __init__(self, source: Files | Path, watermark: int | None = None) -> None:
-        self.files = files_at(source) if isinstance(source, Path) else source
+        super().__init__(source)
         self._document = root = root_of(self.files)
         self.attributes: dict[str, Any] = root["attributes"]
         self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
-        self.sealed = isinstance(self.files, Packed)
-        """Nothing will be added any more."""
         self.complete = bool(self.attributes["complete"])
         """The run came to its end; False while it runs and when it failed or was cancelled."""
         self.joints: tuple[str, ...] = tuple(self.attributes["joints"])
@@ -168,7 +165,7 @@ class ResultReader:
         """Read the signed extremes by channel; none before the store is sealed."""
         if not self.sealed:
             return {}
-        group = _opened(self.files, "peaks")  # alone: without a look at hundreds of channels
+        group = self._group("peaks")
         columns = [np.asarray(group[name]).tolist() for name in PEAK]
         return {
             name: Peak(*values)
@@ -178,18 +175,6 @@ class ResultReader:
     def certificate(self) -> CertificateRecord | None:
         """Read what is known of the rows' errors; none before the store is sealed, or at all."""
         return certificate_group.read(self._root) if self.sealed else None
-
-    def verify(self) -> None:
-        """Compare every file with the manifest.
-
-        Raises
-        ------
-        NotAStore
-            The store is not sealed.
-        CorruptStore
-            A file is missing, differs or was added.
-        """
-        manifest.verify(self.files)
 
     def _rows(self, group: str) -> int:
         """Rows of a table that are there: all once sealed, else those committed or in shards."""
@@ -225,10 +210,6 @@ class ResultReader:
         first = min(low * rows, self.samples)
         chunk = self._column("", TIME, first, min(first + rows, self.samples))
         return first + int(np.searchsorted(chunk, time, side))
-
-    @cached_property
-    def _root(self) -> zarr.Group:
-        return _opened(self.files)
 
     @cached_property
     def _envelope(self) -> Envelope:
@@ -269,13 +250,3 @@ class ResultReader:
             if name not in known:
                 raise UnknownChannel(name, known)
         return known if channels is None else tuple(channels)
-
-    def _array(self, key: str) -> zarr.Array[Any]:
-        found = self._root[key]
-        if not isinstance(found, zarr.Array):
-            raise NotAStore(f"the store has no array {key!r}")
-        return found
-
-
-def _opened(files: Files, group: str = "") -> zarr.Group:
-    return zarr.open_group(FilesStore(files), path=group, mode="r", zarr_format=3)

@@ -287,8 +287,7 @@ class ResultWriter:
         """
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
-        nodes = documents(layout, shown, {})
-        groups = {key: one for key, one in nodes.items() if one["node_type"] == "group"}
+        groups = metadata.groups_among(documents(layout, shown, {}))
         shown_now = (self._pyramid.documents() | groups).items()
         self._files.write_documents((key, metadata.serialise(one)) for key, one in shown_now)
 

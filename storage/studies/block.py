@@ -13,12 +13,15 @@ import numpy as np
 
 from jointplay.records.names import TIME
 from jointplay.records.point import Failure, PointEnd, PointStatus, SectionRows, StudySlice
+from jointplay.records.run import Floats
 from jointplay.storage.errors import CorruptStore, InvalidAppend, ResultsError
 from jointplay.storage.packed import Running
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results import shards
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Floats, Part
+from jointplay.storage.studies.part import Part
+from jointplay.storage.studies.points import INDICATORS, STATISTICS
 
 _ENDED = (PointStatus.done, PointStatus.failed)
 
@@ -65,7 +68,7 @@ class StudyBlock:
             There is nothing to go on from: begin anew.
         """
         block = cls(folder, layout, index, attempt)
-        found = Part.read(folder / part.FOLDER / name, layout.digest)
+        found = Part.read(folder / PARTS / name, layout.digest)
         require_chunks(block._files, layout, found)
         for key, rows in found.open.items():
             chunk = block._new_chunk()
@@ -79,7 +82,7 @@ class StudyBlock:
     def done(folder: Path, layout: StudyLayout, index: int) -> bool:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
-            found = Part.read(folder / part.FOLDER / part.final_name(index), layout.digest)
+            found = Part.read(folder / PARTS / part.final_name(index), layout.digest)
             require_chunks(Running(folder), layout, found)
         except (FileNotFoundError, ResultsError):
             return False
@@ -133,7 +136,7 @@ class StudyBlock:
         if missing:
             raise InvalidAppend(f"{missing} points of block {self._part.index} have not ended")
         self._write_part(part.final_name(self._part.index), self._trimmed(), b"")
-        for path in (self._files.folder / part.FOLDER).glob(f"{self._part.index:05d}-a*"):
+        for path in (self._files.folder / PARTS).glob(f"{self._part.index:05d}-a*"):
             path.unlink(missing_ok=True)
 
     def _add_rows(self, rows: SectionRows) -> int:
@@ -173,14 +176,9 @@ class StudyBlock:
         self._part.status[place] = PointStatus.failed if end.code else PointStatus.done
         if end.peaks.size:
             self._part.peaks[place] = end.peaks
-        for numbers, new in (
-            (self._part.statistics, end.statistics),
-            (self._part.indicators, end.indicators),
-        ):
-            for name, value in new.items():
-                if name not in numbers:
-                    numbers[name] = np.full(self._count, np.nan)
-                numbers[name][place] = value
+        for group, numbers in ((STATISTICS, end.statistics), (INDICATORS, end.indicators)):
+            for name, value in numbers.items():
+                self._part.column(f"{group}/{name}")[place] = value
         return end.point // self._layout.chunk[0]
 
     def _write_full_chunks(self, row: int) -> None:
@@ -209,7 +207,7 @@ class StudyBlock:
     def _write_part(self, name: str, chunks: dict[tuple[int, int], Floats], carried: bytes) -> None:
         """Write a part; the chunks that it builds on are on the disk."""
         shown = replace(self._part, open=chunks, carried=carried)
-        self._files.write_other(f"{part.FOLDER}/{name}", [shown.encode(self._layout)])
+        self._files.write_other(f"{PARTS}/{name}", [shown.encode(self._layout)])
 
     def _new_chunk(self) -> Floats:
         return np.full((len(self._layout.observables) + 1, *self._layout.chunk), np.nan)

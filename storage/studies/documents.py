@@ -14,10 +14,9 @@ from jointplay.records.names import TIME
 from jointplay.records.peak import PEAK
 from jointplay.records.point import PointStatus
 from jointplay.storage.results import metadata
-from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.results.metadata import DOUBLE, Document
 from jointplay.storage.studies.layout import CHUNK_VALUES, STUDY_SCHEMA, StudyLayout
 
-DOUBLE: Final = np.dtype("<f8")
 _STATUS: Final = {
     "long_name": "what became of the point",
     "flag_values": [int(status) for status in PointStatus],
@@ -32,11 +31,12 @@ def point_chunk(layout: StudyLayout, width: int = 1) -> int:
 
 def running(layout: StudyLayout) -> dict[str, Document]:
     """Make the documents of a store that is being filled: groups only, the root's last."""
-    return _tree(layout, _values(layout) | _sections(layout), {"complete": False}, whole=False)
+    found = _documents(layout, _values(layout) | _sections(layout), {"complete": False})
+    return metadata.groups_among(found)
 
 
 def sealed(
-    layout: StudyLayout, names: Mapping[str, Sequence[str]], attributes: Mapping[str, Any]
+    layout: StudyLayout, names: Sequence[str], attributes: Mapping[str, Any]
 ) -> dict[str, Document]:
     """Make every document of a sealed store, the root's last.
 
@@ -45,7 +45,7 @@ def sealed(
     layout
         Of the study.
     names
-        Of the numbers that points have, by group (statistics, indicators).
+        Of the numbers that points have, as in `Points.numbers`.
     attributes
         Root attributes that the layout does not know.
     """
@@ -62,10 +62,10 @@ def sealed(
         "failure": column(byte, {"long_name": "reason, a position in the attribute failures"}),
         "failure_time": column(DOUBLE, {"units": "s", "long_name": "simulated time at failure"}),
     }
-    for group, members in names.items():
-        for name in members:
-            output = layout.outputs.get(name, Channel(name, "1", name.replace("_", " ")))
-            arrays[f"{group}/{name}"] = column(DOUBLE, output.attributes)
+    for path in names:
+        name = path.partition("/")[2]
+        output = layout.outputs.get(name, Channel(name, "1", name.replace("_", " ")))
+        arrays[path] = column(DOUBLE, output.attributes)
     if layout.channels:
         width = len(layout.channels)
         shape, cut = [layout.points, width], [point_chunk(layout, width), width]
@@ -73,7 +73,7 @@ def sealed(
             arrays[f"peaks/{name}"] = metadata.array(
                 shape, cut, DOUBLE, ["point", "channel"], attributes_of
             )
-    return _tree(layout, _values(layout) | _sections(layout) | arrays, attributes, whole=True)
+    return _documents(layout, _values(layout) | _sections(layout) | arrays, attributes)
 
 
 def _values(layout: StudyLayout) -> dict[str, Document]:
@@ -102,14 +102,9 @@ def _sections(layout: StudyLayout) -> dict[str, Document]:
     }
 
 
-def _tree(
-    layout: StudyLayout,
-    arrays: Mapping[str, Document],
-    attributes: Mapping[str, Any],
-    *,
-    whole: bool,
+def _documents(
+    layout: StudyLayout, arrays: Mapping[str, Document], attributes: Mapping[str, Any]
 ) -> dict[str, Document]:
-    """Documents of all groups, and of the arrays too if `whole`, by key."""
     about = {
         "study_schema": STUDY_SCHEMA,
         "layout": layout.digest,
@@ -120,23 +115,10 @@ def _tree(
         "observables": _listed(layout.observables),
         "channels": _listed(layout.channels),
     }
-    written: dict[str, Document] = {}
-    members: dict[str, Document] = {}
-    of_groups: dict[str, dict[str, Document]] = {}
-    for key, document in arrays.items():
-        group, _, name = key.rpartition("/")
-        if group:
-            of_groups.setdefault(group, {})[name] = document
-        if whole:
-            written[f"{key}/{FILE}"] = document
-    for group, below in of_groups.items():
-        own = {"channels": [spec.name for spec in layout.channels]} if group == "peaks" else {}
-        written[f"{group}/{FILE}"] = metadata.group(own, below)
-        members[group] = metadata.group(own, {})
-    written[FILE] = metadata.group(
-        {**layout.attributes, **about, **attributes}, members | dict(arrays)
-    )
-    return written
+    own = {"peaks": {"channels": [spec.name for spec in layout.channels]}}
+    groups = dict.fromkeys(key.partition("/")[0] for key in arrays if "/" in key)
+    nodes = {group: metadata.group(own.get(group, {}), {}) for group in groups}
+    return metadata.documents({**layout.attributes, **about, **attributes}, {**nodes, **arrays})
 
 
 def _listed(specs: Sequence[Channel]) -> list[list[str]]:

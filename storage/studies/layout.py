@@ -1,7 +1,7 @@
 """Layout of a study's store: many points, and for each its sections, peaks and numbers."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
@@ -10,10 +10,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.records.channel import Channel
-from jointplay.records.names import TIME
+from jointplay.records.channel import TIME, Channel
 from jointplay.storage.errors import InvalidLayout
-from jointplay.storage.results.layout import check_name
+from jointplay.storage.results.layout import check_attributes, check_names
 
 STUDY_SCHEMA: Final = 1
 CHUNK_VALUES: Final = 16_384
@@ -70,9 +69,10 @@ class StudyLayout:
                 f"values of {len(self.parameters)} parameters need as many columns, not the shape"
                 f" {self.values.shape}"
             )
-        _check_names(self.parameters, "parameter", ())
-        _check_names(self.observables, "observable", (TIME,))
-        _check_names(self.channels, "channel", ())
+        # each in a group of its own: what other arrays and groups are called does not matter
+        check_names(self.parameters, "parameter")
+        check_names((*self.observables, TIME), "observable")
+        check_names(self.channels, "channel")
         if self.record < 0 or bool(self.record) != bool(self.observables):
             raise InvalidLayout("sections are recorded of observables, and of nothing else")
         reached = 0
@@ -82,10 +82,7 @@ class StudyLayout:
             reached += count
         if reached != self.points:
             raise InvalidLayout(f"the blocks hold {reached} of {self.points} points")
-        try:
-            json.dumps(self.attributes, allow_nan=False)
-        except (TypeError, ValueError) as error:
-            raise InvalidLayout(f"attributes must be finite JSON values: {error}") from error
+        check_attributes(self.attributes)
 
     @property
     def points(self) -> int:
@@ -127,12 +124,3 @@ class StudyLayout:
             self.attributes,
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()
-
-
-def _check_names(specs: Iterable[Channel], what: str, taken: Iterable[str]) -> None:
-    seen = set(taken)
-    for spec in specs:
-        check_name(spec.name)
-        if spec.name in seen:
-            raise InvalidLayout(f"{what} {spec.name!r} occurs twice; names are unique")
-        seen.add(spec.name)

@@ -5,8 +5,7 @@ of all arrays, and the chunks of what is still in the parts of blocks.
 """
 
 from collections.abc import Mapping
-from functools import partial
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +17,8 @@ from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
 from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.points import failure_codes, ordered
 from jointplay.storage.studies.reader import StudyReader
-
-_NUMBERS: Final = ("statistics", "indicators")
 
 
 class LiveStudy:
@@ -48,16 +46,17 @@ class LiveStudy:
             observables=reader.observables,
             record=reader.record,
             channels=reader.channels,
-            blocks=tuple((int(first), int(count)) for first, count in reader.attributes["blocks"]),
+            blocks=reader.blocks,
             outputs={
                 **outputs,
                 **{name: Channel(name, *output) for name, output in reader.own_outputs.items()},
             },
         )
-        self._codes = sorted({failure.code for failure in reader.failures.values()})
-        names = {group: sorted(getattr(reader, group)) for group in _NUMBERS}
+        codes = failure_codes(reader.failures)
+        names = ordered(reader.known.numbers)
+        self._scalars = reader.known.scalars(0, names, codes)
         self._documents = documents.sealed(self._layout, names, {})
-        attributes = {**reader.attributes, "failures": ["", *self._codes]}
+        attributes = {**reader.attributes, "failures": ["", *codes]}
         self._documents[FILE] = {**self._documents[FILE], "attributes": attributes}
 
     def document(self, key: str) -> bytes | None:
@@ -84,37 +83,19 @@ class LiveStudy:
         rows = self._rows(path, points)
         if len(shape) == 2:
             rows = rows[:, begin[1] : begin[1] + chunk[1]]
-        whole = np.full(chunk, shards.fill(dtype), dtype)
-        whole[tuple(slice(0, size) for size in rows.shape)] = rows
-        return shards.compress(whole)
+        return shards.compress(shards.filled(np.asarray(rows, dtype), chunk))
 
     def _rows(self, path: str, points: slice) -> NDArray[Any]:
         """Values of an array at a range of points."""
         group, _, name = path.rpartition("/")
         reader = self._reader
+        if group == "sections" and name == TIME:
+            return reader.section_times(points.start, points.stop)
         if group == "sections":
-            of_times = name == TIME
-            found = reader.section_times if of_times else partial(reader.sections, name)
-            return found(points.start, points.stop)
-        return self._column(group, name)[points]
-
-    def _column(self, group: str, name: str) -> NDArray[Any]:
-        """Values at every point of an array without sections."""
-        reader = self._reader
+            return reader.sections(name, points.start, points.stop)
         if group == "values":
-            return reader.values[:, [spec.name for spec in reader.parameters].index(name)]
+            return reader.values[points, [spec.name for spec in reader.parameters].index(name)]
         if group == "peaks":
-            return np.stack([getattr(reader.peaks(c.name), name) for c in reader.channels], axis=1)
-        if group in _NUMBERS:
-            numbers: Mapping[str, NDArray[Any]] = getattr(reader, group)
-            return numbers[name]
-        if name in ("status", "count"):
-            return reader.status if name == "status" else reader.counts
-        return self._failures(name)
-
-    def _failures(self, name: str) -> NDArray[Any]:
-        found = np.full(self._reader.points, 0.0 if name == "failure" else np.nan)
-        for point, failure in self._reader.failures.items():
-            code = 1 + self._codes.index(failure.code)
-            found[point] = code if name == "failure" else failure.time
-        return found
+            columns = [getattr(reader.peaks(channel.name), name) for channel in reader.channels]
+            return np.stack(columns, axis=1)[points]
+        return self._scalars[path][points]

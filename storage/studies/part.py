@@ -10,40 +10,29 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, Self
 
-import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import checkpoint
 from jointplay.records.checkpoint import packed
 from jointplay.records.point import Failure
+from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.points import Points, ordered, unknown
 
-FOLDER: Final = PARTS
 _KIND: Final = "part of a study"
-
-Floats = NDArray[np.float64]
 
 
 @dataclass
-class Part:
+class Part(Points):
     """A block's points as far as they are known.
 
-    Arrays have a row for each point of the block. `open` holds by (row, column) of the grid of
-    chunks the sections of chunks that are not in the store yet: (observables + 1, points,
-    sections), times last.
+    `open` holds by (row, column) of the grid of chunks the sections of chunks that are not in the
+    store yet: (observables + 1, points, sections), times last.
     """
 
-    index: int
-    status: NDArray[np.uint8]
-    counts: NDArray[np.int32]
-    peaks: Floats
-    """(points, channels, 4): minimum, its time, maximum, its time."""
-    failures: dict[int, Failure] = field(default_factory=dict)
-    """By point of the study."""
-    statistics: dict[str, Floats] = field(default_factory=dict)
-    indicators: dict[str, Floats] = field(default_factory=dict)
+    index: int = 0
     open: dict[tuple[int, int], Floats] = field(default_factory=dict)
     carried: bytes = b""
     """Whatever continues the computation from this moment; empty when the block is done."""
@@ -51,13 +40,7 @@ class Part:
     @classmethod
     def empty(cls, layout: StudyLayout, index: int) -> Self:
         """Begin a block of which nothing is known."""
-        count = layout.blocks[index][1]
-        return cls(
-            index,
-            np.zeros(count, np.uint8),
-            np.zeros(count, np.int32),
-            np.full((count, len(layout.channels), 4), np.nan),
-        )
+        return cls(*unknown(layout.blocks[index][1], len(layout.channels)), index=index)
 
     def encode(self, layout: StudyLayout) -> bytes:
         """Give the bytes of the file: the same for the same part."""
@@ -66,8 +49,7 @@ class Part:
             "counts": self.counts,
             "peaks": self.peaks,
         }
-        for group, numbers in (("statistics", self.statistics), ("indicators", self.indicators)):
-            arrays |= {f"{group}/{name}": numbers[name] for name in sorted(numbers)}
+        arrays |= {name: self.numbers[name] for name in ordered(self.numbers)}
         arrays |= {
             f"open/{row}/{column}": self.open[row, column] for row, column in sorted(self.open)
         }
@@ -111,14 +93,14 @@ class Part:
             raise CheckpointMismatch(f"{path} belongs to another study: {error}") from error
         except checkpoint.UnusableCheckpoint as error:
             raise CorruptStore(f"{path} cannot be read: {error}") from error
-        part = cls(facts["block"], arrays["status"], arrays["counts"], arrays["peaks"])
+        part = cls(arrays["status"], arrays["counts"], arrays["peaks"], index=facts["block"])
         for name, array in arrays.items():
             group, _, member = name.partition("/")
             if group == "open":
                 row, _, column = member.partition("/")
                 part.open[int(row), int(column)] = array
             elif member:
-                getattr(part, group)[member] = array
+                part.numbers[name] = array
         failures = facts["failures"].items()
         part.failures = {int(point): Failure(*failure) for point, failure in failures}
         part.carried = arrays["carried"].tobytes()
@@ -126,12 +108,12 @@ class Part:
 
 
 def final_name(index: int) -> str:
-    """Name the last part of a block, below `FOLDER`."""
+    """Name the last part of a block, in the folder `PARTS`."""
     return f"{index:05d}"
 
 
 def name_of(index: int, attempt: int) -> str:
-    """Name what one attempt at a block has reached, below `FOLDER`."""
+    """Name what one attempt at a block has reached, in the folder `PARTS`."""
     return f"{index:05d}-a{attempt}"
 
 
@@ -139,7 +121,7 @@ def newest(folder: Path) -> dict[int, Path]:
     """Find each block's last part, or else that of its latest attempt, by the block's index."""
     found: dict[int, tuple[float, Path]] = {}
     try:
-        paths = sorted((folder / FOLDER).iterdir())
+        paths = sorted((folder / PARTS).iterdir())
     except FileNotFoundError:
         return {}
     for path in paths:

@@ -1,80 +1,124 @@
-"""Numbers of points, and of their channels, put together from the parts of blocks."""
+"""Numbers of points, and of their channels, put together from those of blocks."""
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.point import Failure
-from jointplay.storage.studies.part import Floats, Part
+from jointplay.records.run import Floats
+
+STATISTICS: Final = "statistics"
+INDICATORS: Final = "indicators"
 
 
-@dataclass(frozen=True)
+@dataclass
 class Points:
     """Consecutive points of a study; what is not known is NaN, or waiting."""
 
     status: NDArray[np.uint8]
     counts: NDArray[np.int32]
+    """(points,) sections."""
     peaks: Floats
     """(points, channels, 4): minimum, its time, maximum, its time."""
-    failures: dict[int, Failure]
+    failures: dict[int, Failure] = field(default_factory=dict)
     """By point of the study."""
-    statistics: dict[str, Floats]
-    indicators: dict[str, Floats]
+    numbers: dict[str, Floats] = field(default_factory=dict)
+    """(points,) by group (`STATISTICS` or `INDICATORS`) and name: ``statistics/steps``."""
+
+    def column(self, name: str) -> Floats:
+        """Give an array of `numbers` to be written to; it begins with NaN."""
+        if name not in self.numbers:
+            self.numbers[name] = np.full(len(self.status), np.nan)
+        return self.numbers[name]
+
+    def group(self, group: str) -> dict[str, Floats]:
+        """Give the numbers of one group by name."""
+        begin = f"{group}/"
+        found = self.numbers.items()
+        return {path.removeprefix(begin): one for path, one in found if path.startswith(begin)}
+
+    def scalars(
+        self, first: int, names: Sequence[str], codes: Sequence[str]
+    ) -> dict[str, NDArray[Any]]:
+        """Give every array of a sealed store that has one number a point.
+
+        Parameters
+        ----------
+        first
+            The first of these points in the study.
+        names
+            Of `numbers` that some point of the study has.
+        codes
+            Of failures, in the order of the attribute `failures`.
+        """
+        failure = np.zeros(len(self.status), np.uint8)
+        failure_time = np.full(len(self.status), np.nan)
+        for point, found in self.failures.items():
+            failure[point - first] = 1 + codes.index(found.code)
+            failure_time[point - first] = found.time
+        nothing = np.full(len(self.status), np.nan)
+        return {
+            "status": self.status,
+            "count": self.counts,
+            "failure": failure,
+            "failure_time": failure_time,
+            **{name: self.numbers.get(name, nothing) for name in names},
+        }
+
+
+def unknown(count: int, channels: int) -> tuple[NDArray[np.uint8], NDArray[np.int32], Floats]:
+    """Give status, counts and peaks of points of which nothing is known."""
+    peaks = np.full((count, channels, 4), np.nan)
+    return np.zeros(count, np.uint8), np.zeros(count, np.int32), peaks
+
+
+def ordered(names: Iterable[str]) -> list[str]:
+    """Sort names of `Points.numbers`, statistics first."""
+    return sorted(names, key=lambda name: (not name.startswith(STATISTICS), name))
+
+
+def failure_codes(failures: Mapping[int, Failure]) -> list[str]:
+    """List the codes of failures, in the order of the attribute `failures`."""
+    return sorted({failure.code for failure in failures.values()})
 
 
 def together(
-    part_of: Callable[[int], Part | None],
-    blocks: Sequence[tuple[int, int]],
+    part_of: Callable[[int], Points | None],
+    blocks: Sequence[Sequence[int]],
     channels: int,
     start: int,
     stop: int,
 ) -> Points:
-    """Put points `start` to `stop` - 1 together from the parts of their blocks.
+    """Put points `start` to `stop` - 1 together from those of their blocks.
 
     Parameters
     ----------
     part_of
-        Gives the part of a block by its index; none while it waits.
+        Gives the points of a block by its index; none while it waits.
     blocks
         (first, count) of all blocks.
     channels
         Number of channels whose peaks are kept.
     """
-    points = Points(
-        np.zeros(stop - start, np.uint8),
-        np.zeros(stop - start, np.int32),
-        np.full((stop - start, channels, 4), np.nan),
-        {},
-        {},
-        {},
-    )
+    points = Points(*unknown(stop - start, channels))
     begin = max(bisect_right(blocks, start, key=lambda block: block[0]) - 1, 0)
     for index in range(begin, len(blocks)):
         first, count = blocks[index]
         if first >= stop:
             break
         part = part_of(index)
-        if part is not None:
-            low, high = max(first, start), min(first + count, stop)
-            _copy(part, slice(low - first, high - first), points, slice(low - start, high - start))
-            points.failures.update(
-                {p: failure for p, failure in part.failures.items() if start <= p < stop}
-            )
+        if part is None:
+            continue
+        low, high = max(first, start), min(first + count, stop)
+        source, target = slice(low - first, high - first), slice(low - start, high - start)
+        points.status[target] = part.status[source]
+        points.counts[target] = part.counts[source]
+        points.peaks[target] = part.peaks[source]
+        for name, numbers in part.numbers.items():
+            points.column(name)[target] = numbers[source]
+        points.failures |= {p: one for p, one in part.failures.items() if start <= p < stop}
     return points
-
-
-def _copy(part: Part, source: slice, points: Points, target: slice) -> None:
-    points.status[target] = part.status[source]
-    points.counts[target] = part.counts[source]
-    points.peaks[target] = part.peaks[source]
-    for found, known in (
-        (part.statistics, points.statistics),
-        (part.indicators, points.indicators),
-    ):
-        for name, numbers in found.items():
-            if name not in known:
-                known[name] = np.full(len(points.status), np.nan)
-            known[name][target] = numbers[source]

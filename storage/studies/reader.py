@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import zarr
@@ -15,21 +15,21 @@ from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure
+from jointplay.records.run import Floats
 from jointplay.storage.errors import NotAStore, UnknownChannel
-from jointplay.storage.packed import Files, Packed, Running, files_at
-from jointplay.storage.packed.zarr_store import FilesStore
-from jointplay.storage.results import manifest
+from jointplay.storage.packed import Files, Running
 from jointplay.storage.results.metadata import FILE
+from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import STUDY_SCHEMA
-from jointplay.storage.studies.part import Floats, Part
-from jointplay.storage.studies.points import Points, together
+from jointplay.storage.studies.part import Part
+from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
 from jointplay.storage.studies.store import FAILURES
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 
 
-class StudyReader:
+class StudyReader(StoreReader):
     """One study's store as it is at this moment: sealed, growing, or left incomplete.
 
     Opening reads one small file; everything else is read when it is asked for.
@@ -46,14 +46,12 @@ class StudyReader:
     """
 
     def __init__(self, source: Files | Path) -> None:
-        self._open(files_at(source) if isinstance(source, Path) else source)
+        super().__init__(source)
+        self._open()
 
-    def _open(self, files: Files) -> None:
-        self.files = files
-        self.sealed = isinstance(files, Packed)
-        """Nothing will be added any more."""
+    def _open(self) -> None:
         try:
-            self.attributes: dict[str, Any] = json.loads(files.read(FILE))["attributes"]
+            self.attributes: dict[str, Any] = json.loads(self.files.read(FILE))["attributes"]
             schema = self.attributes.get("study_schema")
         except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError) as error:
             raise NotAStore("there is no store of a study") from error
@@ -67,6 +65,8 @@ class StudyReader:
         self.parameters = _specs(self.attributes["parameters"])
         self.observables = _specs(self.attributes["observables"])
         self.channels = _specs(self.attributes["channels"])
+        self.blocks = tuple((int(first), int(count)) for first, count in self.attributes["blocks"])
+        """(first, count) of the points that are computed together."""
         self.__dict__.pop("_root", None)  # its documents were those of the growing store
 
     @property
@@ -83,27 +83,27 @@ class StudyReader:
     @property
     def status(self) -> NDArray[np.uint8]:
         """(points,) codes of `PointStatus`: waiting, running, done, failed."""
-        return self._numbers.status
+        return self.known.status
 
     @property
     def counts(self) -> NDArray[np.int64]:
         """(points,) sections recorded so far."""
-        return self._numbers.counts.astype(np.int64)
+        return self.known.counts.astype(np.int64)
 
     @property
     def failures(self) -> Mapping[int, Failure]:
         """Failed points: code, sentence, simulated time reached."""
-        return self._numbers.failures
+        return self.known.failures
 
     @property
     def statistics(self) -> Mapping[str, Floats]:
         """(points,) by name; NaN at points that have not ended."""
-        return self._numbers.statistics
+        return self.known.group(STATISTICS)
 
     @property
     def indicators(self) -> Mapping[str, Floats]:
         """(points,) by name; NaN at points that have not ended."""
-        return self._numbers.indicators
+        return self.known.group(INDICATORS)
 
     @property
     def own_outputs(self) -> Mapping[str, tuple[str, str]]:
@@ -133,9 +133,9 @@ class StudyReader:
             Peaks of this channel are not kept.
         """
         column = _position(channel, self.channels)
-        numbers = self._numbers
+        known = self.known
         if not self.sealed:
-            return PeakColumns(*numbers.peaks[:, column, :].T)
+            return PeakColumns(*known.peaks[:, column, :].T)
         return PeakColumns(
             *(
                 np.asarray(self._array(f"peaks/{name}")[:, column], np.float64)
@@ -189,18 +189,6 @@ class StudyReader:
         }
         return columns.pop(TIME), columns
 
-    def verify(self) -> None:
-        """Compare every file with the manifest.
-
-        Raises
-        ------
-        NotAStore
-            The store is not sealed.
-        CorruptStore
-            A file is missing, differs or was added.
-        """
-        manifest.verify(self.files)
-
     def _sections(self, name: str, column: int, start: int, stop: int | None) -> Floats:
         points = slice(*slice(start, stop).indices(self.points))
         return self._window(name, column, points, slice(0, self.record))
@@ -241,27 +229,28 @@ class StudyReader:
             sealed = self.files.sealed()
             if sealed is None:
                 return found
-            self._open(sealed)
+            self.files = sealed
+            self._open()
         raise NotAStore("the study changes faster than it can be read")
 
     @cached_property
-    def _numbers(self) -> Points:
-        """Arrays with one number a point."""
+    def known(self) -> Points:
+        """Arrays with one number a point; peaks only while the store grows."""
         parts = self._parts
         if not self.sealed:
-            blocks = [(int(first), int(count)) for first, count in self.attributes["blocks"]]
-            return together(parts.get, blocks, len(self.channels), 0, self.points)
-        numbers = {
-            group: {name: np.asarray(array[:], np.float64) for name, array in self._members(group)}
-            for group in ("statistics", "indicators")
-        }
+            return together(parts.get, self.blocks, len(self.channels), 0, self.points)
+        groups = [(group, self._root.get(group)) for group in (STATISTICS, INDICATORS)]
         return Points(
             np.asarray(self._array("status")[:], np.uint8),
             np.asarray(self._array("count")[:], np.int32),
             np.empty((0, 0, 4)),
             self._failures(),
-            numbers["statistics"],
-            numbers["indicators"],
+            {
+                f"{group}/{name}": np.asarray(array[:], np.float64)
+                for group, members in groups
+                if isinstance(members, zarr.Group)
+                for name, array in members.arrays()
+            },
         )
 
     def _failures(self) -> dict[int, Failure]:
@@ -273,17 +262,6 @@ class StudyReader:
             int(point): Failure(code, detail, math.nan if time is None else time)
             for point, (code, detail, time) in found.items()
         }
-
-    def _members(self, group: str) -> list[tuple[str, zarr.Array[Any]]]:
-        found = self._root.get(group)
-        return list(found.arrays()) if isinstance(found, zarr.Group) else []
-
-    def _array(self, key: str) -> zarr.Array[Any]:
-        return cast("zarr.Array[Any]", self._root[key])
-
-    @cached_property
-    def _root(self) -> zarr.Group:
-        return zarr.open_group(FilesStore(self.files), mode="r", zarr_format=3)
 
 
 def _specs(listed: Sequence[Sequence[str]]) -> tuple[Channel, ...]:

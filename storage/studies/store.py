@@ -12,15 +12,17 @@ from numpy.typing import NDArray
 
 from jointplay.records.peak import PEAK
 from jointplay.records.point import Failure, PointStatus
+from jointplay.records.run import Floats
 from jointplay.storage.errors import IncompleteStudy, NotAStore, StoreExists
 from jointplay.storage.packed import Running, pack
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
 from jointplay.storage.studies.block import chunk_files, require_chunks, written_chunks
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Floats, Part
-from jointplay.storage.studies.points import Points, together
+from jointplay.storage.studies.part import Part
+from jointplay.storage.studies.points import Points, failure_codes, ordered, together
 
 FAILURES: Final = "failures.json"
 """Failed points with code, sentence and time reached: what no array can hold."""
@@ -95,9 +97,7 @@ def _files(
     folder: Path, layout: StudyLayout, advanced: Callable[[], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Give key and content of every file of the sealed store, in the same order always."""
-    finals = {
-        index: folder / part.FOLDER / part.final_name(index) for index in range(len(layout.blocks))
-    }
+    finals = {index: folder / PARTS / part.final_name(index) for index in range(len(layout.blocks))}
     missing = [index for index, path in finals.items() if not path.exists()]
     if missing:
         raise IncompleteStudy(
@@ -110,7 +110,7 @@ def _files(
 
     files = Running(folder)
     names, failures, ended = _survey(files, part_of, layout)
-    codes = sorted({failure.code for failure in failures.values()})
+    codes = failure_codes(failures)
     yield from _values(layout)
     yield from _columns(part_of, layout, names, codes)
     for index in finals:
@@ -125,26 +125,24 @@ def _files(
 
 def _survey(
     files: Running, part_of: Callable[[int], Part], layout: StudyLayout
-) -> tuple[dict[str, list[str]], dict[int, Failure], dict[str, int]]:
-    """Names of all numbers by group, failed points, and how many points are done and failed."""
-    groups: dict[str, set[str]] = {"statistics": set(), "indicators": set()}
+) -> tuple[list[str], dict[int, Failure], dict[str, int]]:
+    """Names of all numbers, failed points, and how many points are done and failed."""
+    names: set[str] = set()
     failures: dict[int, Failure] = {}
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
         require_chunks(files, layout, found)
-        groups["statistics"] |= found.statistics.keys()
-        groups["indicators"] |= found.indicators.keys()
+        names |= found.numbers.keys()
         failures |= found.failures
         done += int((found.status == PointStatus.done).sum())
-    names = {group: sorted(found) for group, found in groups.items()}
-    return names, failures, {"done": done, "failed": len(failures)}
+    return ordered(names), failures, {"done": done, "failed": len(failures)}
 
 
 def _columns(
     part_of: Callable[[int], Part],
     layout: StudyLayout,
-    names: dict[str, list[str]],
+    names: list[str],
     codes: list[str],
 ) -> Iterator[tuple[str, bytes]]:
     """Every chunk of the arrays with one number, or one of each channel, a point."""
@@ -156,7 +154,7 @@ def _columns(
 
     size = documents.point_chunk(layout)
     for chunk, first in enumerate(range(0, layout.points, size)):
-        for name, column in _scalars(window(first, size), first, names, codes).items():
+        for name, column in window(first, size).scalars(first, names, codes).items():
             yield f"{name}/c/{chunk}", _encoded(column, size)
     if width:
         size = documents.point_chunk(layout, width)
@@ -192,26 +190,6 @@ def _boundary_chunks(
             yield from chunk_files(layout, key, waiting.pop(key))
 
 
-def _scalars(
-    points: Points, first: int, names: dict[str, list[str]], codes: list[str]
-) -> dict[str, NDArray[Any]]:
-    failure = np.zeros(len(points.status), np.uint8)
-    failure_time = np.full(len(points.status), np.nan)
-    for point, found in points.failures.items():
-        failure[point - first] = 1 + codes.index(found.code)
-        failure_time[point - first] = found.time
-    columns: dict[str, NDArray[Any]] = {
-        "status": points.status,
-        "count": points.counts,
-        "failure": failure,
-        "failure_time": failure_time,
-    }
-    nothing = np.full(len(points.status), np.nan)
-    for group, known in (("statistics", points.statistics), ("indicators", points.indicators)):
-        columns |= {f"{group}/{name}": known.get(name, nothing) for name in names[group]}
-    return columns
-
-
 def _values(layout: StudyLayout) -> Iterator[tuple[str, bytes]]:
     size = documents.point_chunk(layout)
     for position, spec in enumerate(layout.parameters):
@@ -222,8 +200,4 @@ def _values(layout: StudyLayout) -> Iterator[tuple[str, bytes]]:
 
 def _encoded(column: NDArray[Any], size: int) -> bytes:
     """Compress a chunk of `size` points, the last one of an array filled up."""
-    missing = size - len(column)
-    if missing:
-        empty = np.full((missing, *column.shape[1:]), shards.fill(column.dtype), column.dtype)
-        column = np.concatenate([column, empty])
-    return shards.compress(column)
+    return shards.compress(shards.filled(column, [size, *column.shape[1:]]))

@@ -1,16 +1,22 @@
 """What a study hands over is what readers find."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import zarr
 from made_up_studies import MadeUpStudy, made_up_layout
 from zarr.storage import ZipStore
 
+from jointplay.records.channel import Channel
 from jointplay.records.point import Failure
-from jointplay.storage.packed import Packed, files_at, pack
+from jointplay.storage.packed import Packed, Running, files_at, pack
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
 from jointplay.storage.results import CorruptStore, InvalidLayout, NotAStore, UnknownChannel
 from jointplay.storage.studies import StudyReader, create
 from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.live import LiveStudy
 
 SHAPES = {
     "octets": {},
@@ -206,3 +212,30 @@ def test_names_and_shapes_must_fit(change, sentence):
         fields[name] = renamed
     with pytest.raises(InvalidLayout, match=sentence):
         StudyLayout(**fields)
+
+
+def test_every_name_but_that_of_the_time_of_sections_is_free(tmp_path):
+    # `values` and `sections` are groups, which have no chunks: an array of theirs named `c`, as
+    # Zarr begins the keys of chunks, is nobody's chunk, and what the root holds is another place
+    names = ("c", "c.0", "time", "values", "sections", "peaks", "status", "certificate", "pyramid")
+    plain = made_up_layout(points=20, record=7)
+    values = np.random.default_rng(1).normal(size=(20, len(names)))
+    parameters = tuple(Channel(name, "1", "a parameter") for name in names)
+    observables = tuple(Channel(name, "m", "a coordinate") for name in names if name != "time")
+    layout = replace(plain, parameters=parameters, values=values, observables=observables)
+    study = MadeUpStudy(layout)
+    path = study.write(tmp_path / "store")
+    growing = LiveStudy(Running(tmp_path / "store"), {})
+    assert_equal(StudyReader(path), study)
+    assert_equal(StudyReader(tmp_path / "store"), study)
+    root = zarr.open_group(ZipStore(path), mode="r")
+    sealed = Packed(StoredObject(Folder(str(path.parent)), path.name))
+    for column, name in enumerate(names):
+        np.testing.assert_array_equal(root[f"values/{name}"][:], values[:, column])
+        assert growing.chunk(f"values/{name}/c/0") == sealed.read(f"values/{name}/c/0")
+    for column, spec in enumerate(observables):
+        np.testing.assert_array_equal(
+            root[f"sections/{spec.name}"][:], study.sections[:, :, column]
+        )
+    assert growing.document("values/c/zarr.json") == sealed.read("values/c/zarr.json")
+    assert growing.chunk("values/c/0") is None
