@@ -11,6 +11,7 @@ from jointplay.records.failure import SimulationFailed
 from jointplay.records.peak import Peak
 from jointplay.solver.kernels.emit.places import TIME
 from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.periods import PACE_STEPS, SLOWEST_PACE
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.quantities.extremes import refined_peaks
 
@@ -117,10 +118,14 @@ def failure_of(bundle: Bundle, lane: int, tolerance: float) -> SimulationFailed:
             " smaller 'step', or a method that controls its error.",
             at,
         )
-    if status == Status.UNDERFLOW:
+    if status in (Status.UNDERFLOW, Status.NO_PROGRESS):
+        slow = f"The last {PACE_STEPS} steps brought the run on by less than {SLOWEST_PACE:g} of"
+        slow += " the fastest period,"
+        fell = f"The step fell to {step:.3g} s"
         return SimulationFailed(
             "step-size-underflow",
-            f"The step fell to {step:.3g} s at t = {at:.9g} s after {steps} steps: the motion"
+            f"{fell if status == Status.UNDERFLOW else slow}"
+            f" at t = {at:.9g} s after {steps} steps: the motion"
             f" cannot be followed at tolerance {tolerance:g}. Try a larger tolerance, a lower"
             " contact stiffness, or a wider gap between static_velocity and dynamic_velocity.",
             at,

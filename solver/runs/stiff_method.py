@@ -110,4 +110,4 @@ def joined(slices: list[Slice]) -> Slice:
 
 
 def _is_early(lane: Lane) -> bool:
-    return lane.time < SHARE * float(lane.run["period"])
+    return lane.time < SHARE * float(lane.run["unit"])

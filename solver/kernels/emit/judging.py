@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from jointplay.solver.kernels.emit.enclosure import beyond
 from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
@@ -43,33 +44,31 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
 
 
 def contact_flags(
-    v: Callable[[str], Expression], j: int, *, shortened: bool
+    v: Callable[[str], Expression], j: int, away: Expression, *, shortened: bool
 ) -> tuple[Expression, Expression]:
-    """Flag a gap that closed, or nearly, inside the step; and one in contact that opened.
+    """Flag a gap that closed, or perhaps did, inside the step; and one in contact that opened.
 
-    Either may be over at the step's end, so both look at the extreme in between; but not where
-    steps are fixed, not `shortened`: there contacts change where a step ends.
+    Either may be over at the step's end, so both look at what is in between; but not where steps
+    are fixed, not `shortened`: there contacts change where a step ends. A gap whose journal stays
+    in an enclosure off the wall did not close (`solver.kernels.emit.enclosure`, also of `away`).
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
-    # the extreme of the cubic through both ends, at the zero of the linear rate
-    turn = start_rate / (start_rate - rate + 1e-300)
-    rest = 1.0 - turn
-    extreme = (
-        rest * rest * (1.0 + 2.0 * turn) * start
-        + turn * turn * (3.0 - 2.0 * turn) * gap
-        + turn * rest * v("tried") * (rest * start_rate - turn * rate)
-    )
-    grazing: Expression | float = 0.0
+    perhaps: Expression | float = 0.0
     dip: Expression | float = 0.0
     if shortened:
-        near = extreme + 0.1 * abs(extreme - maximum(gap, start))
-        touches = _where(ONSET, near)
-        grazing = _where(touches, -rate, start_rate)
-        away = 0.1 * abs(extreme - minimum(gap, start)) - extreme
-        parts = _where(RELEASE, away)
-        dip = _where(parts, -start_rate, rate)
-    onset = select_positive(gap, ONSET, grazing)
+        perhaps = _where(ONSET, beyond(v, j, away))
+        # the extreme of the cubic through both ends, at the zero of the linear rate
+        turn = start_rate / (start_rate - rate + 1e-300)
+        rest = 1.0 - turn
+        extreme = (
+            rest * rest * (1.0 + 2.0 * turn) * start
+            + turn * turn * (3.0 - 2.0 * turn) * gap
+            + turn * rest * v("tried") * (rest * start_rate - turn * rate)
+        )
+        open_between = 0.1 * abs(extreme - minimum(gap, start)) - extreme
+        dip = _where(RELEASE, open_between, -start_rate, rate)
+    onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
     touching = v(f"mode{j}")

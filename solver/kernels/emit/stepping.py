@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from itertools import count
 
 from jointplay.solver.integrators import Method
+from jointplay.solver.kernels.emit import enclosure
 from jointplay.solver.kernels.emit.emit import (
     RETURNING,
     FixedNodes,
@@ -18,7 +19,7 @@ from jointplay.solver.kernels.emit.emit import (
 )
 from jointplay.solver.kernels.emit.judging import DUE, PACE, REJECTED, contact_flags, growth
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.equations import MOTION, Equations
 from jointplay.solver.kernels.record.lane_functions import coarse_log2
 from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
@@ -49,6 +50,7 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add_block("inverse_rate", joints)
     for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
         layout.add_block(name, joints)
+    enclosure.allocate(layout, joints)
 
 
 def before(name: str) -> str:
@@ -74,6 +76,7 @@ class StepRecorder:
         self.tableau, self.equations = tableau, equations
         self.states, self.coordinates = equations.states, len(equations.coordinates)
         self.ledger, self.joints = ledger, len(equations.play)
+        self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
         self.layout, self.known = layout, known
         self.recorder = Recorder()
         layout.add(*(before(name) for name in self._remembered()))
@@ -120,6 +123,9 @@ class StepRecorder:
         v = self.variable
         remaining = v("end") - v("time")
         limited = minimum(minimum(v("step"), v("largest_step")), remaining)
+        if self.tableau.error:
+            speeds = [f"y{self.coordinates + i}" for i in self.angles]
+            limited = minimum(limited, enclosure.longest(v, speeds))
         tried: Expression = select_positive(v("active"), limited, self.recorder.constant(0.0))
         return tried
 
@@ -169,8 +175,9 @@ class StepRecorder:
         flag = REJECTED * (1.0 - good) + due + pace
         onset: Expression = number(0.0)
         release: Expression = number(0.0)
+        away = self._away()
         for j in range(self.joints):
-            begins, ends = contact_flags(v, j, shortened=bool(self.tableau.error))
+            begins, ends = contact_flags(v, j, away, shortened=bool(self.tableau.error))
             onset, release = maximum(onset, begins), maximum(release, ends)
         flag = select_positive(v("active"), flag + onset + release, number(0.0))
         outputs = [
@@ -183,6 +190,15 @@ class StepRecorder:
         tape.store(outputs)
         tape.give(flag)
         return tape.function("judge")
+
+    def _away(self) -> Expression:
+        """Return what journals may be away from the quintic that encloses them, m."""
+        speeds = [self.coordinates + i for i in self.angles]
+        return enclosure.remainder(
+            self.variable,
+            [f"{state}{i}" for i in speeds for state in ("y", "stage")],
+            [f"{slope}{i}" for i in speeds for slope in ("k1_", "slope")],
+        )
 
     def _squared_error(self) -> Expression:
         """Square of the step's error, in tolerances."""
@@ -253,6 +269,8 @@ class StepRecorder:
         for j in range(self.joints):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
+        paths = range(len(MOTION) * self.joints)
+        outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
         outputs += [(f"kledger1_{i}", v(f"ledger{i}")) for i in range(self.ledger)]

@@ -32,7 +32,7 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["k1_"], lane["kledger1_"] = lane["slope"], lane["ledger"]
     lane["total"] = 0.0
     module.weigh(lane.work)
-    for quantity in ("potential", "stored", "gap", "gap_rate"):
+    for quantity in ("potential", "stored", "gap", "gap_rate", "eccentricity"):
         lane[f"{quantity}_start"] = lane[quantity]
     lane["gross"] = 0.0
     module.observe(lane.work)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.enclosure import SKIN
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.loop.lane import Lane
@@ -17,7 +18,7 @@ from jointplay.solver.scene.periods import characteristic_time, common_period
 from jointplay.solver.scene.references import clearances, inner_states
 
 STEPS_IN_A_PERIOD = 100
-"""Fewest steps a period: the step grows no longer than that, so that no passing event is missed."""
+"""Fewest steps in a period of the fastest driver, or in the scene's own scale of time."""
 RESTART = 1e-3
 """The first step in contact closes this share of the clearance at the impact rate."""
 SMALLEST_STEP = 1e-15
@@ -31,7 +32,7 @@ STRICTEST = 1e-14
 """While nothing has moved as fast as the scene's scale of speed, the tolerance is smaller by as
 much, down to this: else what a run does that is nearly at rest would be lost in the tolerance."""
 FIRST_STEP = 1e-6
-"""First step, in periods."""
+"""First step, in such periods."""
 
 
 def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
@@ -47,6 +48,7 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
     unit = characteristic_time(scene, length)
     common = common_period(scene).seconds
     _clock(lane, problem, common or unit, common is not None)
+    _limit(lane, problem, length, unit)
     _scale(lane, problem, length, unit)
     if problem.start is None:
         assembly = assemble(scene)
@@ -96,6 +98,26 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         lane["restart"][j] = restart
 
 
+def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None:
+    """Set what limits a lane's steps: the fastest driver's period, and what encloses journals.
+
+    The period that all drivers have in common may be a thousand times as long.
+    """
+    scene = problem.scene
+    lane.run["unit"] = unit
+    lane["step"] = problem.step or FIRST_STEP * unit
+    lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
+    lane["lever"] = mechanism_size(scene, length)
+    turning = [
+        abs(driver.speed)
+        for driver in scene.drivers.values()
+        if isinstance(scene.joints[driver.joint], Revolute)
+    ]
+    lane["driven_speed"] = sum(turning)
+    for j, fit in enumerate(clearances(scene).values()):
+        lane["inner"][j] = (1.0 - SKIN) * fit.radial_clearance
+
+
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:
     """Set a lane's time, its run's record, and what falls due when."""
     scene = problem.scene
@@ -105,8 +127,6 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     for name in ("time", "stage_time", "before_time"):
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
-    lane["step"] = problem.step or FIRST_STEP * period
-    lane["largest_step"] = problem.step or period / STEPS_IN_A_PERIOD
     lane["smallest_step"] = period
     turning = all(isinstance(scene.joints[d.joint], Revolute) for d in scene.drivers.values())
     for k, driver in enumerate(scene.drivers.values()):

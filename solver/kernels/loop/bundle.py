@@ -148,7 +148,7 @@ class Bundle:
                 lane[record], lane[f"{record}_time"] = lane["previous"], lane.time
             lane["change"] = math.nan
             # no change is known before the next step: a long one could hide an extreme
-            lane["step"] = FIRST_STEP * period
+            lane["step"] = FIRST_STEP * lane.run["unit"]
         self._set_going(lane)
 
     def _set_going(self, lane: Lane) -> None:

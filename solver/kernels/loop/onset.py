@@ -10,6 +10,8 @@ from jointplay.solver.kernels.layout import INSTANTS
 
 NO_ONSET = math.inf
 NEWTON_STEPS = 2
+TURNING_LEVELS = 4
+"""Each narrows the interval of a turning point to an eighth."""
 
 
 @kernel()
@@ -40,27 +42,72 @@ def first_onset(
     """Return the share of the step after which joint j's gap first closes, `NO_ONSET` if never.
 
     The gap is looked at in eight places; where its rate turns between two of them without the gap
-    closing, the turning point is looked at more closely (a grazing contact).
+    closing, though it might have, the turning point is sought (a grazing contact).
     """
-    low, high = 0.0, 1.0
-    for level in range(4):
-        look_between(low, high, lane, at, work, spare, gaps_within)
-        before_rate = work[at.gap_rate_start + j, lane] if level == 0 else 1.0
-        turning = -1
+    begun = 0
+    while begun < INSTANTS:
+        look_between(0.0, 1.0, lane, at, work, spare, gaps_within)
+        i = next_suspect(j, begun, lane, at, work, spare)
+        if i == INSTANTS:
+            break
+        left, right = i / INSTANTS, (i + 1) / INSTANTS
+        closed = right
+        if spare[at.gap + j, i] <= 0.0:
+            closed = closed_between(j, left, right, lane, at, work, spare, gaps_within)
+        if closed < NO_ONSET:
+            return polish(j, left, closed, lane, at, work, spare, gaps_within)
+        begun = i + 1
+    return NO_ONSET
+
+
+@kernel()
+def next_suspect(
+    j: int, begun: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
+) -> int:
+    """Return the first eighth of the step, from the one with number `begun` on, that may touch.
+
+    The gap is closed at its end, or rises at its beginning and falls at its end from where it would
+    close if it went on for the eighth at twice these rates. None: the number of eighths.
+    """
+    for i in range(begun, INSTANTS):
+        gap, rate = spare[at.gap + j, i], spare[at.gap_rate + j, i]
+        before, before_rate = work[at.gap_start + j, lane], work[at.gap_rate_start + j, lane]
+        if i > 0:
+            before, before_rate = spare[at.gap + j, i - 1], spare[at.gap_rate + j, i - 1]
+        if gap > 0.0:
+            return i
+        reach = 2.0 * work[at.tried, lane] / INSTANTS
+        if before_rate > 0.0 > rate and min(before + reach * before_rate, gap - reach * rate) > 0.0:
+            return i
+    return INSTANTS
+
+
+@kernel()
+def closed_between(
+    j: int,
+    left: float,
+    right: float,
+    lane: int,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    gaps_within: LaneFunction,
+) -> float:
+    """Return a share of the step at which joint j's gap is closed, `NO_ONSET` if there is none.
+
+    From one share to another, between which the gap's rate turns from rising to falling.
+    """
+    for _ in range(TURNING_LEVELS):
+        look_between(left, right, lane, at, work, spare, gaps_within)
+        turning = INSTANTS - 1
         for i in range(INSTANTS):
-            gap, rate = spare[at.gap + j, i], spare[at.gap_rate + j, i]
-            if gap > 0.0:
-                left = low + (high - low) * i / INSTANTS
-                right = low + (high - low) * (i + 1) / INSTANTS
-                return polish(j, left, right, lane, at, work, spare, gaps_within)
-            if before_rate > 0.0 and rate < 0.0:
+            if spare[at.gap + j, i] > 0.0:
+                return float(spare[at.theta, i])
+            if spare[at.gap_rate + j, i] < 0.0 and turning == INSTANTS - 1:
                 turning = i
-            before_rate = rate
-        if turning < 0:
-            return NO_ONSET
-        width = (high - low) / INSTANTS
-        low = low + width * turning
-        high = low + width
+        width = (right - left) / INSTANTS
+        left = left + width * turning
+        right = left + width
     return NO_ONSET
 
 

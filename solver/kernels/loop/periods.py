@@ -10,7 +10,8 @@ from jointplay.solver.kernels.jit import kernel
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Run, SectionKind, Status
 
 PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
-"""Fewer periods than SLOWEST_PACE in PACE_STEPS steps are no progress: the run ends."""
+"""Fewer periods of the fastest driver than SLOWEST_PACE in PACE_STEPS steps are no progress: the
+run ends."""
 SAME = 1e-12
 """Share of a period: a section so close to the end of the run is taken there."""
 MOST_STEPS = 4e9
@@ -91,8 +92,8 @@ def check_pace(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Stop a lane that has used up its steps or hardly moves; counted in its own steps."""
     now = float(run.periods) * run.period + work[at.time, lane]
     steps = work[at.steps, lane]
-    if now - run.pace_time < SLOWEST_PACE * run.period:
-        stop(Status.UNDERFLOW, lane, run, at, work)
+    if now - run.pace_time < SLOWEST_PACE * run.unit:
+        stop(Status.NO_PROGRESS, lane, run, at, work)
     elif steps >= MOST_STEPS:
         stop(Status.STEP_LIMIT, lane, run, at, work)
     run.pace_time = now

@@ -24,6 +24,7 @@ class Status(IntEnum):
     STEP_LIMIT = 3
     ONSET_LOST = 4
     IDLE = 5
+    NO_PROGRESS = 6
 
 
 class SectionKind(IntEnum):
@@ -66,6 +67,8 @@ class Run:
     """Attempts at that onset."""
     period: float
     """Common period of the drivers, or the scene's time scale, s."""
+    unit: float
+    """Period of the fastest driver, or the scene's time scale, s."""
     common: int
     """Whether all drivers repeat after `period`."""
     turning: int

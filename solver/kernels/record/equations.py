@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from itertools import islice
 
+from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
     Expression,
@@ -10,6 +11,7 @@ from jointplay.solver.kernels.record.recorder import (
     reachable,
     too_many,
 )
+from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
@@ -17,6 +19,9 @@ from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import inner_states
+
+MOTION = ("x", "y", "rate_x", "rate_y", "acceleration_x", "acceleration_y")
+"""Eccentricity of a journal (m), its rate (m/s) and acceleration (m/s^2), in the world's axes."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +45,8 @@ class Equations:
     """Rates: work into contacts, friction loss, each driver's work, each joint's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each joint with play."""
+    eccentricities: tuple[tuple[Expression, ...], ...]
+    """Motion of each joint's journal in its bearing, as `MOTION` says."""
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
 
@@ -106,20 +113,37 @@ def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
     for body, wound in windings.items():
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(observed))
+    accelerations = tuple(lift(a) for a in motion.accelerations)
+    along = {f"stage{i}": stage[count + i] for i in range(count)}
+    along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
+    derivative = Derivative(along | {"stage_time": recorder.constant(1.0)})
     return Equations(
         recorder,
         coordinates,
         tuple(scene.drivers),
         tree.play,
-        tuple(lift(a) for a in motion.accelerations),
+        accelerations,
         tuple(lift(rate) for found in motion.contacts.values() for rate in found.inner_rates),
         tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
         tuple(
             (lift(found.penetration), lift(found.penetration_rate))
             for found in motion.contacts.values()
         ),
+        tuple(
+            _path(recorder, found.eccentricity, found.eccentricity_rate, derivative)
+            for found in motion.contacts.values()
+        ),
         channels,
     )
+
+
+def _path(
+    recorder: Recorder, place: Pair, rate: Pair, derivative: Derivative
+) -> tuple[Expression, ...]:
+    """Return place, rate and acceleration of a journal's centre."""
+    rates = [recorder.lift(part) for part in rate]
+    places = [recorder.lift(part) for part in place]
+    return (*places, *rates, *(derivative(part) for part in rates))
 
 
 def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Expression]:
@@ -150,12 +174,14 @@ def slopes(equations: Equations) -> list[tuple[str, Expression]]:
 
 
 def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
-    """Return what is needed where a step ends: all slopes, the ledger's, and the gaps."""
+    """Return what is needed where a step ends: slopes, the ledger's, gaps, paths of journals."""
     count = len(equations.coordinates)
     speeds = [equations.recorder.variable(f"stage{count + i}") for i in range(count)]
     outputs = [(f"slope{i}", speed) for i, speed in enumerate(speeds)] + slopes(equations)
     for j, (gap, rate) in enumerate(equations.gaps):
         outputs += [(f"gap{j}", gap), (f"gap_rate{j}", rate)]
+    for j, path in enumerate(equations.eccentricities):
+        outputs += [(f"eccentricity{len(MOTION) * j + k}", part) for k, part in enumerate(path)]
     return outputs
 
 

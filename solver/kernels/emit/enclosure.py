@@ -1,0 +1,100 @@
+"""Bounds on what happens inside a step: how far bodies turn in it, how far journals move in it.
+
+In free flight the local error vanishes, so that it says nothing of a step's length; what forces do
+not limit, geometry must. Two rules make a step's inside known from its ends:
+
+1. No body turns by more than `TURN` in a step (`longest`).
+2. A journal's centre moves along the quintic that has its place, velocity and acceleration at both
+   ends of the step. As a Bezier curve it lies in the convex hull of its six control points, and a
+   disc is convex: a journal whose control points are all inside its clearance circle does not touch
+   within the step (`beyond`). What the quintic leaves out is at most h^6 |e^(6)| / 46080
+   (Hermite's remainder). An eccentricity is a sum of vectors that turn with bodies and of paths of
+   free bodies, which gravity makes parabolas. If k derivatives of an angle are worth at most
+   turn^k each (turn: |omega| h or sqrt(|alpha|) h, whichever is more), the sixth of a vector of
+   length r is worth 203 r turn^6, for 203 is the number of partitions of six.
+"""
+
+from collections.abc import Callable, Iterable
+
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import MOTION
+from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.quantities.scalars import maximum
+
+TURN = 0.5
+"""Largest angle by which a body may turn in a step, rad."""
+REMAINDER = 203.0 / 46080.0
+SKIN = 1e-3
+"""Share of the clearance that an enclosure keeps from the wall, for what forces do to the sixth
+derivative: a hundred times the local error of a step at the largest tolerance."""
+SLIGHT = 1e-300
+
+
+def allocate(layout: Layout, joints: int) -> None:
+    """Give slots to the motion of journals at both ends of a step, and to what bounds it.
+
+    ``inner`` is the radius that a journal's enclosure must not exceed, m; ``lever`` the size of the
+    mechanism, m; ``driven_speed`` the sum of all drivers' angular speeds, rad/s.
+    """
+    layout.add("lever", "driven_speed")
+    layout.add_block("inner", joints)
+    for name in ("eccentricity", "eccentricity_start"):
+        layout.add_block(name, len(MOTION) * joints)
+
+
+def longest(v: Callable[[str], Expression], speeds: Iterable[str]) -> Expression:
+    """Return the longest step in which no body turns by more than `TURN`, s.
+
+    speeds : slots of the angular speeds of all bodies that no driver turns.
+    """
+    fastest: Expression = v("driven_speed") * 0.0
+    for name in speeds:
+        fastest = maximum(fastest, abs(v(name)))
+    step: Expression = TURN / (fastest + v("driven_speed") + SLIGHT)
+    return step
+
+
+def remainder(
+    v: Callable[[str], Expression], speeds: Iterable[str], accelerations: Iterable[str]
+) -> Expression:
+    """Return what a journal may be away from the quintic, m.
+
+    Parameters
+    ----------
+    speeds, accelerations
+        Slots of those of angles, at both ends of the step.
+    """
+    tried = v("tried")
+    fastest = v("driven_speed")
+    hardest = v("driven_speed") * 0.0
+    for name in speeds:
+        fastest = maximum(fastest, abs(v(name)) + v("driven_speed"))
+    for name in accelerations:
+        hardest = maximum(hardest, abs(v(name)))
+    square = tried * tried * maximum(fastest * fastest, hardest)
+    away: Expression = REMAINDER * v("lever") * square * square * square
+    return away
+
+
+def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expression:
+    """Return a number that is positive unless joint j's journal stays off the wall all the step.
+
+    Of the control points the first and the last are the ends of the step, whose gaps are known.
+
+    away : what the journal may be away from the quintic, m.
+    """
+    step = v("tried")
+    points: list[list[Expression]] = []
+    for axis in range(2):
+        between = []
+        for block, sense in (("eccentricity_start", 1.0), ("eccentricity", -1.0)):
+            place, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
+            fifth = 0.2 * sense * step * rate
+            between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
+        points.append(between)
+    square: Expression | float = 0.0
+    for x, y in zip(*points, strict=True):
+        square = maximum(square, x * x + y * y)
+    inner = maximum(v(f"inner{j}") - away, 0.0)
+    distance: Expression = square - inner * inner
+    return distance
