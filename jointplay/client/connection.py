@@ -1,20 +1,32 @@
 """One exchange with the service: send, repeat what was lost, turn failures into typed errors."""
 
 import json
+import random
+import time
 import uuid
 from collections.abc import Iterator, Mapping
-from typing import Any
+from datetime import UTC, datetime
+from email.utils import parsedate_to_datetime
+from typing import Any, Final
 from urllib.parse import quote
 
 import httpx
 from httpx_sse import ServerSentEvent, connect_sse
 
-from jointplay.client import retrying
 from jointplay.client.errors import ClientError, Unreachable, error_from
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 _LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 _GONE = frozenset({404, 410})
+
+ATTEMPTS: Final = 5
+FIRST_PAUSE: Final = 0.1  # s, doubled from attempt to attempt
+LONGEST_PAUSE: Final = 60.0
+"""Seconds: a service that asks for more patience than this is an error that the caller decides."""
+
+_LOST: Final = (httpx.NetworkError, httpx.RemoteProtocolError)
+"""A connection that broke or was refused; one that is silent for long is another thing."""
+_BUSY: Final = frozenset({429, 503})
 
 
 class Connection:
@@ -84,22 +96,22 @@ class Connection:
 
     def _exchange(self, method: str, path: str, **arguments: Any) -> httpx.Response:
         lost = False
-        for repetition in range(1, retrying.ATTEMPTS + 1):
+        for repetition in range(1, ATTEMPTS + 1):
             response, failure = self._once(method, path, **arguments)
             if response is not None:
                 if response.is_success:
                     return response
                 if lost and method == "DELETE" and response.status_code in _GONE:
                     return response  # it was deleted before its answer was lost
-                if not retrying.is_worth_repeating(response):
+                if not _is_worth_repeating(response):
                     break
-            elif not isinstance(failure, retrying.LOST):
+            elif not isinstance(failure, _LOST):
                 break
             lost |= failure is not None
-            pause = retrying.pause_before(repetition, response)
-            if repetition == retrying.ATTEMPTS or pause > retrying.LONGEST_PAUSE:
+            pause = _pause_before(repetition, response)
+            if repetition == ATTEMPTS or pause > LONGEST_PAUSE:
                 break
-            retrying.sleep(pause)
+            sleep(pause)
         if response is not None:
             raise error_from(response)
         raise self._unreachable(failure) from failure
@@ -125,3 +137,44 @@ class Connection:
 def segment(text: str) -> str:
     """Return ``text`` as one segment of a path."""
     return quote(text, safe="")
+
+
+def _is_worth_repeating(response: httpx.Response) -> bool:
+    """Tell whether the service asks for the same request once more.
+
+    Besides 429 and 503 it does while it still answers an earlier request of the same key, which is
+    what happens if only the connection was lost.
+    """
+    in_flight = response.request.method == "POST" and response.status_code == 409
+    return response.status_code in _BUSY or (in_flight and "retry-after" in response.headers)
+
+
+def _pause_before(repetition: int, response: httpx.Response | None) -> float:
+    """Return how long to wait before a repetition, 1 for the first, s; infinite: too long.
+
+    Without a response the connection was lost.  Clients that were turned away together do not come
+    back in the same moment: what they wait is spread over half of the pause.
+    """
+    pause = FIRST_PAUSE * 2.0 ** (repetition - 1)
+    asked = 0.0 if response is None else _asked_for(response.headers.get("retry-after", ""))
+    if asked > LONGEST_PAUSE:
+        return float("inf")
+    jitter = random.uniform(0.5, 1.0)  # noqa: S311
+    return asked + pause * jitter
+
+
+def _asked_for(retry_after: str) -> float:
+    """Return the seconds of a Retry-After header: a number, or a date (RFC 9110, 10.2.3)."""
+    if retry_after.isdigit():
+        return float(retry_after)
+    try:
+        moment = parsedate_to_datetime(retry_after)
+    except ValueError:
+        return 0.0
+    zoned = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
+    return max((zoned - datetime.now(UTC)).total_seconds(), 0.0)
+
+
+def sleep(seconds: float) -> None:
+    """Wait; here so that tests can see how long."""
+    time.sleep(seconds)

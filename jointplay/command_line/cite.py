@@ -40,26 +40,24 @@ def cite(
 
 
 def _facts(results: str, url: str) -> dict[str, Any]:
-    """Return what tells a result from every other one, and where its scene is from."""
+    """Return what tells a result from every other one, and where its scene is from.
+
+    A job is identified by its canonical JSON, every default filled in, without the label.
+    """
+    import hashlib
+    import json
+
     from jointplay.solver.scene import presets
 
     with job_of(results, url) as job:
-        name = job.job["scene"].get("preset")
-        scene = presets.document(name) if name else job.job["scene"]
+        scene = job.job["scene"]
+        source = presets.document(scene["preset"]) if scene.get("preset") else scene
+    unlabelled = {name: value for name, value in job.job.items() if name != "label"}
+    text = json.dumps(unlabelled, sort_keys=True, separators=(",", ":"))
     return {
         **({"version": job.solver_version} if job.solver_version else {}),
         "job": results,
         "scene": job.scene_name,
-        "source of the scene": scene.get("source"),
-        "SHA-256 of the job": _digest(job.job),
+        "source of the scene": source.get("source"),
+        "SHA-256 of the job": hashlib.sha256(text.encode()).hexdigest(),
     }
-
-
-def _digest(job: dict[str, Any]) -> str:
-    """Return what identifies the filled-in job: its canonical JSON without the label."""
-    import hashlib
-    import json
-
-    unlabelled = {name: value for name, value in job.items() if name != "label"}
-    text = json.dumps(unlabelled, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()

@@ -84,18 +84,13 @@ def _write(found: dict[str, Any], output: Path) -> Path:
 
 
 def _lines(job: "Job", found: dict[str, Any], table: Path) -> Iterator[str]:
-    from jointplay.command_line.accuracy import accuracy_lines
-    from jointplay.command_line.certificate import headlines
-    from jointplay.command_line.peaks import headline, peak_table
-    from jointplay.command_line.summary import study_lines
+    from jointplay.command_line.peaks import headline
+    from jointplay.command_line.summary import result_lines
 
-    if found["accuracy"] is not None:
-        yield from accuracy_lines(found["accuracy"])
-    elif found["points"] is not None:
-        yield from study_lines(found["points"])
-        yield f"all {found['points'].points} points are in {table}"
-    else:
-        first = headline(job.results.source(None, None, None))
-        yield from peak_table([row for row in found["peaks"] if row["channel"] in first])
-        yield from headlines(job)
-        yield f"all {len(found['peaks'])} channels are in {table}"
+    peaks, points = found["peaks"], found["points"]
+    first = () if peaks is None else headline(job.results.source(None, None, None))
+    yield from result_lines(job, found, first)
+    if peaks is not None:
+        yield f"all {len(peaks)} channels are in {table}"
+    if points is not None:
+        yield f"all {points.points} points are in {table}"

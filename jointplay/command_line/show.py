@@ -41,10 +41,7 @@ def show(
 
 
 def _lines(job: "Job", found: dict[str, Any]) -> Iterator[str]:
-    from jointplay.command_line.accuracy import accuracy_lines
-    from jointplay.command_line.certificate import headlines
-    from jointplay.command_line.peaks import peak_table
-    from jointplay.command_line.summary import study_lines
+    from jointplay.command_line.summary import result_lines
 
     yield f"{job.id}  {job.kind}  {job.label or ''}".rstrip()
     yield f"state     {job.state}, {job.done_so_far}"
@@ -64,10 +61,4 @@ def _lines(job: "Job", found: dict[str, Any]) -> Iterator[str]:
     if (energy := statistics.get("energy")) is not None:
         work = f"driver work {energy['driver_work']:.4g} J"
         yield f"energy    {work}, residual {energy['residual']:.2g} J"
-    yield from peak_table(found["peaks"] or [])
-    if found["statistics"] is not None and job.job.get("certificate"):
-        yield from headlines(job)
-    if found["points"] is not None:
-        yield from study_lines(found["points"])
-    if found["accuracy"] is not None:
-        yield from accuracy_lines(found["accuracy"])
+    yield from result_lines(job, found)

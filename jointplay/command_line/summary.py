@@ -1,10 +1,12 @@
 """Summary of what a job came to: a document for programs, lines for people."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING, Any
 
-from jointplay.command_line.peaks import peak_rows
+from jointplay.command_line.accuracy import accuracy_lines
+from jointplay.command_line.certificate import headlines
+from jointplay.command_line.peaks import peak_rows, peak_table
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -33,11 +35,27 @@ def results_of(job: "Job") -> dict[str, Any]:
 
 def document_of(job: "Job", found: dict[str, Any]) -> dict[str, Any]:
     """Return a job with its results as one document."""
-    points = None if found["points"] is None else summary_of(found["points"])
+    points = None if found["points"] is None else _summary_of(found["points"])
     return {"job": job.to_document(), **found, "points": points}
 
 
-def summary_of(source: "StudySource") -> dict[str, Any]:
+def result_lines(
+    job: "Job", found: dict[str, Any], channels: Container[str] | None = None
+) -> Iterator[str]:
+    """Yield results of a job, of a simulation those of some channels, by default of all."""
+    if (rows := found["peaks"]) is not None:
+        yield from peak_table(
+            [one for one in rows if channels is None or one["channel"] in channels]
+        )
+        if job.job.get("certificate"):
+            yield from headlines(job)
+    if found["points"] is not None:
+        yield from _study_lines(found["points"])
+    if found["accuracy"] is not None:
+        yield from accuracy_lines(found["accuracy"])
+
+
+def _summary_of(source: "StudySource") -> dict[str, Any]:
     """Return how many points ended in which way, the verdicts, and all failures."""
     from jointplay.records.point import PointStatus
 
@@ -63,13 +81,13 @@ def units(source: "StudySource") -> dict[str, str]:
     return {name: unit for name, (unit, _) in {**OUTPUTS, **own}.items()}
 
 
-def study_lines(source: "StudySource") -> Iterator[str]:
+def _study_lines(source: "StudySource") -> Iterator[str]:
     """Yield how many points ended in which way, the verdicts, extremes, and first failures."""
     import numpy as np
 
     from jointplay.records.point import PointStatus
 
-    summary = summary_of(source)
+    summary = _summary_of(source)
     for heading, counts in (("points", summary["status"]), ("verdicts", summary["verdicts"])):
         if counts is not None:
             listed = ", ".join(f"{number} {word}" for word, number in counts.items() if number)

@@ -118,18 +118,15 @@ class DrawingProcess:
 @contextmanager
 def drawing_process(admission: "Admission | Study") -> Iterator[DrawingProcess | None]:
     """Start a process for the figures of a job, if it has many and a core is free."""
-    if os.name != "posix" or cores() < 2 or _figures(admission) <= _FEW:
-        yield None
-        return
-    try:
-        process = DrawingProcess()
-    except OSError:  # no process to be had
-        yield None
-        return
+    process = None
+    if os.name == "posix" and cores() > 1 and _figures(admission) > _FEW:
+        with suppress(OSError):  # no process to be had
+            process = DrawingProcess()
     try:
         yield process
     finally:
-        process.end()
+        if process is not None:
+            process.end()
 
 
 def _figures(admission: "Admission | Study") -> int:

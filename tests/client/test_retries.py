@@ -11,7 +11,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import httpx
 import pytest
 
-from jointplay.client import Client, NotAllowed, Overloaded, Unreachable, retrying
+from jointplay.client import Client, NotAllowed, Overloaded, Unreachable, connection
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 
@@ -75,7 +75,7 @@ def front(answers, behind=None) -> Iterator[tuple[str, list]]:
 def pauses(monkeypatch):
     """How long the client would have waited."""
     seen = []
-    monkeypatch.setattr(retrying, "sleep", seen.append)
+    monkeypatch.setattr(connection, "sleep", seen.append)
     return seen
 
 
@@ -125,7 +125,7 @@ def test_what_the_service_asks_for_is_waited_and_a_little_more(pauses):
         pytest.raises(Overloaded, match="503"),
     ):
         client.scenes()
-    assert len(pauses) == retrying.ATTEMPTS - 1
+    assert len(pauses) == connection.ATTEMPTS - 1
     first, date, third, fourth = pauses
     assert 3.0 < first < 3.2
     assert 7.0 < date < 9.2  # whole seconds in the header

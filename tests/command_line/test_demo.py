@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from jointplay.client import Peak
-from jointplay.command_line.comparison import cases_of, rows_of, table
+from jointplay.command_line.demo import cases_of, rows_of, table
 from jointplay.solver.scene import presets
 
 README = (Path(__file__).parents[2] / "README.md").read_text()

@@ -7,7 +7,7 @@ import socket
 
 import pytest
 
-from jointplay.client import retrying
+from jointplay.client import connection
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import BlockState
 
@@ -128,7 +128,7 @@ def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finish
     "command", [["ls"], ["show", "0" * 26], ["submit", "pendulum"], ["cancel", "x"]]
 )
 def test_where_nobody_answers_the_exit_code_is_five(jointplay, command, monkeypatch):
-    monkeypatch.setattr(retrying, "sleep", lambda seconds: None)
+    monkeypatch.setattr(connection, "sleep", lambda seconds: None)
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
     ended = jointplay(*command, "--url", f"http://127.0.0.1:{port}")
