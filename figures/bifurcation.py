@@ -49,7 +49,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     verdicts = study_facts.by_verdict(source)
     directions = study_facts.directions(source)
     groups = directions or verdicts or (study_facts.everything(source),)
-    diagram = _Diagram(source, points, ParameterAxis.of(source, 0, points), groups)
+    diagram = _Diagram(source, points, ParameterAxis(source, 0, points), groups)
     heights = [_SINGLE_HEIGHT if len(names) == 1 else _PANEL_HEIGHT] * len(names)
     if has_exponent := "lyapunov" in source.indicators:
         heights.append(_EXPONENT_HEIGHT)
@@ -107,7 +107,7 @@ def _verdicts(
     axes: page.Axes, diagram: _Diagram, directions: tuple[Group, ...], verdicts: tuple[Group, ...]
 ) -> None:
     """Draw one row of coloured cells for each direction."""
-    edges, values = diagram.axis.cells()
+    edges, values = diagram.axis.edges, diagram.axis.values
     widths = np.diff(edges)
     for row, direction in enumerate(directions):
         for verdict in verdicts:

@@ -134,10 +134,8 @@ def select(
         The results.
     channels
         Names or globs; all that the figure is about if empty.
-    joints
-        Names of clearance joints.
-    start, stop
-        Window of time [s]; of a study the first point, and the one before which to end.
+    joints, start, stop
+        As in `Selection`.
 
     Raises
     ------

@@ -15,6 +15,7 @@ Pose = Mapping[str, tuple[float, float, float]]
 """By body: x and y of the centre of mass [m] and angle [rad]."""
 
 GROUND = "ground"
+WITH_CLEARANCE = "joint with clearance"
 _SAME_PLACE = 1e-6
 """Joints closer than this share of the extent are labelled together."""
 
@@ -25,13 +26,11 @@ _BEARINGS_ACROSS = 6.0
 
 @dataclass(frozen=True)
 class JointMark:
-    """One joint: its place [m], what it is, and the direction of its axis if it slides [rad]."""
+    """One joint: its sign, its place [m], and the direction of its axis if it slides [rad]."""
 
     name: str
-    kind: str
+    look: str
     place: Point
-    driven: bool
-    clearance: bool
     grounded: bool
     axis: float | None
     bodies: tuple[str, str]
@@ -126,14 +125,11 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         if kind == "prismatic":
             turned = 0.0 if bodies[0] == GROUND else pose[bodies[0]][2]
             axis = turned + math.atan2(joint["axis"][1], joint["axis"][0])
-        clearance = joint.get("clearance")
         joints.append(
             JointMark(
                 name=name,
-                kind=kind,
+                look=_look(joint, name in driven),
                 place=world(joint[second]),
-                driven=name in driven,
-                clearance=bool(clearance) and clearance["radial_clearance"] > 0.0,
                 grounded=GROUND in bodies,
                 axis=axis,
                 bodies=bodies,
@@ -152,6 +148,16 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         fixed_points=tuple(joint.place for joint in joints if joint.grounded),
         smallest_extent=_BEARINGS_ACROSS * max(bearings, default=1.0 / _BEARINGS_ACROSS),
     )
+
+
+def _look(joint: Mapping[str, Any], driven: bool) -> str:
+    """Name the sign that a joint is drawn with; sliders have a rail instead."""
+    if joint["type"] != "revolute":
+        return "weld" if joint["type"] == "fixed" else ""
+    clearance = joint.get("clearance")
+    if clearance and clearance["radial_clearance"] > 0.0:
+        return WITH_CLEARANCE
+    return "driven joint" if driven else "ideal joint"
 
 
 def _placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Point:

@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.mechanism_geometry import Geometry, JointMark, Point, distance, outline
+from jointplay.figures.mechanism_geometry import (
+    WITH_CLEARANCE,
+    Geometry,
+    JointMark,
+    Point,
+    distance,
+    outline,
+)
 from jointplay.figures.mechanism_marks import BLOCK_SIZE
 
 _DISTANCE = 7.0  # points from the middle of a mark to its name
@@ -95,7 +102,7 @@ def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre
         note.set_in_layout(False)
 
     for point, joints in shape.places():
-        play = any(joint.clearance for joint in joints)
+        play = any(joint.look == WITH_CLEARANCE for joint in joints)
         write(
             ", ".join(joint.name for joint in joints),
             _joint_places(shape, point, joints),

@@ -2,19 +2,11 @@
 
 import math
 from itertools import cycle
-from typing import Any
 
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.mechanism_geometry import (
-    Geometry,
-    JointMark,
-    Point,
-    among,
-    distance,
-    outline,
-)
+from jointplay.figures.mechanism_geometry import WITH_CLEARANCE, Geometry, among, distance, outline
 
 TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
 """Lighter Okabe-Ito colours, for the faces of bodies under black marks and text."""
@@ -63,43 +55,26 @@ def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
 
 def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw a circle for each joint that turns, a square for each weld, and supports."""
-    looks: dict[str, dict[str, Any]] = {
-        "ideal joint": {"markersize": 4.0, "markerfacecolor": "white", "color": page.BLACK},
-        "driven joint": {"markersize": 4.0, "markerfacecolor": page.BLACK, "color": page.BLACK},
-        "joint with clearance": {
-            "markersize": 5.5,
-            "markerfacecolor": "white",
-            "color": page.VERMILION,
-            "markeredgewidth": 1.4,
-        },
+    black: page.Look = {"color": page.BLACK, "markersize": 4.0}
+    white: page.Look = {"markerfacecolor": "white"}
+    play: page.Look = {"color": page.VERMILION, "markersize": 5.5, "markeredgewidth": 1.4}
+    looks: dict[str, page.Look] = {
+        "ideal joint": black | white,
+        "driven joint": black | {"markerfacecolor": page.BLACK},
+        WITH_CLEARANCE: play | white,
         "weld": {"markersize": 3.5, "markerfacecolor": EDGE, "color": EDGE, "marker": "s"},
-        "slider": {},
     }
-    by_look: dict[str, list[Point]] = {look: [] for look in looks}
     for joint in shape.joints:
-        by_look[_look(joint)].append(joint.place)
         on_block = any(shape.is_block(body) for body in joint.bodies)
-        if joint.kind != "prismatic" and joint.grounded and not on_block:
+        if joint.axis is None and joint.grounded and not on_block:
+            look: page.Look = {"markersize": 13.0, "color": EDGE, "fillstyle": "none", "zorder": 1}
             x, y = joint.place
-            axes.plot(
-                [x / metre],
-                [y / metre],
-                marker=_support(),
-                markersize=13.0,
-                color=EDGE,
-                markeredgewidth=0.6,
-                fillstyle="none",
-                zorder=1,
-            )
-    for look, places in by_look.items():
-        if places and looks[look]:
-            common: dict[str, Any] = {
-                "marker": "o",
-                "linestyle": "none",
-                "markeredgewidth": 0.8,
-                "zorder": 5,
-            }
-            axes.plot(*(np.array(places).T / metre), **(common | looks[look]), label=look)
+            axes.plot([x / metre], [y / metre], marker=_support(), markeredgewidth=0.6, **look)
+    common: page.Look = {"marker": "o", "linestyle": "none", "markeredgewidth": 0.8, "zorder": 5}
+    for name, look in looks.items():
+        places = [joint.place for joint in shape.joints if joint.look == name]
+        if places:
+            axes.plot(*(np.array(places).T / metre), **(common | look), label=name)
 
 
 def draw_gravity(axes: page.Axes, shape: Geometry) -> None:
@@ -165,16 +140,6 @@ def _draw_block(axes: page.Axes, shape: Geometry, name: str, tint: str, metre: f
         markeredgewidth=0.6,
         zorder=2,
     )
-
-
-def _look(joint: JointMark) -> str:
-    if joint.kind == "prismatic":
-        return "slider"
-    if joint.kind == "fixed":
-        return "weld"
-    if joint.clearance:
-        return "joint with clearance"
-    return "driven joint" if joint.driven else "ideal joint"
 
 
 def _support() -> page.MarkerPath:

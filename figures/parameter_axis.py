@@ -1,12 +1,9 @@
 """The axis of a study's parameter: scale, what is not finished, what failed."""
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
 from jointplay.figures import page
-from jointplay.figures.quantity import Scale, scale
+from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
@@ -15,56 +12,31 @@ _LOGARITHMIC = 20.0
 """Values that span such a ratio, spaced more evenly by ratio, have a logarithmic axis."""
 
 
-@dataclass(frozen=True)
 class ParameterAxis:
-    """Values of one parameter along an axis.
+    """Values of a study's parameter, over some of its points, along an axis."""
 
-    Parameters
-    ----------
-    name
-        Of the parameter.
-    scale
-        How the axis shows them.
-    shown
-        (points,) values as they are shown.
-    status
-        (points,) codes of the points.
-    logarithmic
-        Whether the values are spaced by ratio.
-    """
-
-    name: str
-    scale: Scale
-    shown: Floats
-    status: NDArray[np.uint8]
-    logarithmic: bool
-
-    @classmethod
-    def of(cls, source: StudySource, column: int, points: slice) -> "ParameterAxis":
-        """Make the axis of a study's parameter over some of its points."""
+    def __init__(self, source: StudySource, column: int, points: slice) -> None:
         values = source.values[points, column]
         parameter = source.parameters[column]
         chosen = scale(parameter.unit, values)
-        return cls(
-            parameter.name,
-            chosen,
-            values / chosen.factor,
-            source.status[points],
-            _spaced_by_ratio(np.unique(values)),
-        )
-
-    @property
-    def label(self) -> str:
-        """Name and unit."""
-        return self.scale.label(self.name)
+        self.label = chosen.label(parameter.name)
+        self.shown = values / chosen.factor
+        """(points,) values as they are shown."""
+        self.status = source.status[points]
+        """(points,) codes of the points."""
+        self.logarithmic = _spaced_by_ratio(np.unique(values))
+        self.values = np.unique(self.shown)
+        """(n,) the different values, ascending."""
+        spaced = np.log(self.values) if self.logarithmic else self.values
+        self.edges = np.exp(_edges(spaced)) if self.logarithmic else _edges(spaced)
+        """(n + 1,) edges half way between them."""
 
     def dress(self, axes: page.Axes, intervals: int = 8) -> None:
         """Give the axes of a panel their ends, shade unfinished ranges and mark failed values."""
         if self.logarithmic:
             axes.set_xscale("log")
         self.ticks(axes.xaxis, intervals)
-        edges, _ = self.cells()
-        axes.set_xlim(float(edges[0]), float(edges[-1]))
+        axes.set_xlim(float(self.edges[0]), float(self.edges[-1]))
         for low, high in self.unfinished():
             axes.axvspan(low, high, color=page.SHADE, linewidth=0.0, zorder=0.5)
         failed = self.shown[self.status == PointStatus.failed]
@@ -91,7 +63,7 @@ class ParameterAxis:
             StrMethodFormatter,
         )
 
-        _, values = self.cells()
+        values = self.values
         if len(values) <= intervals:
             axis.set_major_locator(FixedLocator(values.tolist()))
             axis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
@@ -114,22 +86,15 @@ class ParameterAxis:
             entries["not finished"] = ("s", page.SHADE)
         return entries
 
-    def cells(self) -> tuple[Floats, Floats]:
-        """Give the n + 1 edges half way between the n different values, and these."""
-        values = np.unique(self.shown)
-        if self.logarithmic:
-            return np.exp(_edges(np.log(values))), values
-        return _edges(values), values
-
     def unfinished(self) -> list[tuple[float, float]]:
         """Give the ranges in which values wait or are being computed."""
-        edges, values = self.cells()
-        open_ones = np.isin(self.status, (PointStatus.waiting, PointStatus.running))
-        is_open = np.zeros(len(values), dtype=bool)
-        is_open[np.searchsorted(np.unique(self.shown), self.shown[open_ones])] = True
-        changes = np.flatnonzero(np.diff(np.concatenate([[False], is_open, [False]])))
-        pairs = zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True)
-        return [(float(edges[begin]), float(edges[end])) for begin, end in pairs]
+        open_points = np.isin(self.status, (PointStatus.waiting, PointStatus.running))
+        is_open = np.isin(self.values, self.shown[open_points])
+        changes = np.flatnonzero(np.diff(is_open, prepend=False, append=False))
+        return [
+            (float(self.edges[begin]), float(self.edges[end]))
+            for begin, end in changes.reshape(-1, 2)
+        ]
 
 
 def _edges(values: Floats) -> Floats:

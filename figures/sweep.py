@@ -67,7 +67,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     points = study_facts.chosen_points(source, selection)
     rows = [_Row.of(source, name, points) for name in names]
     varying = _varying(source, points)
-    across, *up = (ParameterAxis.of(source, column, points) for column in varying)
+    across, *up = (ParameterAxis(source, column, points) for column in varying)
     entries = across.legend()
     height = (_MAP_HEIGHT if up else _PANEL_HEIGHT) * len(names)
     if len(names) == 1 and not up:
@@ -140,14 +140,12 @@ def _map(
     up: ParameterAxis,
 ) -> None:
     """Draw a cell for each pair of values; cells without a result are shaded."""
-    x_edges, x_values = across.cells()
-    y_edges, y_values = up.cells()
-    table = np.full((len(y_values), len(x_values)), np.nan)
-    table[np.searchsorted(y_values, up.shown), np.searchsorted(x_values, across.shown)] = values
+    table = np.full((len(up.values), len(across.values)), np.nan)
+    row, column = (np.searchsorted(axis.values, axis.shown) for axis in (up, across))
+    table[row, column] = values
     axes.set_facecolor(page.SHADE)
-    drawn = axes.pcolormesh(
-        x_edges, y_edges, np.ma.masked_invalid(table), cmap="cividis", rasterized=True
-    )
+    shown = np.ma.masked_invalid(table)
+    drawn = axes.pcolormesh(across.edges, up.edges, shown, cmap="cividis", rasterized=True)
     failed = across.status == PointStatus.failed
     axes.plot(
         across.shown[failed], up.shown[failed], "x", color=page.BLACK, markersize=3.0, zorder=3.0

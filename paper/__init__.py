@@ -4,7 +4,7 @@
 mechanism, and what it prints, each with its place. The rest follows from it, in this order:
 
 1. `reported` reads the document, `variants` says how what is not printed was chosen.
-2. `cases` turns both into jobs, `runs` computes them, `processes` uses all cores for that.
+2. `cases` turns both into jobs, `reproduction` computes them on all cores.
 3. `peaks`, `ranges` and `motions` set our numbers beside the printed ones.
-4. `figures` draws, `report` puts everything into one page, on `template.html`.
+4. `pictures` draws, `report` puts everything into one page, on `template.html`.
 """

@@ -1,16 +1,18 @@
-"""Jobs of the reproduction: the press under every printed setting and in every reading."""
+"""Jobs of the reproduction, in every printed setting and reading, and the stores they give."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from jointplay.paper import reported
-from jointplay.paper.size import Size
-from jointplay.paper.variants import Variant
+from jointplay.paper.variants import Size, Variant
 from jointplay.solver.scene import presets
+from jointplay.storage.results import ResultReader
+from jointplay.storage.studies import StudyReader
 
 DURATION: Final = 2.0
 """Duration of responses, s: one revolution at the slowest speed that was published."""
@@ -186,3 +188,23 @@ def _diagrams(variant: Variant, size: Size) -> Iterator[Run]:
         }
         weight = 0.001 * len(chosen) * (settle + record)
         yield Run(name("diagram", which, variant), job, weight)
+
+
+class Stores:
+    """Readers of the stores of a reproduction in a folder, by the words of `name`."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._run, self._study = cache(ResultReader), cache(StudyReader)
+
+    def path(self, kind: str, which: object, variant: Variant | None = None) -> Path:
+        """Return the file of a store."""
+        return self._folder / name(kind, which, variant)
+
+    def run(self, kind: str, which: object, variant: Variant | None = None) -> ResultReader:
+        """Open the results of a simulation, once."""
+        return self._run(self.path(kind, which, variant))
+
+    def study(self, kind: str, which: object, variant: Variant) -> StudyReader:
+        """Open the results of a study, once."""
+        return self._study(self.path(kind, which, variant))

@@ -5,12 +5,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from jointplay.paper import cases, diagrams, peaks, ranges, reported
+from jointplay.paper import cases, motions, peaks, ranges, reported
+from jointplay.paper.cases import Stores
 from jointplay.paper.comparison import Cell, Row
-from jointplay.paper.motions import mean_exponent, tally
-from jointplay.paper.runs import Stores
-from jointplay.paper.size import Size
-from jointplay.paper.variants import AS_PUBLISHED, CONSTANT, MATERIAL, SLIPS, Variant
+from jointplay.paper.variants import AS_PUBLISHED, CONSTANT, MATERIAL, SLIPS, Size, Variant
 
 OVERVIEW: Final = (
     "reading",
@@ -106,9 +104,9 @@ def _motions(stores: Stores, size: Size) -> Iterator[tuple[dict[str, Any], int, 
     """Yield each printed motion, in how many readings ours is chaotic, and their exponents."""
     for case, entry in enumerate(reported.document()["phase_ranges"]):
         studies = [stores.study("settled", case, variant) for variant in size.motions]
-        verdicts = [tally(study) for study in studies]
+        verdicts = [motions.tally(study) for study in studies]
         chaotic = sum(bool(found) and found[0][0] == "chaotic" for found in verdicts)
-        exponents = [one.value for one in map(mean_exponent, studies) if one]
+        exponents = [one.value for one in map(motions.mean_exponent, studies) if one]
         yield entry, chaotic, exponents
 
 
@@ -119,7 +117,7 @@ def _rises(
     for slip in SLIPS:
         rises = []
         for variant in size.motions:
-            rise = diagrams.largest_rise(stores.study("diagram", 1, variant), "B")
+            rise = motions.largest_rise(stores.study("diagram", 1, variant), "B")
             if variant.slip == slip and rise:
                 value, before, after = rise
                 speed = value / reported.si("omega_over_pi", 1.0)
@@ -133,7 +131,7 @@ def _weakening(stores: Stores, size: Size) -> Iterator[tuple[float, float, float
     study = stores.study("diagram", 1, size.motions[-1])
     for words in reported.document()["bifurcation"][1]["reported"]:
         if words["joint"] == "B":
-            yield (*diagrams.medians(study, "omega_over_pi", words), *words["interval"])
+            yield (*motions.medians(study, "omega_over_pi", words), *words["interval"])
 
 
 def _spread(ratios: Sequence[float]) -> str:

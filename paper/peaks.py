@@ -7,8 +7,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from jointplay.paper import cases, reported
+from jointplay.paper.cases import Stores
 from jointplay.paper.comparison import Cell, Row, milliseconds, signed
-from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 from jointplay.storage.results import ResultReader
 

@@ -8,10 +8,9 @@ from typing import Any, Final
 from jointplay import figures
 from jointplay.figures import page
 from jointplay.paper import drawings, reported
+from jointplay.paper.cases import Stores
 from jointplay.paper.drawings import COLOURS, Compared
-from jointplay.paper.runs import Stores
-from jointplay.paper.size import Size
-from jointplay.paper.variants import CONSTANT, Variant
+from jointplay.paper.variants import CONSTANT, Size, Variant
 from jointplay.solver.runs.processes import Advance, Call
 from jointplay.storage.studies import StudyReader
 

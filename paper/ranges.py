@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 from jointplay.paper import cases, reported
+from jointplay.paper.cases import Stores
 from jointplay.paper.comparison import Cell, Row, signed
-from jointplay.paper.runs import Stores
 from jointplay.paper.variants import Variant
 
 WINDOWS: Final = ("early", "late")

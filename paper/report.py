@@ -9,12 +9,11 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from jointplay.paper import cases, diagrams, findings, motions, peaks, ranges, reported
+from jointplay.paper import cases, findings, motions, peaks, ranges, reported
+from jointplay.paper.cases import Stores
 from jointplay.paper.comparison import Table, milliseconds, signed
 from jointplay.paper.pictures import Picture
-from jointplay.paper.runs import Stores
-from jointplay.paper.size import FULL, Size
-from jointplay.paper.variants import CONSTANT, SLIPS, Variant
+from jointplay.paper.variants import CONSTANT, FULL, SLIPS, Size, Variant
 from jointplay.solver.scene import presets
 
 
@@ -122,7 +121,7 @@ def _sections(stores: Stores, size: Size) -> Iterator[Section]:
             "Verdicts, exponents (median, a tenth below and above) and extent of the sections in"
             f" clearances ({entry['where']}); {settle} revolutions left out, {record} recorded"
         )
-        rows = list(diagrams.rows(stores, which, size.motions))
+        rows = list(motions.diagram_rows(stores, which, size.motions))
         table = Table(caption, judged, rows, ("interval", "joint", "their words"))
         title = f"Bifurcation diagrams: {entry['figures'][0]} and {entry['figures'][-1]}"
         name = f"diagram-{which}"

@@ -30,9 +30,9 @@ def reproduce(
     """
     from concurrent.futures.process import BrokenProcessPool
 
+    from jointplay.paper.reproduction import RunFailed
     from jointplay.paper.reproduction import reproduce as whole
-    from jointplay.paper.runs import RunFailed
-    from jointplay.paper.size import FULL, QUICK
+    from jointplay.paper.variants import FULL, QUICK
     from jointplay.progress import progress
     from jointplay.solver.runs.processes import Interrupted
 

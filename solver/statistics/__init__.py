@@ -8,9 +8,7 @@ result has the same bits however the rows were cut.
 from collections import ChainMap
 
 from jointplay.records.channel import Channel
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
 from jointplay.solver.statistics.contact_share import ContactShare
-from jointplay.solver.statistics.contact_statistic import ContactStatistic
 from jointplay.solver.statistics.impact_count import ImpactCount
 from jointplay.solver.statistics.impact_force import LargestImpactForce
 from jointplay.solver.statistics.mean import Mean
@@ -18,6 +16,7 @@ from jointplay.solver.statistics.mean_absolute import MeanAbsolute
 from jointplay.solver.statistics.quantile import Quantile
 from jointplay.solver.statistics.root_mean_square import RootMeanSquare
 from jointplay.solver.statistics.standard_deviation import StandardDeviation
+from jointplay.solver.statistics.statistic import ChannelStatistic, ContactStatistic, Grid
 
 __all__ = ["OF_CHANNELS", "OF_CONTACTS", "STATISTICS", "Grid", "Output", "outputs_of"]
 

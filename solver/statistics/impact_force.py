@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.statistics.contact_statistic import Contacts, ContactStatistic
+from jointplay.solver.statistics.statistic import Contacts, ContactStatistic
 
 
 class LargestImpactForce(ContactStatistic):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
+from jointplay.solver.statistics.statistic import ChannelStatistic, Grid
 
 
 class Mean(ChannelStatistic):

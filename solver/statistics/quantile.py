@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
+from jointplay.solver.statistics.statistic import ChannelStatistic, Grid
 
 MOST_KEPT = 2048
 """Samples kept of each channel: the level of a quantile is then known to 1/2048."""

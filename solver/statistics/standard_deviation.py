@@ -7,7 +7,7 @@ mean costs no digits (Chan, Golub and LeVeque 1983, "shifted data").
 import numpy as np
 
 from jointplay.records.arrays import Floats
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Grid
+from jointplay.solver.statistics.statistic import ChannelStatistic, Grid
 
 
 class StandardDeviation(ChannelStatistic):

@@ -5,8 +5,7 @@ import math
 import pytest
 
 from jointplay.paper import cases, reported
-from jointplay.paper.size import FULL, QUICK
-from jointplay.paper.variants import AS_PUBLISHED, MATERIAL
+from jointplay.paper.variants import AS_PUBLISHED, FULL, MATERIAL, QUICK
 from jointplay.solver.kinds import Admission, admit
 
 

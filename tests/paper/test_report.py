@@ -14,7 +14,7 @@ import pytest
 
 from jointplay.paper import cases, peaks, reported
 from jointplay.paper.reproduction import PAGE, RUNS
-from jointplay.paper.size import QUICK
+from jointplay.paper.variants import QUICK
 from jointplay.storage.results import ResultReader
 from jointplay.storage.studies import StudyReader
 from tests.paper.printed_numbers import pointers as printed_numbers

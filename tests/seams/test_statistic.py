@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.client import Refused
 from jointplay.solver.statistics import OF_CHANNELS, Grid
-from jointplay.solver.statistics.channel_statistic import ChannelStatistic, Floats
+from jointplay.solver.statistics.statistic import ChannelStatistic, Floats
 from tests.seams.conftest import Platform
 
 

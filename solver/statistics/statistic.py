@@ -1,11 +1,15 @@
-"""Statistics of channels on a uniform grid of time: what every member provides, and shares."""
+"""Statistics of channels, and of contacts: what every member provides, and shares."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
+
+Contacts = NDArray[np.void]
+"""Contacts that ended, of dtype `solver.runs.results.IMPACT`."""
 
 
 @dataclass(frozen=True)
@@ -51,3 +55,23 @@ class ChannelStatistic(ABC):
         their magnitudes.
         """
         total[:] = np.add.accumulate(np.concatenate([total[None], terms]), axis=0)[-1]
+
+
+class ContactStatistic(ABC):
+    """A statistic of the contacts of each joint with clearance over a stretch of time.
+
+    Contacts that began before the stretch, or last beyond it, are part of it as far as they reach.
+    The tally begins with zeros, (joints,).
+    """
+
+    unit: str
+    long_name: str
+    """Its name in words."""
+
+    @abstractmethod
+    def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
+        """Take contacts into the (joints,) tally; the stretch is from start to end, s."""
+
+    def value(self, tally: Floats, start: float, end: float) -> Floats:
+        """Return the statistic, (joints,)."""
+        return tally
