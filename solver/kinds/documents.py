@@ -18,13 +18,7 @@ from jointplay.solver.scene.sentences import schema_problems
 
 
 def kind_of(document: object, kinds: Mapping[str, Kind[Any]]) -> Kind[Any]:
-    """Return the kind that a document names.
-
-    Raises
-    ------
-    InvalidInput
-        It names none.
-    """
+    """Return the kind that a document names; InvalidInput where it names none."""
     if not isinstance(document, Mapping):
         raise InvalidInput.at("", "A job is a JSON object with a kind and a scene.")
     names = ", ".join(f"'{name}'" for name in kinds)
@@ -39,13 +33,7 @@ def kind_of(document: object, kinds: Mapping[str, Kind[Any]]) -> Kind[Any]:
 
 
 def job_of(document: Any, kind: Kind[J]) -> J:
-    """Return the parsed job.
-
-    Raises
-    ------
-    InvalidInput
-        With every field that is missing, unknown or out of its bounds.
-    """
+    """Return the parsed job; InvalidInput with every field that is missing, unknown or wrong."""
     model: Any = kind.document
     try:
         job: J = model.model_validate(dict(document))

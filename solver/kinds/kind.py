@@ -43,10 +43,5 @@ class Kind(ABC, Generic[J]):
     def plan(self, job: J, filled: dict[str, Any]) -> Admission | Study:
         """Return what `admit` returned for a job that it filled in; nothing is checked again.
 
-        Parameters
-        ----------
-        job
-            Parsed from `filled`.
-        filled
-            `Admission.job` or `Study.job`, as it was stored.
+        `job` is parsed from `filled`: `Admission.job` or `Study.job`, as it was stored.
         """

@@ -33,13 +33,7 @@ BYTES_PER_POINT = 512.0
 
 
 def check_count(count: int, pointer: str) -> None:
-    """Refuse more points than a study may have, before any is made.
-
-    Raises
-    ------
-    LimitExceeded
-        With the number.
-    """
+    """Refuse (LimitExceeded) more points than a study may have, before any is made."""
     if count > MOST_POINTS:
         raise LimitExceeded.at(
             pointer,
@@ -49,19 +43,9 @@ def check_count(count: int, pointer: str) -> None:
 
 
 def check_size(study: Study, run: float, place: str) -> None:
-    """Refuse what takes too long or too much space.
+    """Refuse (LimitExceeded) what takes too long or too much space.
 
-    Parameters
-    ----------
-    run
-        Periods of the longest run of a point.
-    place
-        JSON pointer to where the job says so.
-
-    Raises
-    ------
-    LimitExceeded
-        With the estimate.
+    `run` : periods of the longest run of a point; `place` : JSON pointer to where the job says so.
     """
     points, problems = study.points, []
     if not run <= LONGEST_RUN:

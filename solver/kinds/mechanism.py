@@ -30,13 +30,7 @@ Written = tuple[dict[str, Any], Scene, Mapping[str, float | str | None]]
 
 
 def written(job: MechanismJob) -> Written:
-    """Return a job's scene as it is written; whether its parts fit together is not checked.
-
-    Raises
-    ------
-    InvalidInput
-        Unknown preset.
-    """
+    """Return a job's scene as it is written; whether its parts fit together is not checked."""
     if isinstance(job.scene, PresetScene):
         return *_preset(job.scene.preset), job.scene.parameters
     return job.scene.model_dump(mode="json"), job.scene, {}

@@ -9,10 +9,7 @@ from jointplay.solver.quantities.roster import quoted
 def chosen(job: Job) -> tuple[str, float | None]:
     """Return the method and the tolerance, by number or by name; none with a fixed step.
 
-    Raises
-    ------
-    InvalidInput
-        Fields that exclude each other, or a tolerance too large for the method.
+    InvalidInput: fields that exclude each other, or a tolerance too large for the method.
     """
     if job.accuracy is not None:
         for field, given in (("tolerance", job.tolerance), ("method", job.method != "auto")):
@@ -35,13 +32,7 @@ def chosen(job: Job) -> tuple[str, float | None]:
 
 
 def check_study(job: Job, *, tangents: bool) -> None:
-    """Refuse methods that studies do not offer.
-
-    Raises
-    ------
-    InvalidInput
-        At the field that asks for it.
-    """
+    """Refuse (InvalidInput) methods that studies do not offer, at the field that asks for it."""
     method, tolerance = chosen(job)
     name = method_for(method, tolerance)
     where = "/accuracy" if job.accuracy else "/method" if job.method != "auto" else "/tolerance"

@@ -18,21 +18,14 @@ _GRAVITY = re.compile(r"/gravity/\d")
 
 @dataclass(frozen=True, eq=False)
 class Periods:
-    """The time units of all points.
-
-    Attributes
-    ----------
-    seconds : (points,) float
-        The least common period of the drivers, s; where there is none, the scene's time scale.
-    notes : dict
-        By point without one, first of its kind: why there is none.
-    first_speed : (points,) float
-        Of the first driver that turns, rad/s, positive; 1 where none does.
-    """
+    """The time units of all points."""
 
     seconds: Floats
+    """(points,) s: the least common period of the drivers, else the scene's own time scale."""
     notes: dict[int, str]
+    """By point without a period, first of its kind: why there is none."""
     first_speed: Floats
+    """(points,) rad/s, positive: of the first driver that turns; 1 where none does."""
 
 
 def periods(scenes: PointScenes) -> Periods:

@@ -27,21 +27,14 @@ class Axis:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Every point of a study.
-
-    Attributes
-    ----------
-    axes : tuple of Axis
-        None where nothing varies.
-    written : (points, axes) int
-        Index of each point's value among those written.
-    whole : callable
-        JSON pointer to what makes a point.
-    """
+    """Every point of a study."""
 
     axes: tuple[Axis, ...]
+    """None where nothing varies."""
     written: Integers
+    """(points, axes) index of each point's value among those written."""
     whole: Callable[[int], str]
+    """JSON pointer to what makes a point."""
 
     @property
     def count(self) -> int:
@@ -99,12 +92,9 @@ def product(axes: Sequence[Axis], place: str) -> Points:
 
 
 def check_parameters(points: Points, scene: Scene) -> None:
-    """Refuse parameters that a scene does not declare or that are no numbers, and wild values.
+    """Refuse (InvalidInput) parameters that are not declared or no numbers, and wild values.
 
-    Raises
-    ------
-    InvalidInput
-        Each at its name or at its value, which the sentence names with its index.
+    Each at its name or at its value, which the sentence names with its index.
     """
     problems = []
     for axis in points.axes:

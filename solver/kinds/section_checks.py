@@ -20,13 +20,7 @@ from jointplay.solver.runs.ideal.reach import motion_reach
 def check_section(
     section: CrankSection | OnsetSection | ChannelSection, checked: PlacedPoints, units: Periods
 ) -> None:
-    """Check that a section is taken at every point.
-
-    Raises
-    ------
-    InvalidInput
-        With what would be right.
-    """
+    """Refuse (InvalidInput) a section that is not taken at every point; say what would be right."""
     if isinstance(section, OnsetSection):
         problems = _onset(section, checked)
     elif isinstance(section, ChannelSection):

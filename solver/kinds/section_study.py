@@ -95,15 +95,7 @@ class SectionStudy(Kind[J]):
 
     @abstractmethod
     def points(self, job: J) -> Points:
-        """Return the points of a job.
-
-        Raises
-        ------
-        InvalidInput
-            They cannot be had.
-        LimitExceeded
-            They are too many.
-        """
+        """Return the points of a job; see `Kind.admit` for how they are refused."""
 
     def continuation(self, job: J) -> tuple[str, int]:
         """Return in which direction a point starts from its neighbour, and how many chains do."""

@@ -21,12 +21,7 @@ def statistic_count(names: Sequence[str], channels: int, joints: int) -> int:
 def check_statistics(names: Sequence[str], joints: Collection[str], channels: int) -> None:
     """Refuse statistics that cannot be had of these joints with clearance, or are too many.
 
-    Raises
-    ------
-    InvalidInput
-        One is asked for twice, or of joints with clearance where there are none.
-    LimitExceeded
-        They are too many.
+    The first with InvalidInput, as what is asked for twice, the second with LimitExceeded.
     """
     if problems := list(_problems(names, joints)):
         raise InvalidInput(problems)
@@ -42,15 +37,7 @@ def check_statistics(names: Sequence[str], joints: Collection[str], channels: in
 
 
 def check_samples(study: Study, per_period: int) -> None:
-    """Refuse samples that are too few or too many.
-
-    Raises
-    ------
-    InvalidInput
-        A point has less than two.
-    LimitExceeded
-        With the number.
-    """
+    """Refuse less than two samples of a point (InvalidInput), and too many (LimitExceeded)."""
     left = study.duration - study.settle
     samples = left / study.period * per_period
     place = "/samples_per_period"

@@ -90,16 +90,8 @@ def make_study(
 ) -> Study:
     """Return the study of a filled-in job.
 
-    Parameters
-    ----------
-    filled
-        The job's document.
-    period, offset, settle, duration : (points,)
-        s; see `Study`.
-    continuation
-        The direction, and the number of chains in each.
-    statistics
-        Numbers a point beside sections and extremes.
+    `continuation` : the direction, and the number of chains in each; `statistics` : numbers a
+    point beside sections and extremes; the others as in `Study`, one for each of the values.
     """
     direction, segments = continuation
     points = placed.points

@@ -65,10 +65,7 @@ def numbers(values: Range | list[float]) -> Floats:
 def axis(parameter: str, values: Range | list[float], name_place: str, place: str) -> Axis:
     """Return the axis of a parameter whose values stand at a place.
 
-    Raises
-    ------
-    InvalidInput
-        A range that does not move, or that logarithmic spacing cannot bridge.
+    InvalidInput: a range that does not move, or that logarithmic spacing cannot bridge.
     """
     if not isinstance(values, Range):
         return Axis(parameter, name_place, numbers(values), lambda index: f"{place}/{index}")

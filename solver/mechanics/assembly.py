@@ -34,32 +34,24 @@ MOST_KEPT = 512
 
 @dataclass(frozen=True)
 class Assembly:
-    """A mechanism put together at t = 0, journals where they start, concentric by default.
-
-    Attributes
-    ----------
-    pose, velocity : (3 bodies,) float
-        x, y (m) and theta (rad) of each body, and their rates.
-    residual : float
-        Largest constraint residual, m or rad.
-    constraints, rank : int
-        Number of constraint rows and of independent ones, journals held.
-    freedom : int
-        Degrees of freedom of the ideal mechanism.
-    freedom_with_play : int
-        Degrees of freedom once joints with clearance are let go.
-    redundant_with_play : int
-        Dependent rows that remain then.
-    """
+    """A mechanism put together at t = 0, journals where they start, concentric by default."""
 
     pose: Floats
+    """(3 bodies,) x, y (m) and theta (rad) of each body."""
     velocity: Floats
+    """(3 bodies,) their rates."""
     residual: float
+    """Largest constraint residual, m or rad."""
     constraints: int
+    """Number of constraint rows, journals held."""
     rank: int
+    """Number of independent ones."""
     freedom: int
+    """Degrees of freedom of the ideal mechanism."""
     freedom_with_play: int
+    """The same once joints with clearance are let go."""
     redundant_with_play: int
+    """Dependent rows that remain then."""
 
     @property
     def redundant(self) -> int:

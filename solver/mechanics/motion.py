@@ -95,14 +95,9 @@ def forces_between(
 ) -> Forces:
     """Evaluate joints with play and force elements.
 
-    Parameters
-    ----------
-    ends
-        Returns how the second of two named points lies and moves against the first.
-    play
-        Joints with play whose contact counts, with a mode and an impact rate (m/s) each.
-    inner
-        Inner states of friction laws that have any, by joint.
+    `ends` returns how the second of two named points lies and moves against the first; `play` are
+    joints whose contact counts, with a mode and an impact rate (m/s) each, and with the `inner`
+    states of friction laws that have any.
     """
     forces = Forces()
     for name in play:

@@ -28,23 +28,16 @@ class Interrupted(Exception):
 
 @dataclass(frozen=True)
 class Call:
-    """`function(*arguments, advance)` in another process.
-
-    Parameters
-    ----------
-    weight
-        Its share of the progress, such as its seconds.
-    parts
-        Number of things that it does.
-    note
-        For the report, once it has ended.
-    """
+    """`function(*arguments, advance)` in another process."""
 
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
     weight: float = 1.0
+    """Its share of the progress, such as its seconds."""
     parts: int = 1
+    """Number of things that it does."""
     note: str = ""
+    """For the report, once it has ended."""
 
 
 @dataclass

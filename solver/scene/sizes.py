@@ -61,12 +61,8 @@ def size_problems(scene: Scene) -> Iterator[Problem]:
 def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags:
     """Return (points,) at which points something does not fit.
 
-    Parameters
-    ----------
-    scene
-        Has the numbers that are the same at every point.
-    columns
-        (points,) numbers by their JSON pointer in the scene, in place of the scene's.
+    `columns` : (points,) numbers by their JSON pointer in the scene, in place of the scene's, which
+    are the same at every point.
     """
     broken = np.zeros(points, np.bool_)
     for place, rules, part in _parts(scene):

@@ -19,12 +19,8 @@ def form(name: str) -> Tag:
 def told_by(tell: Callable[[Any], str | None], otherwise: str) -> Discriminator:
     """Return what tells the forms of a field apart.
 
-    Parameters
-    ----------
-    tell
-        Takes the value and returns the name of its form, or None.
-    otherwise
-        What to say of a value that has none of the forms: a sentence without its full stop.
+    `tell` takes the value and returns the name of its form, or None; `otherwise` is said of a value
+    that has none of the forms: a sentence without its full stop.
     """
 
     def tagged(value: Any) -> str | None:

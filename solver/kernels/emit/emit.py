@@ -64,14 +64,8 @@ class FixedNodes:
 class Tape:
     """Statements in their order; a value is named by its number, so equal equations look alike.
 
-    Parameters
-    ----------
-    fixed
-        Collects what depends on the scene's numbers alone; None: there is no such expression.
-    known
-        Expressions that need not be computed again.
-    fetch
-        How a slot is read, by its name; None: all its lanes.
+    `fixed` collects what depends on the scene's numbers alone (None: there is no such expression),
+    `known` need not be computed again, `fetch` tells how a slot is read (None: all its lanes).
     """
 
     def __init__(
@@ -186,13 +180,7 @@ def lane_function(
     fixed: FixedNodes | None = None,
     known: Known = NONE,
 ) -> str:
-    """Return the source of a function W -> W that evaluates `outputs`.
-
-    Raises
-    ------
-    LimitExceeded
-        More statements than can be compiled in reasonable time.
-    """
+    """Return the source of a function W -> W that evaluates `outputs`."""
     tape = Tape(layout, fixed, known)
     tape.store(outputs)
     return tape.function(name)

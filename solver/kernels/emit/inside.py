@@ -19,12 +19,8 @@ def source(
 ) -> str:
     """Return the source of what looks inside a step.
 
-    Parameters
-    ----------
-    dense
-        Dense output: time, state, modes and impact rates at `theta` of the step.
-    observed
-        Channels, of the state, its time and its accelerations.
+    `dense` : time, state, modes and impact rates at `theta` of the step; `observed` : channels, of
+    the state, its time and its accelerations.
     """
     within, around = _within(layout), _around(layout)
     count = len(equations.coordinates)

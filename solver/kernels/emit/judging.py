@@ -23,14 +23,8 @@ REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
 def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:
     """Return the factor from a step to the next.
 
-    Parameters
-    ----------
-    order
-        Of the error in the step.
-    good
-        Positive where the step is accepted.
-    magnitude, memory
-        log2 of this step's error and of the last one's, in tolerances.
+    `order` : of the error in the step; `good` : positive where it is accepted; `magnitude` and
+    `memory` : log2 of this step's error and of the last one's, in tolerances.
     """
     exponent = 1.0 / order
     smooth = exponent - 0.75 * PROPORTIONAL

@@ -33,23 +33,16 @@ from jointplay.solver.scene.document import Scene
 
 @dataclass(frozen=True)
 class Tangents:
-    """Compiled tangent functions of a kernel, over its work array made longer.
-
-    Attributes
-    ----------
-    places
-        The kernel's, with those of tangents filled in.
-    addresses
-        The kernel's functions and those of tangents.
-    fixed
-        Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`.
-    """
+    """Compiled tangent functions of a kernel, over its work array made longer."""
 
     module: ModuleType
     layout: Layout
     places: NDArray[np.void]
+    """The kernel's, with those of tangents filled in."""
     fixed: tuple[tuple[int, Expression], ...]
+    """Slot and expression of what depends on the scene's numbers alone, beyond `Kernel.fixed`."""
     addresses: NDArray[np.void]
+    """The kernel's functions and those of tangents."""
 
     def fixed_values(self, scene: Scene) -> Floats:
         """Evaluate what depends on a scene's numbers alone, in the order of `fixed`."""

@@ -14,10 +14,7 @@ from jointplay.solver.kernels.record.recorder import Expression
 class Derivative:
     """The derivative along one direction, of any expressions of one recorder.
 
-    Parameters
-    ----------
-    along
-        Rate of change of each variable, by name; a variable that is missing does not change.
+    `along` : rate of change of each variable, by name; one that is missing does not change.
     """
 
     def __init__(self, along: Mapping[str, Expression]) -> None:

@@ -200,13 +200,7 @@ SURELY_SHORT = 7
 
 
 def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
-    """Record a scene's equations and count their statements.
-
-    Raises
-    ------
-    LimitExceeded
-        More than can be compiled, with the count.
-    """
+    """Refuse (LimitExceeded) a scene whose equations have more statements than can be compiled."""
     if len(scene.bodies) <= SURELY_SHORT:
         return
     equations = record(scene, tree, formulation)

@@ -33,22 +33,15 @@ WHOLE = 1.5 * 2.0**MANTISSA_BITS
 
 @dataclass(frozen=True)
 class Operation:
-    """An operation of the recorder.
-
-    Attributes
-    ----------
-    on_floats
-        Its value for numbers.
-    rate
-        Its derivative, from a node and the derivatives of its arguments.
-    on_lanes
-        Its code, from a builder and vectors; none of what kernels have as arithmetic
-        (`solver.kernels.record.lane_functions`), whose node and one argument the recorder knows.
-    """
+    """An operation of the recorder."""
 
     on_floats: Callable[..., float]
+    """Its value for numbers."""
     rate: Callable[[Node, Rates], Node]
+    """Its derivative, from a node and the derivatives of its arguments."""
     on_lanes: Callable[..., Vector] | None = None
+    """Its code, from a builder and vectors; none of what kernels have as arithmetic
+    (`solver.kernels.record.lane_functions`), whose node and one argument the recorder knows."""
 
 
 def _nothing(node: Node, _rates: Rates) -> Node:

@@ -29,34 +29,25 @@ HARDLY = 1e-3
 
 @dataclass(frozen=True)
 class Certificate:
-    """Certificate of a trajectory: how far it can be believed.
-
-    Attributes
-    ----------
-    time : (instants,)
-        s, from 0 to the end of the run.
-    error : (instants, channels)
-        Estimated error of each channel, in its unit; where the motion is not converged, no more
-        than how far the companions are apart. Infinite where too few of them came.
-    until : (channels,)
-        Time until which the error stays below a share of the channel's scale, s.
-    extremes : (channels, 4)
-        Lowest and highest minimum, lowest and highest maximum of several lanes.
-    edges, share, spread : (BINS + 1, channels), (BINS, channels), (BINS, channels)
-        Bins, and the share of time that channels spend there with its standard deviation over
-        companions.
-    facts
-        The rest, as a JSON document.
-    """
+    """Certificate of a trajectory: how far it can be believed."""
 
     time: Floats
+    """(instants,) s, from 0 to the end of the run."""
     error: Floats
+    """(instants, channels) estimated errors, in the channels' units; where the motion is not
+    converged, no more than how far companions are apart. Infinite where too few of them came."""
     until: Floats
+    """(channels,) time until which the error stays below a share of the channel's scale, s."""
     extremes: Floats
+    """(channels, 4) lowest and highest minimum, lowest and highest maximum of several lanes."""
     edges: Floats
+    """(BINS + 1, channels) of bins."""
     share: Floats
+    """(BINS, channels) of time that channels spend there."""
     spread: Floats
+    """(BINS, channels) its standard deviation over companions."""
     facts: dict[str, Any]
+    """The rest, as a JSON document."""
 
     @classmethod
     def of_exact(cls, channels: int, duration: float) -> Certificate:
@@ -90,14 +81,8 @@ def certify(
 ) -> Certificate:
     """Put a trajectory's certificate together.
 
-    Parameters
-    ----------
-    companions
-        Each at its end, or left behind.
-    channels
-        Those that the job selected.
-    violation : (2,)
-        Of constraints: of positions, m, and of angles, rad; none where there are none.
+    `companions` : each at its end, or left behind; `channels` : those that the job selected;
+    `violation` : see `Violation.largest`, none where there are no constraints.
     """
     bundle, time = companions.bundle, companions.instants.time
     rows = bundle.kernel.rows

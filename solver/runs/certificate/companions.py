@@ -45,18 +45,13 @@ MOST_ATTEMPTS = 1.6
 
 @dataclass
 class Companions:
-    """Lanes 1 to 7 of a bundle: `collect` after every advance, `allowance` before.
-
-    Attributes
-    ----------
-    rows
-        By lane, dense states at the instants reached so far.
-    """
+    """Lanes 1 to 7 of a bundle: `collect` after every advance, `allowance` before."""
 
     bundle: Bundle
     instants: Instants
     loud: tuple[int, ...]
     rows: dict[int, list[Floats]]
+    """By lane, dense states at the instants reached so far."""
 
     @classmethod
     def beside(cls, bundle: Bundle, problem: LaneProblem) -> Companions:

@@ -96,16 +96,9 @@ BINS = 16
 def histogram(values: Floats, time: Floats) -> tuple[Floats, Floats, Floats]:
     """Return bins' edges and shares of time in them with their standard deviation over lanes.
 
-    Parameters
-    ----------
-    values : (lanes, instants, channels)
-        Not a number where a lane was left behind: that lane does not count.
-    time : (instants,)
-        s; an instant stands for half the time to its neighbours.
-
-    Returns
-    -------
-    (BINS + 1, channels), (BINS, channels), (BINS, channels)
+    (BINS + 1, channels), (BINS, channels), (BINS, channels). values : (lanes, instants, channels);
+    a lane with a NaN was left behind and does not count. time : (instants,) s, of which each stands
+    for half the time to its neighbours.
     """
     whole = values[~np.isnan(values).any(axis=(1, 2))]
     lanes, _, channels = whole.shape

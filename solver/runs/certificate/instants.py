@@ -21,18 +21,12 @@ MOST_OCTAVES = 40
 
 @dataclass(frozen=True)
 class Instants:
-    """Instants of a run.
-
-    Attributes
-    ----------
-    duration
-        Of the run, s.
-    octaves
-        How often the step is doubled.
-    """
+    """Instants of a run."""
 
     duration: float
+    """Of the run, s."""
     octaves: int
+    """How often the step is doubled."""
 
     @classmethod
     def over(cls, duration: float, unit: float) -> Instants:

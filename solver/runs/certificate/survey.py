@@ -22,13 +22,7 @@ from jointplay.solver.scene.document import Scene
 
 
 class Violation:
-    """The largest violation of a scene's constraints at all dense states seen so far.
-
-    Attributes
-    ----------
-    largest : (2,)
-        Of positions, m, and of angles, rad.
-    """
+    """The largest violation of a scene's constraints at all dense states seen so far."""
 
     def __init__(self, scene: Scene, row: DenseRow) -> None:
         self.row = row
@@ -36,6 +30,7 @@ class Violation:
         self.drivers: Sequence[str] = tuple(scene.drivers)
         self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=False)
         self.largest = np.zeros(2)
+        """Of positions, m, and of angles, rad."""
 
     def look(self, rows: Floats) -> None:
         """Look at dense states, (count, width), as `solver.kernels.loop.dense_rows` writes them."""

@@ -22,19 +22,12 @@ SECOND_ORDER = 2.0
 
 @dataclass(frozen=True)
 class Reach:
-    """Range of a body's channel in a period.
-
-    Attributes
-    ----------
-    low, high : float
-        Bounds, in the channel's unit.
-    turns : int
-        Whole turns that an angle gains in a period.
-    """
+    """Range of a body's channel in a period, in its unit."""
 
     low: float
     high: float
     turns: int = 0
+    """Whole turns that an angle gains in a period."""
 
 
 class MotionReach:

@@ -33,21 +33,14 @@ class Leaf:
 
 @dataclass(frozen=True, eq=False)
 class PointScenes:
-    """Makes the scene of any point.
-
-    Attributes
-    ----------
-    base : Scene
-        Checked in full; every leaf is present in it.
-    leaves : tuple of Leaf
-        What changes; no path twice.
-    values : (points, parameters) float
-        In the unit of each parameter.
-    """
+    """Maker of the scene of any point."""
 
     base: Scene
+    """Checked in full; every leaf is present in it."""
     leaves: tuple[Leaf, ...]
+    """What changes; no path twice."""
     values: Floats
+    """(points, parameters) in the unit of each."""
 
     def column(self, leaf: Leaf) -> Floats:
         """Return what stands at a leaf, (points,)."""
