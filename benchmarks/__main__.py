@@ -13,6 +13,7 @@ ALL = (
     "exponent",
     "sweep",
     "extremes",
+    "lies",
     "platform",
     "submission",
     "latency",

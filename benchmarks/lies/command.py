@@ -1,0 +1,34 @@
+"""The command ``python -m benchmarks lies``: searches for wrong claims, repeatable from a seed."""
+
+import argparse
+import json
+from pathlib import Path
+
+from benchmarks.lies import coverage_search, extremes_search, named
+from benchmarks.lies.covered import coverage_of
+from benchmarks.lies.extremes import extremes_of
+from benchmarks.lies.scenes import SCENES
+
+SEARCHES = {"coverage": coverage_search, "extremes": extremes_search}
+PARTS = (*SEARCHES, "named")
+
+
+def main() -> None:
+    """Run the searches that are asked for, judge the named claims, or one job."""
+    options = argparse.ArgumentParser(prog="python -m benchmarks lies", description=__doc__)
+    options.add_argument("--only", choices=PARTS, nargs="+", default=list(PARTS))
+    options.add_argument("--scenes", choices=SCENES, nargs="+", default=list(SCENES))
+    options.add_argument("--runs", type=int, default=100, help="of each search")
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--job", type=Path, help="a file with a job to be judged instead")
+    given = options.parse_args()
+    if given.job is not None:
+        job = json.loads(given.job.read_text())
+        print(coverage_of(job), extremes_of(job), sep="\n")
+        return
+    for name in (part for part in given.only if part in SEARCHES):
+        print(f"\n{name}: seed {given.seed}, {given.runs} runs")
+        search = SEARCHES[name]
+        print(search.report(search.search(given.seed, given.runs, given.scenes)), flush=True)
+    if "named" in given.only:
+        print(f"\n{named.report()}")

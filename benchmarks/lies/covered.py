@@ -1,0 +1,136 @@
+"""Share of a certified run's true error that its bars cover, by an independent program."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.lies.run import Finished, finish
+from benchmarks.lies.sizes import sizes
+from benchmarks.lies.truth import true_channels
+from jointplay.records.certificate import converged
+from jointplay.solver.integrators import STIFF
+from jointplay.worker.certificates import record_of
+
+Floats = NDArray[np.float64]
+
+Truths = tuple[Floats, Floats]
+"""Values at some instants, (instants, channels), and by coarser steps."""
+Tell = Callable[[dict[str, Any], NDArray[np.int64]], Truths | None]
+"""Takes a job and indices of its samples."""
+
+PROGRAMS = ((1e-12, 1.0), (1e-11, 0.7))
+"""Tolerances of the independent program, and shares of its longest steps."""
+IMPLICIT = (1e-9, 4e-9)
+"""Tolerances of the implicit method."""
+DOUBT = 0.1
+"""Where the two truths are apart by this share of what is judged, none is known."""
+ROUNDING = 1e-12
+"""Share of a channel's size that rounding alone makes an error of."""
+MOST_ATTEMPTS = 60_000
+"""Steps after which the independent program gives up: friction held by steep ramps is stiff."""
+SMALLEST = 1e-300
+"""Size of what vanishes in the whole run, so that nothing is divided by zero."""
+MOST_RATIOS = 400
+"""Of a run, that are kept for the median."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What became of a job's claims.
+
+    Attributes
+    ----------
+    ended : str
+        ``judged``, ``no truth``, ``nothing claimed``, or how the run failed.
+    errors, inside : int
+        Errors whose truth is known, over channels and instants that are converged; those that
+        their bar covers.
+    worst : float
+        Largest error in bars; the bar counts as no less than rounding.
+    where : str
+        Channel and time of that.
+    ratios : (count,) bars by errors, of some errors.
+    """
+
+    ended: str
+    errors: int = 0
+    inside: int = 0
+    worst: float = 0.0
+    where: str = ""
+    ratios: Floats = field(default_factory=lambda: np.zeros(0))
+
+    @property
+    def covered(self) -> float:
+        """Share of the errors that their bars cover."""
+        return self.inside / self.errors if self.errors else 1.0
+
+
+def coverage_of(job: dict[str, Any], tell: Tell | None = None) -> Verdict:
+    """Run a job with its certificate and compare its errors with its bars.
+
+    tell : who tells the truth; none: the independent program.
+    """
+    certified = finish(job | {"certificate": True})
+    if not isinstance(certified, Finished):
+        return Verdict(certified)
+    certificate = certified.certificate
+    assert certificate is not None  # it was asked for
+    time = certificate.time
+    if not len(time):
+        return Verdict("nothing claimed")
+    within = converged(record_of(certificate), time)
+    index = np.round(time[within] / float(time[1])).astype(int)
+    if not index[-1]:
+        return Verdict("nothing claimed")
+    sampled = job | {"certificate": False, "output_step": float(time[1])}
+    finished = finish(sampled)
+    assert isinstance(finished, Finished)  # samples change nothing
+    truths = by_program(finished, index) if tell is None else tell(sampled, index)
+    if truths is None:
+        return Verdict("no truth")
+    values, bar, (fine, coarse) = finished.samples[index], certificate.error[within], truths
+    rounding = ROUNDING * sizes(finished.scene, finished.units, fine) + SMALLEST
+    error, doubt = np.abs(values - fine), np.abs(fine - coarse)
+    known = doubt <= DOUBT * np.maximum(bar, error) + rounding
+    inside = error <= bar + rounding
+    if not known.any():
+        return Verdict("no truth")
+    bars = np.where(known, error / (bar + rounding), 0.0)
+    instant, column = np.unravel_index(int(bars.argmax()), bars.shape)
+    usable = known & (error > rounding)
+    ratios = bar[usable] / error[usable]
+    return Verdict(
+        "judged",
+        int(known.sum()),
+        int((known & inside).sum()),
+        float(bars.max()),
+        f"{finished.names[column]} at {time[within][instant]:.6g} s",
+        ratios[:: max(1, len(ratios) // MOST_RATIOS)],
+    )
+
+
+def by_program(finished: Finished, index: NDArray[np.int64]) -> Truths | None:
+    """Return what the independent program says, at two tolerances, at some of a run's samples."""
+    first = dict(zip(finished.names, finished.samples[0], strict=True))
+    truths = []
+    for tolerance, share in PROGRAMS:
+        found = true_channels(
+            finished.scene, first, finished.time[index], tolerance, share, MOST_ATTEMPTS
+        )
+        if found is None:
+            return None
+        truths.append(np.stack([found[name] for name in finished.names], axis=1))
+    return truths[0], truths[1]
+
+
+def by_implicit_method(job: dict[str, Any], index: NDArray[np.int64]) -> Truths | None:
+    """Return what far finer runs by the implicit method say.
+
+    The independent program is explicit, and would take minutes where friction is that steep.
+    """
+    runs = [finish(job | {"method": STIFF.name, "tolerance": t}) for t in IMPLICIT]
+    fine, coarse = (run.samples[index] if isinstance(run, Finished) else None for run in runs)
+    return None if fine is None or coarse is None else (fine, coarse)

@@ -1,0 +1,81 @@
+"""A run's reported extremes against its own samples, taken much closer than anything happens."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.lies.run import Finished, finish
+from benchmarks.lies.sizes import sizes
+
+Floats = NDArray[np.float64]
+
+SPACING = 1e-7
+"""s; longer where a run would have more than MOST_SAMPLES."""
+MOST_SAMPLES = 200_000
+STILL = 1e-9
+"""Share of its size by which a channel must move, to be judged."""
+ALLOWED = 1e-6
+"""Share of its range by which an extreme may be off."""
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """What became of a run's extremes.
+
+    Attributes
+    ----------
+    ended : str
+        ``judged``, or how the run failed.
+    extremes, right : int
+        Highest and lowest values of channels that move; those within ALLOWED.
+    worst : float
+        Largest miss, in ranges of the channel.
+    where : str
+        Channel, sense and values of that.
+    """
+
+    ended: str
+    extremes: int = 0
+    right: int = 0
+    worst: float = 0.0
+    where: str = ""
+
+
+def extremes_of(job: dict[str, Any]) -> Extremes:
+    """Run a job and compare its extremes with samples."""
+    spacing = max(SPACING, job["duration"] / MOST_SAMPLES)
+    finished = finish(job | {"certificate": False, "output_step": spacing})
+    if not isinstance(finished, Finished):
+        return Extremes(finished)
+    values = finished.samples
+    moving = np.ptp(values, axis=0) > STILL * sizes(finished.scene, finished.units, values)
+    misses, said = [], []
+    for column in np.flatnonzero(moving):
+        name, sampled = finished.names[column], values[:, column]
+        peak = finished.peaks[name]
+        for sense, value, time in (
+            (1.0, peak.maximum, peak.maximum_time),
+            (-1.0, peak.minimum, peak.minimum_time),
+        ):
+            miss = missed(sense * sampled, finished.time, sense * value, time)
+            misses.append(miss / float(np.ptp(sampled)))
+            seen = sense * (sense * sampled).max()
+            said.append(f"{name} {value:.9g} at {time:.9g} s, sampled {seen:.9g}")
+    if not misses:
+        return Extremes("nothing moves")
+    worst = int(np.argmax(misses))
+    right = sum(miss <= ALLOWED for miss in misses)
+    return Extremes("judged", len(misses), right, float(misses[worst]), said[worst])
+
+
+def missed(sampled: Floats, time: Floats, highest: float, when: float) -> float:
+    """Return by how much a highest value is too low, or too high for the samples about its time.
+
+    Between two samples a channel may rise by half of what its slope changes by: a corner does.
+    """
+    at = int(np.searchsorted(time, when))
+    near = sampled[max(at - 3, 0) : at + 3]
+    bend = np.abs(np.diff(near, 2)).max() if len(near) > 2 else np.ptp(sampled)
+    return float(max(sampled.max() - highest, highest - near.max() - 0.5 * bend))

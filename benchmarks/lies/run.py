@@ -1,0 +1,59 @@
+"""A job's run to its end, with everything that is judged."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.records.peak import Peak
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.runs.certificate.certificate import Certificate
+from jointplay.solver.runs.simulate import Simulation
+
+Floats = NDArray[np.float64]
+
+MOST_STEPS = 400_000
+"""A run that takes more is not judged."""
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A run at its end; `samples` is (count, channels) at `time`, s."""
+
+    scene: dict[str, Any]
+    names: list[str]
+    units: list[str]
+    time: Floats
+    samples: Floats
+    peaks: dict[str, Peak]
+    certificate: Certificate | None
+
+
+def finish(job: dict[str, Any]) -> Finished | str:
+    """Run a job to its end, or return how it failed."""
+    try:
+        admission = admit(job)
+    except InvalidInput as refused:
+        return f"refused: {refused}"
+    assert isinstance(admission, Admission)
+    simulation = Simulation(admission)
+    times, samples = [], []
+    try:
+        for piece in simulation.slices():
+            times.append(piece.sample_time)
+            samples.append(piece.samples)
+            if simulation.summary().statistics["steps"] > MOST_STEPS:
+                return "too many steps"
+    except SimulationFailed as failure:
+        return failure.code
+    return Finished(
+        admission.scene_document(),
+        [channel.name for channel in admission.channels],
+        [channel.unit for channel in admission.channels],
+        np.concatenate(times),
+        np.concatenate(samples),
+        simulation.summary().peaks,
+        simulation.certificate(),
+    )

@@ -1,0 +1,180 @@
+"""True values of a scene's channels, by name, at given times."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from benchmarks.lies.truth import integration
+from benchmarks.lies.truth.equations import (
+    EX,
+    EY,
+    FRICTION,
+    GAP,
+    NORMAL_FORCE,
+    SLIP,
+    TOLD,
+    VX,
+    VY,
+    stretch,
+)
+from benchmarks.lies.truth.mechanism import ANGLE, Floats, Named, has_play, read
+
+POSE = ("x", "y", "theta")
+RATE = ("vx", "vy", "omega")
+ACCELERATION = ("ax", "ay", "alpha")
+CONTACT = {
+    "eccentricity_x": EX,
+    "eccentricity_y": EY,
+    "eccentricity_rate_x": VX,
+    "eccentricity_rate_y": VY,
+    "penetration": GAP,
+    "normal_force": NORMAL_FORCE,
+    "friction_force": FRICTION,
+    "slip_velocity": SLIP,
+}
+STILL = 1e-3
+"""Smallest scale of speed, m/s."""
+
+
+def true_channels(
+    scene: Mapping[str, Any],
+    first: Mapping[str, float],
+    times: Floats,
+    tolerance: float,
+    share: float,
+    most_attempts: int,
+) -> dict[str, Floats] | None:
+    """Integrate a scene's filled-in document from the channels at its start.
+
+    Parameters
+    ----------
+    first
+        Position, angle and rates of each body at time 0, by the name of the channel.
+    times
+        (count,) s, rising.
+    tolerance
+        Error of a step, in clearances and in the speeds that journals have.
+    share
+        Of the longest steps that geometry allows.
+    most_attempts
+        Steps that may be tried.
+
+    Returns
+    -------
+    (count,) values of each channel; None where it takes too long, or constraints are redundant.
+    """
+    named = read(scene)
+    m, bodies = named.mechanism, list(scene["bodies"])
+    start = np.array(
+        [first[f"{body}.{q}"] for part in (POSE, RATE) for body in bodies for q in part]
+    )
+    states = np.full((len(times), 2 * len(start)), np.nan)
+    tolds = np.full((len(times), len(named.play), TOLD), np.nan)
+    forces = np.full((len(times), len(m.row)), np.nan)
+    status = integration.integrate(
+        m,
+        start,
+        np.asarray(times, np.float64),
+        tolerance * _scales(scene, named, start),
+        share,
+        most_attempts,
+        states,
+        tolds,
+        forces,
+    )
+    if status != integration.DONE:
+        return None
+    return _values(scene, named, states, tolds, forces)
+
+
+def _scales(scene: Mapping[str, Any], named: Named, start: Floats) -> Floats:
+    """Return sizes of positions (m, rad) and speeds (m/s, rad/s) that matter, (states,)."""
+    reach = max(math.hypot(*arm) for arm in named.mechanism.arm)
+    reach = max(reach, float(named.mechanism.law[:, 1].max(initial=0.0)), 1e-9)
+    finest = float(named.mechanism.law[:, 0].min(initial=reach))
+    half = len(start) // 2
+    rates = start[half:].reshape(-1, 3)
+    speed = max(
+        math.sqrt(math.hypot(*scene["gravity"]) * finest),
+        float(np.abs(rates[:, 2]).max()) * finest,
+        float(np.abs(rates[:, :2]).min()) if finest == reach else 0.0,
+        STILL,
+    )
+    position = [finest, finest, finest / reach] * (half // 3)
+    return np.array([*position, *(value * speed / finest for value in position)])
+
+
+def _values(
+    scene: Mapping[str, Any], named: Named, states: Floats, tolds: Floats, forces: Floats
+) -> dict[str, Floats]:
+    values: dict[str, Floats] = {}
+    bodies, half = list(scene["bodies"]), states.shape[1] // 4
+    for b, body in enumerate(bodies):
+        for level, names in ((0, POSE), (1, RATE), (3, ACCELERATION)):
+            for q, name in enumerate(names):
+                values[f"{body}.{name}"] = states[:, level * half + 3 * b + q]
+    _contacts(named, tolds, values)
+    for name, joint in scene["joints"].items():
+        if not has_play(joint):
+            _reactions(name, joint, scene, named, forces, values)
+    for name, row in named.drivers.items():
+        values[f"{name}.torque"] = forces[:, row]
+        values[f"{name}.power"] = forces[:, row] * scene["drivers"][name]["speed"]
+    for s, name in enumerate(scene["forces"]):
+        found = np.array([stretch(named.mechanism, s, y[: 2 * half])[:3] for y in states])
+        for column, channel in enumerate(("length", "rate", "force")):
+            values[f"{name}.{channel}"] = found[:, column]
+    _energies(scene, values)
+    for output in scene["outputs"]:
+        values[output["name"]] = output["factor"] * values[output["channel"]] + output["offset"]
+    return values
+
+
+def _contacts(named: Named, tolds: Floats, values: dict[str, Floats]) -> None:
+    """Add what is told of joints with play."""
+    for j, name in enumerate(named.play):
+        values |= {f"{name}.{channel}": tolds[:, j, at] for channel, at in CONTACT.items()}
+        distance = np.hypot(tolds[:, j, EX], tolds[:, j, EY])[:, None]
+        normal = tolds[:, j, EX : EY + 1] / np.where(distance > 0.0, distance, 1.0)
+        push, rub = tolds[:, j, NORMAL_FORCE], tolds[:, j, FRICTION]
+        values[f"{name}.force_x"] = -push * normal[:, 0] - rub * normal[:, 1]
+        values[f"{name}.force_y"] = -push * normal[:, 1] + rub * normal[:, 0]
+
+
+def _reactions(
+    name: str,
+    joint: Mapping[str, Any],
+    scene: Mapping[str, Any],
+    named: Named,
+    forces: Floats,
+    values: dict[str, Floats],
+) -> None:
+    """Add the force on the second body of an ideal joint."""
+    rows = named.rows[name]
+    if joint["type"] != "prismatic":
+        values[f"{name}.force_x"], values[f"{name}.force_y"] = (
+            forces[:, rows[0]],
+            forces[:, rows[1]],
+        )
+        return
+    guide = joint["guide"].split(".")[0]
+    angle = values[f"{guide}.theta"] if guide != "ground" else np.zeros(len(forces))
+    ux, uy = named.mechanism.motion[rows[0], 2:]
+    ux, uy = np.cos(angle) * ux - np.sin(angle) * uy, np.sin(angle) * ux + np.cos(angle) * uy
+    across = forces[:, rows[0]]
+    along = forces[:, rows[2]] if len(rows) > 2 else np.zeros(len(forces))
+    values[f"{name}.force_x"] = -across * uy + along * ux
+    values[f"{name}.force_y"] = across * ux + along * uy
+    assert named.mechanism.row[rows[1], 0] == ANGLE
+
+
+def _energies(scene: Mapping[str, Any], values: dict[str, Floats]) -> None:
+    gx, gy = scene["gravity"]
+    kinetic, potential = np.zeros(1), np.zeros(1)
+    for name, body in scene["bodies"].items():
+        x, y, vx, vy, spin = (values[f"{name}.{q}"] for q in ("x", "y", "vx", "vy", "omega"))
+        kinetic = kinetic + 0.5 * (body["mass"] * (vx**2 + vy**2) + body["inertia"] * spin**2)
+        potential = potential - body["mass"] * (gx * x + gy * y)
+    values["energy.kinetic"], values["energy.potential"] = kinetic, potential

@@ -1,0 +1,266 @@
+"""Newton's and Euler's equations with multipliers: M a = f + Jᵀ λ, J a = γ.
+
+The state is (6 bodies,): x, y (m) and angle (rad) of each body, then their rates.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from benchmarks.lies.truth.mechanism import ACROSS_X, ACROSS_Y, ANGLE, NORMAL, Floats, Mechanism
+
+GAP, GAP_RATE, NORMAL_FORCE, FRICTION, SLIP, EX, EY, VX, VY, SEEN, DAMPING = range(11)
+"""What is told of a joint with play: penetration (m) and its rate, forces (N), slip velocity,
+eccentricity and its rate, the slip that friction sees, the factor of damping on the force."""
+TOLD = 11
+
+
+@njit(cache=True)
+def point(m: Mechanism, p: int, y: Floats) -> tuple[float, ...]:
+    """Return arm, position and velocity of a point, world components, and its body's spin."""
+    body = m.body[p]
+    if body < 0:
+        return 0.0, 0.0, m.arm[p, 0], m.arm[p, 1], 0.0, 0.0, 0.0
+    half = len(y) // 2
+    angle, spin = y[3 * body + 2], y[half + 3 * body + 2]
+    cosine, sine = math.cos(angle), math.sin(angle)
+    ax = cosine * m.arm[p, 0] - sine * m.arm[p, 1]
+    ay = sine * m.arm[p, 0] + cosine * m.arm[p, 1]
+    vx = y[half + 3 * body] - spin * ay
+    vy = y[half + 3 * body + 1] + spin * ax
+    return ax, ay, y[3 * body] + ax, y[3 * body + 1] + ay, vx, vy, spin
+
+
+@njit(cache=True)
+def push(m: Mechanism, p: int, y: Floats, fx: float, fy: float, load: Floats) -> None:
+    """Add a force on a point to the generalised forces."""
+    body = m.body[p]
+    if body < 0:
+        return
+    ax, ay, _, _, _, _, _ = point(m, p, y)
+    load[3 * body] += fx
+    load[3 * body + 1] += fy
+    load[3 * body + 2] += ax * fy - ay * fx
+
+
+@njit(cache=True)
+def touch(m: Mechanism, j: int, y: Floats, closed: bool, impact: float, told: Floats) -> None:
+    """Evaluate the contact of a joint with play: eqs 2 to 17 of the press paper."""
+    _, _, bx, by, bvx, bvy, bearing_spin = point(m, m.play[j, 0], y)
+    _, _, jx, jy, jvx, jvy, journal_spin = point(m, m.play[j, 1], y)
+    clearance, radius = m.law[j, 0], m.law[j, 1]
+    ex, ey, vx, vy = jx - bx, jy - by, jvx - bvx, jvy - bvy
+    distance = math.hypot(ex, ey)
+    nx = ex / distance if distance > 0.0 else 0.0
+    ny = ey / distance if distance > 0.0 else 0.0
+    gap, rate = distance - clearance, vx * nx + vy * ny
+    around = vy * nx - vx * ny
+    slip = around + (radius - clearance) * journal_spin - radius * bearing_spin
+    seen = slip
+    if m.law[j, 9] > 0.0:
+        seen = around - clearance * (around / distance if distance > 0.0 else 0.0)
+    normal, friction, damping = 0.0, 0.0, 1.0
+    if closed:
+        damping = 1.0 + m.law[j, 4] * rate / impact
+        if gap > 0.0 and damping > 0.0:
+            normal = m.law[j, 2] * gap ** m.law[j, 3] * damping
+        low, high = m.law[j, 7], m.law[j, 8]
+        share = 1.0 if abs(seen) > low else 0.0
+        if high > low:
+            share = min(max((abs(seen) - low) / (high - low), 0.0), 1.0)
+        friction = -math.copysign(m.law[j, 6] * share * normal, seen)
+    told[GAP], told[GAP_RATE], told[NORMAL_FORCE], told[FRICTION] = gap, rate, normal, friction
+    told[SLIP], told[SEEN], told[DAMPING] = slip, seen, damping
+    told[EX], told[EY], told[VX], told[VY] = ex, ey, vx, vy
+
+
+@njit(cache=True)
+def load_play(m: Mechanism, j: int, y: Floats, told: Floats, load: Floats) -> None:
+    """Add the forces of a contact; they act at the surfaces of bearing and journal."""
+    distance = math.hypot(told[EX], told[EY])
+    if distance == 0.0:
+        return
+    nx, ny = told[EX] / distance, told[EY] / distance
+    fx = -told[NORMAL_FORCE] * nx - told[FRICTION] * ny
+    fy = -told[NORMAL_FORCE] * ny + told[FRICTION] * nx
+    first, second = m.play[j, 0], m.play[j, 1]
+    push(m, second, y, fx, fy, load)
+    push(m, first, y, -fx, -fy, load)
+    if m.body[second] >= 0:
+        load[3 * m.body[second] + 2] += (m.law[j, 1] - m.law[j, 0]) * told[FRICTION]
+    if m.body[first] >= 0:
+        load[3 * m.body[first] + 2] -= m.law[j, 1] * told[FRICTION]
+
+
+@njit(cache=True)
+def stretch(m: Mechanism, s: int, y: Floats) -> tuple[float, float, float, float, float]:
+    """Return length, its rate, tension and direction of a spring with damper."""
+    _, _, px, py, pvx, pvy, _ = point(m, m.spring[s, 0], y)
+    _, _, qx, qy, qvx, qvy, _ = point(m, m.spring[s, 1], y)
+    dx, dy = qx - px, qy - py
+    length = math.hypot(dx, dy)
+    ux = dx / length if length > 0.0 else 0.0
+    uy = dy / length if length > 0.0 else 0.0
+    rate = ux * (qvx - pvx) + uy * (qvy - pvy)
+    tension = m.spring_law[s, 0] * (length - m.spring_law[s, 2]) + m.spring_law[s, 1] * rate
+    return length, rate, tension, ux, uy
+
+
+@njit(cache=True)
+def constrain(
+    m: Mechanism, t: float, y: Floats, jacobian: Floats, off: Floats, drift: Floats, gamma: Floats
+) -> None:
+    """Fill in the constraints: Jacobian, what they are off by, its rate, and γ."""
+    jacobian[:] = 0.0
+    for r in range(len(m.row)):
+        kind, first, second = m.row[r]
+        position, speed = m.motion[r, 0] + m.motion[r, 1] * t, m.motion[r, 1]
+        fax, fay, fx, fy, fvx, fvy, first_spin = point(m, first, y)
+        sax, say, sx, sy, svx, svy, second_spin = point(m, second, y)
+        here, there = m.body[first], m.body[second]
+        if kind == ANGLE:
+            value, rate = -position, -speed
+            if there >= 0:
+                jacobian[r, 3 * there + 2] += 1.0
+                value, rate = value + y[3 * there + 2], rate + second_spin
+            if here >= 0:
+                jacobian[r, 3 * here + 2] -= 1.0
+                value, rate = value - y[3 * here + 2], rate - first_spin
+            off[r], drift[r], gamma[r] = value, rate, 0.0
+            continue
+        dx, dy, dvx, dvy = sx - fx, sy - fy, svx - fvx, svy - fvy
+        carried = 0.0  # spin of the direction along which the distance is taken
+        if kind == ACROSS_X:
+            wx, wy, position, speed = 1.0, 0.0, 0.0, 0.0
+        elif kind == ACROSS_Y:
+            wx, wy, position, speed = 0.0, 1.0, 0.0, 0.0
+        else:
+            angle = y[3 * here + 2] if here >= 0 else 0.0
+            carried = first_spin
+            ux = math.cos(angle) * m.motion[r, 2] - math.sin(angle) * m.motion[r, 3]
+            uy = math.sin(angle) * m.motion[r, 2] + math.cos(angle) * m.motion[r, 3]
+            wx, wy = ux, uy
+            if kind == NORMAL:
+                wx, wy = -uy, ux
+        px, py = -wy, wx  # the rate of the direction, per spin
+        off[r] = wx * dx + wy * dy - position
+        drift[r] = wx * dvx + wy * dvy + carried * (px * dx + py * dy) - speed
+        bias_x = -second_spin * second_spin * sax + first_spin * first_spin * fax
+        bias_y = -second_spin * second_spin * say + first_spin * first_spin * fay
+        gamma[r] = -(wx * bias_x + wy * bias_y)
+        gamma[r] -= 2.0 * carried * (px * dvx + py * dvy)
+        gamma[r] += carried * carried * (wx * dx + wy * dy)
+        if there >= 0:
+            jacobian[r, 3 * there] += wx
+            jacobian[r, 3 * there + 1] += wy
+            jacobian[r, 3 * there + 2] += wy * sax - wx * say
+        if here >= 0:
+            jacobian[r, 3 * here] -= wx
+            jacobian[r, 3 * here + 1] -= wy
+            jacobian[r, 3 * here + 2] -= wy * fax - wx * fay
+            if kind > ANGLE:
+                jacobian[r, 3 * here + 2] += px * dx + py * dy
+
+
+@njit(cache=True)
+def solve(system: Floats, right: Floats) -> bool:
+    """Solve a symmetric positive system in place; whether it is one."""
+    count = len(right)
+    largest = 0.0
+    for i in range(count):
+        largest = max(largest, system[i, i])
+    for i in range(count):
+        for j in range(i + 1):
+            total = system[i, j]
+            for k in range(j):
+                total -= system[i, k] * system[j, k]
+            if i == j:
+                if not total > 1e-14 * largest:
+                    return False
+                system[i, i] = math.sqrt(total)
+            else:
+                system[i, j] = total / system[j, j]
+    for i in range(count):
+        for k in range(i):
+            right[i] -= system[i, k] * right[k]
+        right[i] /= system[i, i]
+    for i in range(count - 1, -1, -1):
+        for k in range(i + 1, count):
+            right[i] -= system[k, i] * right[k]
+        right[i] /= system[i, i]
+    return True
+
+
+@njit(cache=True)
+def multiply_out(m: Mechanism, jacobian: Floats, system: Floats) -> None:
+    """Fill in J M⁻¹ Jᵀ, below its diagonal."""
+    for i in range(len(m.row)):
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(len(m.inverse_mass)):
+                total += jacobian[i, k] * m.inverse_mass[k] * jacobian[j, k]
+            system[i, j] = total
+
+
+@njit(cache=True)
+def accelerate(
+    m: Mechanism,
+    t: float,
+    y: Floats,
+    closed: np.ndarray,
+    impact: Floats,
+    slope: Floats,
+    told: Floats,
+    multipliers: Floats,
+) -> bool:
+    """Fill in the rate of the state, what is told of contacts, and multipliers; whether it can."""
+    half, rows = len(y) // 2, len(m.row)
+    load = np.zeros(half)
+    for b in range(half // 3):
+        load[3 * b] = m.gravity[0] / m.inverse_mass[3 * b]
+        load[3 * b + 1] = m.gravity[1] / m.inverse_mass[3 * b]
+    for j in range(len(m.play)):
+        touch(m, j, y, closed[j], impact[j], told[j])
+        load_play(m, j, y, told[j], load)
+    for s in range(len(m.spring)):
+        _, _, tension, ux, uy = stretch(m, s, y)
+        push(m, m.spring[s, 0], y, tension * ux, tension * uy, load)
+        push(m, m.spring[s, 1], y, -tension * ux, -tension * uy, load)
+    jacobian, system = np.empty((rows, half)), np.empty((rows, rows))
+    off, drift, gamma = np.empty(rows), np.empty(rows), np.empty(rows)
+    constrain(m, t, y, jacobian, off, drift, gamma)
+    multiply_out(m, jacobian, system)
+    for r in range(rows):
+        free = 0.0
+        for k in range(half):
+            free += jacobian[r, k] * m.inverse_mass[k] * load[k]
+        multipliers[r] = gamma[r] - free
+    regular = solve(system, multipliers)
+    for k in range(half):
+        total = load[k]
+        for r in range(rows):
+            total += jacobian[r, k] * multipliers[r]
+        slope[k] = y[half + k]
+        slope[half + k] = m.inverse_mass[k] * total
+    return regular
+
+
+@njit(cache=True)
+def project(m: Mechanism, t: float, y: Floats) -> None:
+    """Move the state onto its constraints, as little as possible in the norm of the masses."""
+    half, rows = len(y) // 2, len(m.row)
+    if rows == 0:
+        return
+    jacobian, system = np.empty((rows, half)), np.empty((rows, rows))
+    off, drift, gamma = np.empty(rows), np.empty(rows), np.empty(rows)
+    for level in range(2):
+        constrain(m, t, y, jacobian, off, drift, gamma)
+        multiply_out(m, jacobian, system)
+        right = off if level == 0 else drift
+        solve(system, right)
+        for k in range(half):
+            total = 0.0
+            for r in range(rows):
+                total += jacobian[r, k] * right[r]
+            y[level * half + k] -= m.inverse_mass[k] * total

@@ -1,0 +1,154 @@
+"""Numbers of a scene's document as arrays that compiled functions read."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+ACROSS_X, ACROSS_Y, ANGLE, NORMAL, ALONG = range(5)
+"""Kinds of constraint rows: coincidence of two points in x and in y, difference of two angles,
+distance of two points across an axis and along it."""
+ENDS: Final = {
+    "revolute": ("bearing", "journal"),
+    "prismatic": ("guide", "slider"),
+    "fixed": ("base", "part"),
+}
+
+
+class Mechanism(NamedTuple):
+    """A scene; bodies and points by index, the ground is body -1.
+
+    Attributes
+    ----------
+    inverse_mass : (3 bodies,) 1/m, 1/m, 1/I of each body
+    gravity : (2,) m/s^2
+    body, arm : (points,), (points, 2) body of each point, and its body coordinates, m
+    row : (rows, 3) kind of each constraint, its first point, its second
+    motion : (rows, 4) position and speed of a driver, the axis in the guide's coordinates
+    play : (joints, 2) bearing's point and journal's
+    law : (joints, 10) radial clearance, bearing radius, K, exponent, 3 (1 - c_e^2) / 4, floor of
+        the impact rate, friction coefficient, v_0, v_1, whether the slip is as published
+    spring, spring_law : (springs, 2), (springs, 3) points; stiffness, damping, free length
+    """
+
+    inverse_mass: Floats
+    gravity: Floats
+    body: Integers
+    arm: Floats
+    row: Integers
+    motion: Floats
+    play: Integers
+    law: Floats
+    spring: Integers
+    spring_law: Floats
+
+
+class Named(NamedTuple):
+    """A mechanism, and where its document's names are in it."""
+
+    mechanism: Mechanism
+    rows: dict[str, list[int]]
+    """Constraint rows of a joint."""
+    play: list[str]
+    drivers: dict[str, int]
+    """The row whose multiplier is the effort of a driver."""
+
+
+def has_play(joint: Mapping[str, Any]) -> bool:
+    """Whether a joint's journal moves in its bearing."""
+    clearance = joint.get("clearance")
+    return clearance is not None and clearance["radial_clearance"] > 0.0
+
+
+def read(scene: Mapping[str, Any]) -> Named:
+    """Return the mechanism of a filled-in document."""
+    bodies = list(scene["bodies"])
+    place: dict[str, int] = {}
+    body, arm = [], []
+    for owner, held in (("ground", scene["ground"]), *scene["bodies"].items()):
+        for point, coordinates in held["points"].items():
+            place[f"{owner}.{point}"] = len(body)
+            body.append(bodies.index(owner) if owner != "ground" else -1)
+            arm.append(coordinates)
+    driven = {driver["joint"]: (name, driver) for name, driver in scene["drivers"].items()}
+    row, motion, rows, drivers = [], [], {}, {}
+    for name, joint in scene["joints"].items():
+        if has_play(joint):
+            continue
+        first, second = (place[joint[end]] for end in ENDS[joint["type"]])
+        driver, moved = driven.get(name, ("", {"position": 0.0, "speed": 0.0}))
+        given = (moved["position"], moved["speed"])
+        ux, uy = joint.get("axis", (1.0, 0.0))
+        axis = (ux / math.hypot(ux, uy), uy / math.hypot(ux, uy))
+        still = (joint.get("angle", 0.0), 0.0)
+        if joint["type"] == "prismatic":
+            wanted = [(NORMAL, (0.0, 0.0)), (ANGLE, still)]
+            wanted += [(ALONG, given)] if driver else []
+        else:
+            wanted = [(ACROSS_X, (0.0, 0.0)), (ACROSS_Y, (0.0, 0.0))]
+            wanted += [(ANGLE, still)] if joint["type"] == "fixed" else []
+            wanted += [(ANGLE, given)] if driver else []
+        rows[name] = list(range(len(row), len(row) + len(wanted)))
+        for kind, (position, speed) in wanted:
+            row.append((kind, first, second))
+            motion.append((position, speed, *axis))
+        if driver:
+            drivers[driver] = len(row) - 1
+    loose = {name: joint for name, joint in scene["joints"].items() if has_play(joint)}
+    springs = list(scene["forces"].values())
+    inverse_mass = [
+        1.0 / value
+        for each in scene["bodies"].values()
+        for value in (each["mass"], each["mass"], each["inertia"])
+    ]
+    mechanism = Mechanism(
+        np.array(inverse_mass, np.float64),
+        np.array(scene["gravity"], np.float64),
+        np.array(body, np.int64),
+        np.array(arm, np.float64).reshape(-1, 2),
+        np.array(row, np.int64).reshape(-1, 3),
+        np.array(motion, np.float64).reshape(-1, 4),
+        np.array(
+            [[place[j["bearing"]], place[j["journal"]]] for j in loose.values()], np.int64
+        ).reshape(-1, 2),
+        np.array([_law(j["clearance"]) for j in loose.values()], np.float64).reshape(-1, 10),
+        np.array([[place[s["first"]], place[s["second"]]] for s in springs], np.int64).reshape(
+            -1, 2
+        ),
+        np.array(
+            [[s["stiffness"], s["damping"], s["free_length"]] for s in springs], np.float64
+        ).reshape(-1, 3),
+    )
+    return Named(mechanism, rows, list(loose), drivers)
+
+
+def _law(fit: Mapping[str, Any]) -> tuple[float, ...]:
+    """Return the numbers of a joint's laws; eq. 9 of the press paper where K is not given."""
+    contact, friction = fit["contact"], fit["friction"]
+    clearance, radius = fit["radial_clearance"], fit["bearing_radius"]
+    stiffness = contact["stiffness"]
+    if stiffness is None:
+        compliance = (1.0 - contact["poisson_ratio"] ** 2) / contact["youngs_modulus"]
+        stiffness = 2.0 / (3.0 * compliance) * math.sqrt(radius * (radius - clearance) / clearance)
+    rubbing = (0.0, 0.0, 1.0, 0.0)
+    if friction is not None:
+        rubbing = (
+            friction["coefficient"],
+            friction["static_velocity"],
+            friction["dynamic_velocity"],
+            float(friction["slip_velocity"] == "as-published"),
+        )
+    return (
+        clearance,
+        radius,
+        stiffness,
+        contact["exponent"],
+        0.75 * (1.0 - contact["restitution"] ** 2),
+        contact["impact_rate_floor"],
+        *rubbing,
+    )

@@ -1,0 +1,75 @@
+"""The searches for lies: repeatable, and their measures see what is wrong."""
+
+import math
+
+import numpy as np
+import pytest
+
+from benchmarks.lies import coverage_search
+from benchmarks.lies.climbing import Found, climb
+from benchmarks.lies.draw import DIMENSIONS, anywhere
+from benchmarks.lies.extremes import missed
+from benchmarks.lies.job import random_job
+from benchmarks.lies.scenes import SCENES
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.kinds import Admission, admit
+
+TIME = np.linspace(0.0, 1.0, 1001)
+PRESETS = ["bouncing-journal", "slider-crank", "seven-bar-press"]
+"""Whose kernels other tests compile, too."""
+
+
+def test_a_climb_repeats_itself_and_comes_closer_to_the_worst() -> None:
+    def looked(seed: int) -> list[float]:
+        seen: list[float] = []
+
+        def look(point: list[float]) -> Found:
+            badness = -math.dist(point[:3], (0.3, 0.7, 0.9))
+            seen.append(badness)
+            return Found("all", 3, badness)
+
+        climb(seed, 200, look)
+        return seen
+
+    found = looked(1)
+    assert found == looked(1) != looked(2)
+    assert max(found[100:]) > max(found[:20])
+
+
+@pytest.mark.parametrize("kind", SCENES)
+def test_every_random_job_is_admitted(kind: str) -> None:
+    random = np.random.default_rng(3)
+    seen = set()
+    for _ in range(20):
+        chosen = random_job(anywhere(random), [kind])
+        assert chosen.kind == kind
+        assert 4 < chosen.drawn <= DIMENSIONS
+        assert isinstance(admit(chosen.job), Admission)
+        seen.add(chosen.job["method"])
+    assert len(seen) > len(METHODS) / 2
+
+
+@pytest.mark.parametrize("shape", [np.sin(7.0 * TIME), -np.abs(TIME - 0.40033)])
+def test_a_highest_value_between_samples_is_right(shape: np.ndarray) -> None:
+    at = float(TIME[shape.argmax()])
+    assert missed(shape, TIME, float(shape.max()), at) <= 0.0
+    # between two samples, 1e-3 apart, the sine rises by 49 (1e-3)² / 8, the corner by 3.3e-4
+    highest = 1.0 if shape[1] > 0.0 else 0.0
+    assert missed(shape, TIME, highest, at) <= 0.0
+
+
+def test_a_highest_value_that_is_too_low_or_invented_is_seen() -> None:
+    shape = np.sin(7.0 * TIME)
+    at = float(TIME[shape.argmax()])
+    assert missed(shape, TIME, 0.9, at) == pytest.approx(0.1, abs=1e-4)
+    assert missed(shape, TIME, 1.1, at) == pytest.approx(0.1, abs=1e-4)
+    assert missed(shape, TIME, 1.0, 0.7) > 0.5  # not where it is said to be
+
+
+def test_error_bars_of_a_small_search_hold() -> None:
+    judged = coverage_search.search(8, 12, PRESETS)
+    verdicts = [each.verdict for each in judged if each.verdict.ended == "judged"]
+    assert len(verdicts) >= 8
+    assert min(verdict.covered for verdict in verdicts) >= 0.95
+    text = coverage_search.report(judged)
+    assert "| all |" in text
