@@ -1,59 +1,22 @@
 """A job's results for notebooks: arrays, tables, windows and pictures."""
 
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
-from functools import cached_property
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from jointplay.client import tables
-from jointplay.client.job_record import JobRecord, read_job
 from jointplay.client.notebook import Picture
-from jointplay.client.results import Form, Results
+from jointplay.client.results import Form
+from jointplay.client.tables import TabledJob
 from jointplay.client.window import Window
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
+    pass
 
 Names = str | Sequence[str]
 
 
-class ReadableJob(JobRecord, ABC):
+class ReadableJob(TabledJob):
     """A job's record with the ways to its results."""
-
-    def __init__(self, document: Mapping[str, Any]) -> None:
-        super().__init__(**read_job(document))
-        self._opened: dict[str, xr.Dataset] = {}
-
-    @cached_property
-    def results(self) -> Results:
-        """The results as plain numbers, without pandas and xarray."""
-        return self._open_results()
-
-    @abstractmethod
-    def _open_results(self) -> Results:
-        """Return the way to the results."""
-
-    @property
-    def history(self) -> "xr.Dataset":
-        """All channels of a simulation over the samples, read from the store as they are used."""
-        tables.insist(self, "history", "history")
-        return self.open()
-
-    def open(self, group: str = "") -> "xr.Dataset":
-        """Open a group of the job's Zarr store, lazily; by default the root.
-
-        Groups of a simulation are ``poincare``, ``impacts`` and ``peaks``, of a study ``values``,
-        ``statistics``, ``indicators``, ``sections`` and ``peaks``.
-        """
-        if group in self._opened:
-            return self._opened[group]
-        final = self.is_finished
-        found = tables.open_group(self, self.results.store(), group)
-        if final:
-            self._opened[group] = found
-        return found
 
     def window(
         self,
@@ -75,29 +38,6 @@ class ReadableJob(JobRecord, ABC):
             Most pairs of smallest and largest values; see `Window`.
         """
         return self.results.window(_listed(channels), start, stop, points)
-
-    @property
-    def poincare(self) -> "pd.DataFrame":
-        """The Poincare sections: ``time`` and channels of each.
-
-        Of a study one row for each section of each point, with the values of the parameters.
-        """
-        return tables.sections(self, self.results)
-
-    @property
-    def peaks(self) -> "pd.DataFrame":
-        """Signed extremes with their times, one row a channel; of a sweep of each point."""
-        return tables.peaks(self, self.results)
-
-    @property
-    def impacts(self) -> "pd.DataFrame":
-        """Contacts of a simulation in order of release, one row each."""
-        return tables.impacts(self, self.results)
-
-    @property
-    def points(self) -> "pd.DataFrame":
-        """Values, status, verdict, indicators and statistics of a study, one row a point."""
-        return tables.points(self, self.results)
 
     @property
     def statistics(self) -> dict[str, Any]:
@@ -131,7 +71,7 @@ class ReadableJob(JobRecord, ABC):
         sections
             First section of each point, and the one before which to end; all if None.
         """
-        tables.insist_on_points(self)
+        self._insist_on_points()
         return self.results.study(_listed(observables), _listed(channels), sections)
 
     @property

@@ -3,13 +3,15 @@
 ``attrs["units"]`` of each table has the units of its columns.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from jointplay.client.errors import MissingExtra, NotFound, ResultsNotReady
-from jointplay.client.job_record import JobRecord
+from jointplay.client.job_record import JobRecord, read_job
 from jointplay.client.results import Results, Store
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
@@ -21,86 +23,146 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def insist(job: JobRecord, what: str, *results: str) -> None:
-    """Raise `NotFound` if jobs of this kind have none of these results."""
-    if not job.links.keys() & {*results}:
-        sentence = f"Job {job.id} is of kind {job.kind} and has no {what}."
-        raise NotFound(sentence, problem="wrong-kind")
+class TabledJob(JobRecord, ABC):
+    """A job's record with its results as pandas tables and xarray datasets."""
 
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        super().__init__(**read_job(document))
+        self._opened: dict[str, xr.Dataset] = {}
 
-def insist_on_points(job: JobRecord) -> None:
-    """Raise `NotFound` if jobs of this kind have no points with values."""
-    insist(job, "points", *(("sweep", "poincare") if job.is_study else ()))
+    @cached_property
+    def results(self) -> Results:
+        """The results as plain numbers, without pandas and xarray."""
+        return self._open_results()
 
+    @abstractmethod
+    def _open_results(self) -> Results:
+        """Return the way to the results."""
 
-def sections(job: JobRecord, results: Results) -> "pd.DataFrame":
-    """Return channels at the Poincare sections."""
-    insist(job, "sections", "poincare")
-    if not job.is_study:
-        found = results.sections(None)
-        units = {"time": "s"} | {name: one.unit for name, one in found.channels.items()}
-        table = {"time": found.time} | {name: found[name] for name in found.channels}
-        return _table(table, units).rename_axis("section")
-    study = results.study(None, None, None)
-    inside = np.arange(study.record) < study.counts[:, None]
-    point, section = np.nonzero(inside)
-    columns: dict[str, Any] = {"point": point, "section": section}
-    columns |= {name: column[point] for name, column in _values(study).items()}
-    columns["time"] = study.section_times()[inside]
-    columns |= {one.name: study.sections(one.name)[inside] for one in study.observables}
-    units = {one.name: one.unit for one in (*study.parameters, *study.observables)}
-    return _table(columns, units | {"time": "s"}, "point", "section")
+    @property
+    def history(self) -> "xr.Dataset":
+        """All channels of a simulation over the samples, read from the store as they are used."""
+        self._insist("history", "history")
+        return self.open()
 
+    def open(self, group: str = "") -> "xr.Dataset":
+        """Open a group of the job's Zarr store, lazily; by default the root.
 
-def peaks(job: JobRecord, results: Results) -> "pd.DataFrame":
-    """Return signed extremes with their times."""
-    insist(job, "extremes", "peaks", "sweep")
-    if not job.is_study:
-        found = results.peaks()
-        every = found.values()
-        table: dict[str, Any] = {"channel": list(found), "unit": [peak.unit for peak in every]}
-        table |= {name: np.array([getattr(peak, name) for peak in every]) for name in PEAK}
-        return _table(table, {}, "channel")
-    study = results.study(None, None, None)
-    names = [channel.name for channel in study.channels]
-    extremes = [study.peaks(name) for name in names]
-    columns: dict[str, Any] = {
-        "point": np.repeat(np.arange(study.points), len(names)),
-        "channel": names * study.points,
-    }
-    columns |= {name: np.repeat(column, len(names)) for name, column in _values(study).items()}
-    columns["unit"] = [channel.unit for channel in study.channels] * study.points
-    for name in PEAK:
-        columns[name] = np.column_stack([getattr(one, name) for one in extremes]).ravel()
-    units = {one.name: one.unit for one in study.parameters}
-    return _table(columns, units, "point", "channel")
+        Groups of a simulation are ``poincare``, ``impacts`` and ``peaks``, of a study ``values``,
+        ``statistics``, ``indicators``, ``sections`` and ``peaks``.
+        """
+        if group in self._opened:
+            return self._opened[group]
+        final = self.is_finished
+        found = self._open(self.results.store(), group)
+        if final:
+            self._opened[group] = found
+        return found
 
+    @property
+    def poincare(self) -> "pd.DataFrame":
+        """The Poincare sections: ``time`` and channels of each.
 
-def impacts(job: JobRecord, results: Results) -> "pd.DataFrame":
-    """Return the contacts of the clearance joints."""
-    insist(job, "impacts", "impacts")
-    found = results.impacts()
-    columns = {name: getattr(found, name) for name in ("joint", *IMPACT_UNITS)}
-    return _table(columns, IMPACT_UNITS).rename_axis("impact")
+        Of a study one row for each section of each point, with the values of the parameters.
+        """
+        self._insist("sections", "poincare")
+        if not self.is_study:
+            found = self.results.sections(None)
+            units = {"time": "s"} | {name: one.unit for name, one in found.channels.items()}
+            table = {"time": found.time} | {name: found[name] for name in found.channels}
+            return _table(table, units).rename_axis("section")
+        study = self.results.study(None, None, None)
+        inside = np.arange(study.record) < study.counts[:, None]
+        point, section = np.nonzero(inside)
+        columns: dict[str, Any] = {"point": point, "section": section}
+        columns |= {name: column[point] for name, column in _values(study).items()}
+        columns["time"] = study.section_times()[inside]
+        columns |= {one.name: study.sections(one.name)[inside] for one in study.observables}
+        units = {one.name: one.unit for one in (*study.parameters, *study.observables)}
+        return _table(columns, units | {"time": "s"}, "point", "section")
 
+    @property
+    def peaks(self) -> "pd.DataFrame":
+        """Signed extremes with their times, one row a channel; of a sweep of each point."""
+        self._insist("extremes", "peaks", "sweep")
+        if not self.is_study:
+            found = self.results.peaks()
+            every = found.values()
+            table: dict[str, Any] = {"channel": list(found), "unit": [peak.unit for peak in every]}
+            table |= {name: np.array([getattr(peak, name) for peak in every]) for name in PEAK}
+            return _table(table, {}, "channel")
+        study = self.results.study(None, None, None)
+        names = [channel.name for channel in study.channels]
+        extremes = [study.peaks(name) for name in names]
+        columns: dict[str, Any] = {
+            "point": np.repeat(np.arange(study.points), len(names)),
+            "channel": names * study.points,
+        }
+        columns |= {name: np.repeat(column, len(names)) for name, column in _values(study).items()}
+        columns["unit"] = [channel.unit for channel in study.channels] * study.points
+        for name in PEAK:
+            columns[name] = np.column_stack([getattr(one, name) for one in extremes]).ravel()
+        units = {one.name: one.unit for one in study.parameters}
+        return _table(columns, units, "point", "channel")
 
-def points(job: JobRecord, results: Results) -> "pd.DataFrame":
-    """Return what has one value a point."""
-    insist_on_points(job)
-    # one section of each: they are not in this table
-    study = results.study(None, None, None if "sweep" in job.links else (0, 1))
-    columns = _values(study)
-    columns["status"] = [PointStatus(code).name for code in study.status]
-    codes = {point: failure.code for point, failure in study.failures.items()}
-    columns["failure"] = [codes.get(point, "") for point in range(study.points)]
-    if study.verdicts is not None:
-        names = [*study.verdict_names, None]
-        columns["verdict"] = [names[code] for code in study.verdicts]
-    numbers = {**study.indicators, **study.statistics}
-    columns |= {name: one for name, one in numbers.items() if name != "verdict"}
-    units = {one.name: one.unit for one in study.parameters}
-    units |= {name: unit for name, (unit, _) in study.attributes.get("meanings", {}).items()}
-    return _table(columns, units).rename_axis("point")
+    @property
+    def impacts(self) -> "pd.DataFrame":
+        """Contacts of a simulation in order of release, one row each."""
+        self._insist("impacts", "impacts")
+        found = self.results.impacts()
+        columns = {name: getattr(found, name) for name in ("joint", *IMPACT_UNITS)}
+        return _table(columns, IMPACT_UNITS).rename_axis("impact")
+
+    @property
+    def points(self) -> "pd.DataFrame":
+        """Values, status, verdict, indicators and statistics of a study, one row a point."""
+        self._insist_on_points()
+        # one section of each: they are not in this table
+        study = self.results.study(None, None, None if "sweep" in self.links else (0, 1))
+        columns = _values(study)
+        columns["status"] = [PointStatus(code).name for code in study.status]
+        codes = {point: failure.code for point, failure in study.failures.items()}
+        columns["failure"] = [codes.get(point, "") for point in range(study.points)]
+        if study.verdicts is not None:
+            names = [*study.verdict_names, None]
+            columns["verdict"] = [names[code] for code in study.verdicts]
+        numbers = {**study.indicators, **study.statistics}
+        columns |= {name: one for name, one in numbers.items() if name != "verdict"}
+        units = {one.name: one.unit for one in study.parameters}
+        units |= {name: unit for name, (unit, _) in study.attributes.get("meanings", {}).items()}
+        return _table(columns, units).rename_axis("point")
+
+    def _insist(self, what: str, *results: str) -> None:
+        """Raise `NotFound` if jobs of this kind have none of these results."""
+        if not self.links.keys() & {*results}:
+            sentence = f"Job {self.id} is of kind {self.kind} and has no {what}."
+            raise NotFound(sentence, problem="wrong-kind")
+
+    def _insist_on_points(self) -> None:
+        self._insist("points", *(("sweep", "poincare") if self.is_study else ()))
+
+    def _open(self, store: Store, group: str) -> "xr.Dataset":
+        try:
+            import xarray as xr
+            from zarr.storage import ZipStore
+
+            local = store.options is None
+            found: xr.Dataset = xr.open_zarr(
+                ZipStore(store.address, mode="r") if local else store.address,
+                group=group or None,
+                chunks=None,  # lazy by itself, without dask
+                storage_options=store.options,
+            )
+        except ImportError as error:
+            raise _missing_extra("stored arrays", error) from error
+        except (FileNotFoundError, KeyError) as error:  # of a group: no such key in the metadata
+            if not self.is_finished:
+                sentence = f"Job {self.id} is {self.state} and has committed nothing yet."
+                raise ResultsNotReady(sentence) from error
+            what = f"no group {group!r}" if group else "no results"
+            sentence = f"Job {self.id} is {self.state} and has {what}."
+            raise NotFound(sentence) from error
+        return found
 
 
 def _values(study: StudySource) -> dict[str, Any]:
@@ -117,35 +179,6 @@ def _table(columns: Mapping[str, Any], units: Mapping[str, str], *index: str) ->
         table = table.set_index(list(index))
     table.attrs["units"] = dict(units)
     return table
-
-
-def open_group(job: JobRecord, store: Store, group: str) -> "xr.Dataset":
-    """Open a group of a job's store with xarray; values are read when they are used.
-
-    `MissingExtra` if xarray is not installed, or what it needs to read over HTTP; `NotFound` if
-    the job has no such group, or `ResultsNotReady` if it has committed nothing yet.
-    """
-    try:
-        import xarray as xr
-        from zarr.storage import ZipStore
-
-        local = store.options is None
-        found: xr.Dataset = xr.open_zarr(
-            ZipStore(store.address, mode="r") if local else store.address,
-            group=group or None,
-            chunks=None,  # lazy by itself, without dask
-            storage_options=store.options,
-        )
-    except ImportError as error:
-        raise _missing_extra("stored arrays", error) from error
-    except (FileNotFoundError, KeyError) as error:  # of a group: no such key in the metadata
-        if not job.is_finished:
-            sentence = f"Job {job.id} is {job.state} and has committed nothing yet."
-            raise ResultsNotReady(sentence) from error
-        what = f"no group {group!r}" if group else "no results"
-        sentence = f"Job {job.id} is {job.state} and has {what}."
-        raise NotFound(sentence) from error
-    return found
 
 
 def _missing_extra(what: str, error: ImportError) -> MissingExtra:

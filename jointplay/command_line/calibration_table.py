@@ -1,6 +1,7 @@
 """Findings of a calibration, as tables and sentences."""
 
 from collections.abc import Iterator
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.output import aligned
@@ -100,13 +101,12 @@ def _notes(document: dict[str, Any]) -> Iterator[str]:
 
 def _pairs(correlation: dict[str, Any]) -> Iterator[str]:
     names, matrix = correlation["parameters"], correlation["matrix"]
-    for i, first in enumerate(names):
-        for j in range(i):
-            if abs(matrix[i][j]) >= TOGETHER:
-                yield (
-                    f"{names[j]} and {first} make up for one another (correlation"
-                    f" {matrix[i][j]:.2f}): the targets fix one combination of them, not each"
-                )
+    for i, j in combinations(range(len(names)), 2):
+        if abs(matrix[j][i]) >= TOGETHER:
+            yield (
+                f"{names[i]} and {names[j]} make up for one another (correlation"
+                f" {matrix[j][i]:.2f}): the targets fix one combination of them, not each"
+            )
 
 
 def _number(value: float | None) -> str:

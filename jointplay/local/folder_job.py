@@ -104,15 +104,12 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
     from jointplay.storage.studies import StudyReader
 
     store = store_in(folder)
-    try:
-        return StudyReader(store)
-    except NotAStore:
-        pass
-    try:
-        return ResultReader(store)
-    except NotAStore as error:
-        sentence = f"{store} holds no results that this version reads: {error}."
-        raise NotFound(sentence) from error
+    for kind in (StudyReader, ResultReader):
+        try:
+            return kind(store)
+        except NotAStore as error:
+            why = error
+    raise NotFound(f"{store} holds no results that this version reads: {why}.") from why
 
 
 def _results_of(source: "ResultReader | StudyReader") -> list[str]:

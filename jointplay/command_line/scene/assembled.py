@@ -47,30 +47,24 @@ def assemble_scene(source: str, settings: Sequence[str]) -> AssembledScene:
         With everything that keeps the scene from being read. Pointers lead into the document
         that was given: into the scene's own if ``source`` is the file of a scene.
     """
-    from jointplay.records.failure import InvalidInput
+    from pydantic import ValidationError
+
+    from jointplay.records.failure import InvalidInput, Problem
     from jointplay.solver.kinds import admit
+    from jointplay.solver.kinds.mechanism import resolve
+    from jointplay.solver.kinds.simulate import SimulateJob
     from jointplay.solver.mechanics.assembly import assemble
 
     given = job_document(source, settings=settings, options={})
     job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
     job |= {"scene": given["scene"]} if "scene" in given else {}
     try:
-        admission = cast("Admission", admit(job))
+        found = cast("Admission", admit(job))
     except InvalidInput as error:
-        return _refused(job, error, is_scene=is_scene_file(source))
-    return AssembledScene(admission.scene_document(), assemble(admission.scene), admission, None)
-
-
-def _refused(job: dict[str, Any], refusal: "InvalidInput", *, is_scene: bool) -> AssembledScene:
-    """Put together what can be; raise the refusal if the document cannot even be read."""
-    from pydantic import ValidationError
-
-    from jointplay.records.failure import InvalidInput, Problem
-    from jointplay.solver.kinds.mechanism import resolve
-    from jointplay.solver.kinds.simulate import SimulateJob
-    from jointplay.solver.mechanics.assembly import assemble
-
-    if is_scene:
+        refusal = error
+    else:
+        return AssembledScene(found.scene_document(), assemble(found.scene), found, None)
+    if is_scene_file(source):
         refusal = InvalidInput(
             Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
         )
