@@ -30,9 +30,11 @@ from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage import durable
-from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyBlock, create
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.store import create
 from jointplay.worker.app import RUN_BLOCK, make_app
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.study_block import layout_of

@@ -24,8 +24,10 @@ from zarr.storage import ObjectStore
 from jointplay.records.impact import IMPACT
 from jointplay.service.app import create_app
 from jointplay.solver.kinds import admit
-from jointplay.storage.catalogue import BlockState, Catalogue
-from jointplay.storage.results import ResultLayout, ResultWriter
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
 
 REPEATS = 15

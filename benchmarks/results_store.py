@@ -21,7 +21,9 @@ from jointplay.records.peak import Peak
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 CHANNELS = 95
 REPEATS = 7

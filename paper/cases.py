@@ -11,8 +11,8 @@ import numpy as np
 from jointplay.paper import reported
 from jointplay.paper.variants import Size, Variant
 from jointplay.solver.scene import presets
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 
 DURATION: Final = 2.0
 """Duration of responses, s: one revolution at the slowest speed that was published."""

@@ -11,8 +11,8 @@ from jointplay.figures import marks, page, sampling
 from jointplay.figures.kind import Selection
 from jointplay.figures.orbit import draw_clearance, frame
 from jointplay.paper.cases import JOINTS
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 
 COLOURS: Final = (page.GREEN, page.BLUE, page.VERMILION)
 """Of the runs that are compared."""

@@ -13,7 +13,7 @@ from jointplay.paper.comparison import Cell, Row, signed, small
 from jointplay.paper.variants import Variant
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT, Estimate
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 
 Members = Flags | slice
 EVERY = slice(None)

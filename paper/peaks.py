@@ -10,7 +10,7 @@ from jointplay.paper import cases, reported
 from jointplay.paper.cases import Stores
 from jointplay.paper.comparison import Cell, Row, milliseconds, signed
 from jointplay.paper.variants import Variant
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 
 _CHANNELS: Final = {
     "displacement_mm": ("displacement", "displacement, mm"),

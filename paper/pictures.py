@@ -12,7 +12,7 @@ from jointplay.paper.cases import Stores
 from jointplay.paper.drawings import COLOURS, Compared
 from jointplay.paper.variants import CONSTANT, Size, Variant
 from jointplay.solver.runs.processes import Advance, Call
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 
 _OF_SWEEPS: Final[tuple[tuple[str, str, Callable[..., bytes]], ...]] = (
     (

@@ -18,7 +18,7 @@ from jointplay.service.idempotency import InFlight
 from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.openapi import described
 from jointplay.service.prober import Prober
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
 _DESCRIPTION = """

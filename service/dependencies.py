@@ -9,7 +9,9 @@ from fastapi.exceptions import RequestValidationError
 from jointplay.records.job import is_job_id
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.problems.document import clipped
-from jointplay.storage.catalogue import Catalogue, Job, JobNotFound
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import JobNotFound
+from jointplay.storage.catalogue.records import Job
 from jointplay.storage.settings import Settings
 
 # dependencies that wait for nothing are coroutines: others cost a change of thread each

@@ -13,7 +13,8 @@ from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.service.jobs.waiting import WatcherDependency
 from jointplay.service.jobs.watcher import Watcher
 from jointplay.service.problems import kinds, problems
-from jointplay.storage.catalogue import Catalogue, Event, Job, JobState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Event, Job, JobState
 
 _PAGE = 1000
 _QUIET = 15.0

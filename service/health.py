@@ -10,7 +10,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds, problems
-from jointplay.storage.catalogue import Unavailable
+from jointplay.storage.catalogue.errors import Unavailable
 
 router = APIRouter(tags=["health"])
 _log = logging.getLogger(__name__)

@@ -10,7 +10,7 @@ from typing import Annotated
 from fastapi import Depends, Header, Request
 
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.storage.catalogue import SubmissionKey
+from jointplay.storage.catalogue.records import SubmissionKey
 
 _HEADER = "Idempotency-Key"
 

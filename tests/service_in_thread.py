@@ -21,11 +21,14 @@ from jointplay.records.point import PointEnd, SectionRows, StudySlice
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.kinds import Admission, Study, admit
-from jointplay.storage.catalogue import BlockState, Catalogue, Claim
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import ResultLayout, ResultWriter
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyBlock, create, seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.store import create, seal
 from jointplay.worker.study_block import layout_of
 
 LEDGER = (

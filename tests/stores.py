@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from jointplay.storage.catalogue import Job
+from jointplay.storage.catalogue.records import Job
 from jointplay.storage.packed import Packed, files_at
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 
 

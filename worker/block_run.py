@@ -10,8 +10,10 @@ from typing import Any, TypeVar
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.job import ErrorClass, JobError
-from jointplay.storage.catalogue import BlockState, Catalogue, Claim, Fenced, Unavailable, Verdict
-from jointplay.storage.results import ResultsError
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import BlockState, Claim, Verdict
+from jointplay.storage.errors import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.lease import Lease

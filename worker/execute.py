@@ -16,8 +16,10 @@ from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import CheckpointMismatch, CorruptStore, ResultLayout, ResultWriter
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.certificates import record_of
 
 _log = logging.getLogger(__name__)

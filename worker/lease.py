@@ -7,7 +7,9 @@ import threading
 import time
 from typing import Self
 
-from jointplay.storage.catalogue import Catalogue, Claim, Fenced, Unavailable, Verdict
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import Claim, Verdict
 from jointplay.storage.settings import Settings
 
 _log = logging.getLogger(__name__)

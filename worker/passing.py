@@ -6,7 +6,7 @@ They never end a job: its block is given back, and tried again from its last res
 import errno
 from typing import Final
 
-from jointplay.storage.catalogue import Unavailable
+from jointplay.storage.catalogue.errors import Unavailable
 
 PASSING: Final = (OSError, Unavailable)
 _FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})

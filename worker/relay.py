@@ -14,7 +14,8 @@ import time
 from kombu.exceptions import OperationalError
 from redis.exceptions import RedisError
 
-from jointplay.storage.catalogue import Catalogue, Unavailable
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, QUEUES, RUN_BLOCK, make_app
 from jointplay.worker.removal import remove_expired

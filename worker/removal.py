@@ -3,7 +3,9 @@
 import logging
 import shutil
 
-from jointplay.storage.catalogue import Catalogue, CatalogueError, Claim, Unavailable
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
+from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.settings import Settings
 from jointplay.worker.passing import PASSING
 

@@ -18,9 +18,11 @@ from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.errors import ResultsError
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import ResultsError
-from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.store import create, seal
 from jointplay.worker.execute import Answer, Outcome, Progress
 
 _log = logging.getLogger(__name__)

@@ -11,7 +11,8 @@ from typing import Any
 from billiard.process import active_children
 from celery.signals import worker_init, worker_process_init, worker_shutting_down
 
-from jointplay.storage.catalogue import Catalogue, Unavailable
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.block_run import (

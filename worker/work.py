@@ -9,12 +9,14 @@ from typing import Any, Protocol
 from jointplay.records.checkpoint import UnusableCheckpoint
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import Claim
+from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.errors import NotAStore
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import NotAStore, ResultReader
+from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyLayout, seal
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.store import seal
 from jointplay.worker import checkpoints
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
 from jointplay.worker.study_block import layout_of, run_block

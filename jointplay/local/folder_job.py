@@ -13,8 +13,8 @@ from jointplay.worker.local.folder import OUTCOME_FILE, RUNNING, STORE
 
 if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
-    from jointplay.storage.results import ResultReader
-    from jointplay.storage.studies import StudyReader
+    from jointplay.storage.results.reader import ResultReader
+    from jointplay.storage.studies.reader import StudyReader
 
 
 class FolderJob(Job):
@@ -100,8 +100,9 @@ def store_in(folder: Path) -> Path:
 
 def results_in(folder: Path) -> "ResultReader | StudyReader":
     """Return the results in a run's folder: of a simulation, or of a study; or `NotFound`."""
-    from jointplay.storage.results import NotAStore, ResultReader
-    from jointplay.storage.studies import StudyReader
+    from jointplay.storage.errors import NotAStore
+    from jointplay.storage.results.reader import ResultReader
+    from jointplay.storage.studies.reader import StudyReader
 
     store = store_in(folder)
     for kind in (StudyReader, ResultReader):
@@ -114,7 +115,7 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
 
 def _results_of(source: "ResultReader | StudyReader") -> list[str]:
     """Return the names of the results that a store holds, as a service has them."""
-    from jointplay.storage.studies import StudyReader
+    from jointplay.storage.studies.reader import StudyReader
 
     if not isinstance(source, StudyReader):
         return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]

@@ -16,8 +16,8 @@ from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.run import Floats
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 
 
 class FolderResults:

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.records.strict_json import escaped
 from jointplay.service.jobs.submission import checked
-from jointplay.storage.catalogue import NewJob
+from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 
 MOST_JOBS = 10_000

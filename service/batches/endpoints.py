@@ -19,7 +19,8 @@ from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, header, kinds, problems
 from jointplay.service.problems.document import clipped
-from jointplay.storage.catalogue import Batch, BatchNotFound, JobState
+from jointplay.storage.catalogue.errors import BatchNotFound
+from jointplay.storage.catalogue.records import Batch, JobState
 from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/batches", tags=["batches"])

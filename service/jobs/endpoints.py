@@ -18,7 +18,8 @@ from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, a
 from jointplay.service.jobs.submission import REQUEST_BODY, submit
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
-from jointplay.storage.catalogue import Catalogue, Submitted
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Submitted
 from jointplay.storage.settings import Settings
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])

@@ -9,7 +9,7 @@ from pydantic import AwareDatetime, BaseModel, BeforeValidator, ConfigDict, Fiel
 from jointplay.records.job import is_job_id
 from jointplay.service.problems import RequestRefused
 from jointplay.solver.kinds import KINDS
-from jointplay.storage.catalogue import JobState
+from jointplay.storage.catalogue.records import JobState
 
 
 def _written(moment: object) -> object:

@@ -7,8 +7,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from jointplay.records.job import ErrorClass
 from jointplay.solver.kinds import KINDS
-from jointplay.storage.catalogue import Job, JobState
-from jointplay.storage.catalogue import JobPage as Page
+from jointplay.storage.catalogue.records import Job, JobState
+from jointplay.storage.catalogue.records import JobPage as Page
 
 SECONDS: dict[str, Any] = {"unit": "s"}
 

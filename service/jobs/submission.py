@@ -7,7 +7,8 @@ from typing import Any
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import Catalogue, NewJob, SubmissionKey, Submitted
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob, SubmissionKey, Submitted
 from jointplay.storage.settings import Settings
 from jointplay.worker.wake_up import wake_relay
 

@@ -9,7 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.service.dependencies import CatalogueDependency
 from jointplay.service.jobs.watcher import Watcher
-from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Job
 
 LONGEST_WAIT = 60  # s; a client that wants to wait longer asks again
 _PREFERRED = re.compile(r"""(?:^|[,;])\s*wait\s*=\s*"?(\d{1,9})"?\s*(?=[,;]|$)""", re.IGNORECASE)

@@ -8,7 +8,9 @@ from contextlib import contextmanager
 
 from fastapi.concurrency import run_in_threadpool
 
-from jointplay.storage.catalogue import Catalogue, JobStatus, Unavailable
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import JobStatus
 
 _PERIOD = 0.01
 """Seconds between two looks when a wait begins; growing to ..."""

@@ -19,7 +19,7 @@ from jointplay.service.problems.document import (
     RequestRefused,
     clipped,
 )
-from jointplay.storage.catalogue import JobNotFinished, KeyReused, Unavailable
+from jointplay.storage.catalogue.errors import JobNotFinished, KeyReused, Unavailable
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail

@@ -25,7 +25,7 @@ from jointplay.service.results.queries import (
 )
 from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}",

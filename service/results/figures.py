@@ -14,8 +14,8 @@ from jointplay.service.problems.document import clipped
 from jointplay.service.results.queries import TimeOrPoints, unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 
 router = APIRouter(
     prefix="/v1/jobs/{job_id}/figures",

@@ -12,12 +12,14 @@ from fastapi import Depends, Request
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.solver.kinds import KINDS
-from jointplay.storage.catalogue import Catalogue, Job
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Job
+from jointplay.storage.errors import NotAStore
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import NotAStore, ResultReader
+from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 
 _OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
 _OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study

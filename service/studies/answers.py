@@ -15,7 +15,7 @@ from jointplay.service.results.schemas import Series
 from jointplay.service.studies import schemas
 from jointplay.service.studies.queries import BifurcationQuery, SectionRange, SweepQuery, page
 from jointplay.solver.runs.study.outputs import OUTPUTS
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 
 Floats = NDArray[np.float64]
 UNKNOWN = ("1", "")

@@ -5,7 +5,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from jointplay.records.channel import Channel, by_name
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.results.queries import MOST_VALUES, TimeOrPoints, chosen_channels
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 
 
 class PointRange(BaseModel):

@@ -12,8 +12,8 @@ from typing import Final, Self
 from jointplay.records.channel import Channel
 from jointplay.service.results.stores import ResultsOfJob, packed
 from jointplay.solver.runs.study.outputs import OUTPUTS
+from jointplay.storage.errors import NotAStore
 from jointplay.storage.packed import Files
-from jointplay.storage.results import NotAStore
 from jointplay.storage.results.live import LiveStore, loosened
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.settings import Settings

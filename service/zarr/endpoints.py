@@ -12,7 +12,7 @@ from jointplay.service.problems.document import clipped
 from jointplay.service.results.stores import ResultsOfThePath
 from jointplay.service.zarr import ranges
 from jointplay.service.zarr.contents import Content, content_of, former_content, is_key
-from jointplay.storage.catalogue import Job
+from jointplay.storage.catalogue.records import Job
 
 router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
 

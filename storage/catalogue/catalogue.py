@@ -11,15 +11,7 @@ from typing import Concatenate, ParamSpec, TypeVar
 
 from sqlalchemy import Connection, text
 
-from jointplay.storage.catalogue import (
-    batches,
-    holding,
-    listing,
-    rows,
-    schema,
-    submission,
-    upkeep,
-)
+from jointplay.storage.catalogue import batches, holding, listing, rows, schema, submission, upkeep
 from jointplay.storage.catalogue.connections import Connections, Unit
 from jointplay.storage.catalogue.errors import KeyReused, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit

@@ -8,7 +8,8 @@ import pytest
 
 from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, service_job
 from jointplay.service.app import create_app
-from jointplay.storage.catalogue import BlockState, Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 

@@ -19,7 +19,7 @@ from jointplay.client import (
     Unreachable,
 )
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 

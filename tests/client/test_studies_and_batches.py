@@ -6,7 +6,7 @@ import pytest
 from jointplay import figures
 from jointplay.client import Client, NotFound, Refused, ResultsNotReady
 from jointplay.records.point import PointStatus
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

@@ -8,7 +8,7 @@ import pytest
 
 from jointplay.client import Client, NotFound, Refused
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
 

@@ -14,7 +14,7 @@ import pytest
 
 from jointplay.command_line.application import run
 from jointplay.command_line.exits import Exit
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 from tests.waiting import until
 
 PRESS = ["run", "seven-bar-press", "--duration", "0.05", "--output-step", "1e-3"]

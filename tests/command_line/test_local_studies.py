@@ -13,7 +13,7 @@ import zarr
 from zarr.storage import ZipStore
 
 from jointplay.command_line.application import run
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker.local.folder import RUNNING, STORE
 
 CRANK = ["run", "slider-crank"]

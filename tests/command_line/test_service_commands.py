@@ -9,7 +9,7 @@ import pytest
 
 from jointplay.client import connection
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 
 
 @pytest.fixture

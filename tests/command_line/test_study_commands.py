@@ -7,7 +7,7 @@ import json
 import pytest
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}

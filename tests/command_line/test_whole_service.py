@@ -13,8 +13,8 @@ from jointplay import load
 from jointplay.client import Client, JobCancelled
 from jointplay.records.point import PointStatus
 from jointplay.service.processes import running_service
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 
 PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
 

@@ -16,7 +16,9 @@ from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.impact import IMPACT
 from jointplay.records.run import Dataset
-from jointplay.storage.results import ResultLayout, ResultReader, ResultWriter
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 from tests.stores import target
 
 CHANNELS = (Channel("slider7.x", "m", "position"), Channel("A.normal_force", "N", "normal force"))

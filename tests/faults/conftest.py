@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
 

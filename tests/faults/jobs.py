@@ -2,7 +2,8 @@
 
 from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import Block, Catalogue, Job, NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Block, Job, NewJob
 from tests.waiting import until
 
 IMPATIENT = {

@@ -10,7 +10,8 @@ from redis import Redis
 from jointplay.service.processes import running_service
 from jointplay.service.processes.broker import answers
 from jointplay.solver.kinds import admit
-from jointplay.storage.catalogue import Catalogue, JobState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import JobState
 from jointplay.storage.settings import Settings
 from tests.waiting import until
 

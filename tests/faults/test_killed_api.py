@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 import httpx
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from tests.waiting import until
 

@@ -12,10 +12,11 @@ from jobs import IMPATIENT, ended, pid_of, standing
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import Block, BlockState, Catalogue, Job, JobState, NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, NewJob
 from jointplay.storage.packed import Packed
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker.study_block import run_block, seal_store
 from tests.stores import files_of, packed, target
 from tests.waiting import until

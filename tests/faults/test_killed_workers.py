@@ -9,9 +9,10 @@ from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
-from jointplay.storage.catalogue import Catalogue, Job, JobState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.places import StoredObject
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
 from tests.stores import files_of, packed, sealed_run, target

@@ -15,8 +15,8 @@ import pytest
 from jointplay.paper import cases, peaks, reported
 from jointplay.paper.reproduction import PAGE, RUNS
 from jointplay.paper.variants import QUICK
-from jointplay.storage.results import ResultReader
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.studies.reader import StudyReader
 from tests.paper.printed_numbers import pointers as printed_numbers
 
 REPRODUCE = [sys.executable, "-m", "jointplay", "reproduce"]

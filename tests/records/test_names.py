@@ -14,7 +14,9 @@ from jointplay.records.names import GROUPS, RESERVED_OUTPUTS, STORED
 from jointplay.records.run import CertificateRecord, LabelledArray
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.scene import presets
-from jointplay.storage.results import Partition, ResultWriter, pyramid
+from jointplay.storage.results import pyramid
+from jointplay.storage.results.layout import Partition
+from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.execute import layout_of
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 from tests.stores import target

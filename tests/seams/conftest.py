@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from jointplay.client import Client, Job
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
 from tests.service_in_thread import catalogue, http, service_url, settings

@@ -11,7 +11,7 @@ import xarray
 
 from jointplay.client import Client
 from jointplay.service.app import create_app
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.places import PLACES, Place
 from jointplay.storage.settings import Settings
 from tests.seams.conftest import Platform

@@ -8,7 +8,7 @@ import pytest
 from jointplay.records.job import JobError
 from jointplay.service.batches.admission import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 from tests.service_in_thread import BIFURCATION
 
 PENDULUM: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}

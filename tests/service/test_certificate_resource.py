@@ -8,7 +8,7 @@ import pytest
 
 from jointplay.local import load
 from jointplay.solver.kinds import Admission, admit
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
 from tests.service_in_thread import Worker

@@ -11,8 +11,9 @@ import zarr
 from jointplay.records.impact import IMPACT
 from jointplay.records.job import JobError
 from jointplay.solver.kinds import Admission, admit
-from jointplay.storage.catalogue import BlockState, Claim
-from jointplay.storage.results import Partition, ResultLayout, ResultWriter
+from jointplay.storage.catalogue.records import BlockState, Claim
+from jointplay.storage.results.layout import Partition, ResultLayout
+from jointplay.storage.results.writer import ResultWriter
 from tests.service_in_thread import BIFURCATION, SWEEP, known_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")

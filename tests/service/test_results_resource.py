@@ -7,7 +7,7 @@ import pytest
 
 from jointplay.records.job import JobError
 from jointplay.service.results import schemas
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 
 RESULTS = ["history", "peaks", "poincare", "impacts", "statistics", "figures", "figures/orbit.png"]
 

@@ -9,7 +9,7 @@ import zarr
 
 from jointplay.records.job import JobError
 from jointplay.service.studies import schemas
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
 
 OBSERVED = "A.eccentricity_x"

@@ -8,7 +8,7 @@ import httpx
 import pytest
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState
+from jointplay.storage.catalogue.records import BlockState
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 SOON = 1.0  # s in which an answer comes on a busy machine that looks every 25 to 100 ms

@@ -10,7 +10,7 @@ from scipy.io import loadmat
 
 from jointplay.service.results import schemas
 from jointplay.storage.packed import Packed
-from jointplay.storage.results import ResultReader
+from jointplay.storage.results.reader import ResultReader
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ import pytest
 from redis import Redis
 
 from jointplay.service.processes.broker import Broker
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
 

@@ -10,7 +10,7 @@ import zarr
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.packed.zarr_store import FilesStore
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker.execute import Answer, Progress
 from jointplay.worker.study_block import run_block, seal_store
 from tests.stores import packed, target

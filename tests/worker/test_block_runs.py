@@ -8,10 +8,11 @@ import pytest
 
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import Block, BlockState, Catalogue, JobState, NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob
 from jointplay.storage.packed import Packed
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker import block_run, work
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.execute import Answer

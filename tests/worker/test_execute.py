@@ -4,7 +4,8 @@ from pathlib import Path
 import pytest
 
 from jointplay.solver.kinds import Admission, admit
-from jointplay.storage.results import ResultReader, StoreExists
+from jointplay.storage.errors import StoreExists
+from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
 from tests.stores import files_of, target
 

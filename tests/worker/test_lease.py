@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from jointplay.storage.catalogue import Catalogue, Fenced, NewJob, Verdict
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced
+from jointplay.storage.catalogue.records import NewJob, Verdict
 from jointplay.storage.settings import Settings
 from jointplay.worker.lease import Lease
 from tests.waiting import until

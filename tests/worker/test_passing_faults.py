@@ -12,7 +12,9 @@ import pytest
 
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue import BlockState, Catalogue, JobState, NewJob, connections
+from jointplay.storage.catalogue import connections
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker import block_run
 from jointplay.worker.block_run import BlockRun

@@ -8,7 +8,8 @@ import pytest
 from redis import Redis
 
 from jointplay.service.processes.broker import Broker
-from jointplay.storage.catalogue import Catalogue, NewJob
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker.relay import Relay
 from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher

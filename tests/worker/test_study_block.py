@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kinds import Study, admit
-from jointplay.storage.errors import IncompleteStudy
-from jointplay.storage.results import StoreExists
-from jointplay.storage.studies import StudyReader
+from jointplay.storage.errors import IncompleteStudy, StoreExists
+from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.study_block import (
     create_store,

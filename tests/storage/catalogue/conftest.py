@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from stepped_clock import Clock
 
-from jointplay.storage.catalogue import Catalogue
+from jointplay.storage.catalogue.catalogue import Catalogue
 
 
 @pytest.fixture

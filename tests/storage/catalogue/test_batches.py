@@ -6,15 +6,9 @@ from sqlalchemy.exc import IntegrityError
 from stepped_clock import Clock
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import (
-    BatchNotFound,
-    BlockState,
-    Catalogue,
-    JobState,
-    KeyReused,
-    NewJob,
-    SubmissionKey,
-)
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import BatchNotFound, KeyReused
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 STUDY = replace(NEW, kind="sweep", blocks=((0, 8), (8, 8)), seal=True)

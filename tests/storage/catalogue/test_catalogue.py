@@ -11,17 +11,10 @@ import pytest
 from stepped_clock import Clock
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import (
-    BlockState,
-    Catalogue,
-    Fenced,
-    JobNotFound,
-    JobState,
-    KeyReused,
-    NewJob,
-    SubmissionKey,
-)
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced, JobNotFound, KeyReused
 from jointplay.storage.catalogue.identifiers import Identifiers
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

@@ -22,17 +22,16 @@ from hypothesis.stateful import (
 )
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import (
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced, KeyReused
+from jointplay.storage.catalogue.records import (
+    LEGAL_STEPS,
     BlockState,
-    Catalogue,
-    Fenced,
     JobState,
-    KeyReused,
     NewJob,
     SubmissionKey,
     Verdict,
 )
-from jointplay.storage.catalogue.records import LEGAL_STEPS
 
 LEASE = 30.0
 MAX_ATTEMPTS = 3

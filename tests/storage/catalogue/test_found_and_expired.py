@@ -6,7 +6,9 @@ import pytest
 from stepped_clock import Clock
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import BlockState, Catalogue, JobNotFinished, NewJob, SubmissionKey
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import JobNotFinished
+from jointplay.storage.catalogue.records import BlockState, NewJob, SubmissionKey
 
 NEW = NewJob("simulate", {"duration": 2.0, "scene": {"preset": "press"}}, "d" * 64, "0.1.0+abc")
 

@@ -8,7 +8,8 @@ from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from alembic.util import CommandError
 
-from jointplay.storage.catalogue import Catalogue, schema, tables
+from jointplay.storage.catalogue import schema, tables
+from jointplay.storage.catalogue.catalogue import Catalogue
 
 
 def migrate(url: str) -> None:

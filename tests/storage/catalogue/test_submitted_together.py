@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 from sqlalchemy import Engine, event
 
-from jointplay.storage.catalogue import Catalogue, KeyReused, NewJob, SubmissionKey, Submitted
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.records import NewJob, SubmissionKey, Submitted
 
 NEW = NewJob("simulate", {"duration": 2.0}, "d" * 64, "0.1.0+abc")
 MANY = 20

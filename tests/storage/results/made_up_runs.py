@@ -9,7 +9,8 @@ import numpy as np
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
-from jointplay.storage.results import Partition, ResultLayout, ResultWriter
+from jointplay.storage.results.layout import Partition, ResultLayout
+from jointplay.storage.results.writer import ResultWriter
 from tests.stores import packed, target
 
 # many small stores: there fsync costs nothing, and it is their bytes that count

@@ -8,11 +8,9 @@ from zarr.storage import ZipStore
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.run import CertificateRecord, LabelledArray
-from jointplay.storage.results import (
-    InvalidAppend,
-    ResultReader,
-    ResultWriter,
-)
+from jointplay.storage.errors import InvalidAppend
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 TABLE = np.array([[1.0, np.nan], [np.inf, -0.0], [3.0, 4.0]])
 CERTIFICATE = CertificateRecord(

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from jointplay.storage.packed import Running
-from jointplay.storage.results import ResultReader, ResultWriter
 from jointplay.storage.results.live import LiveStore
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 from tests.storage.results.made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
 

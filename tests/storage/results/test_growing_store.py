@@ -14,16 +14,11 @@ from zarr.storage import ZipStore
 
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
+from jointplay.storage.errors import InvalidAppend, InvalidLayout, StoreExists, StoreSealed
 from jointplay.storage.packed import Running
-from jointplay.storage.results import (
-    InvalidAppend,
-    InvalidLayout,
-    ResultLayout,
-    ResultReader,
-    ResultWriter,
-    StoreExists,
-    StoreSealed,
-)
+from jointplay.storage.results.layout import ResultLayout
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 
 @pytest.fixture

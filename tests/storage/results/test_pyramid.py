@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from zarr.storage import ZipStore
 
-from jointplay.storage.results import Partition, ResultReader, ResultWriter
+from jointplay.storage.results.layout import Partition
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 from tests.storage.results.made_up_runs import (
     MEMORY,
     MadeUpRun,

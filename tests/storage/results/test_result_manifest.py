@@ -6,8 +6,10 @@ from zipfile import ZipFile
 import pytest
 from made_up_runs import MadeUpRun, made_up_impacts, made_up_layout
 
+from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Packed, files_at, pack
-from jointplay.storage.results import CorruptStore, NotAStore, ResultReader, ResultWriter
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 
 @pytest.fixture

@@ -20,16 +20,12 @@ from made_up_runs import (
     target,
 )
 
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore, StoreExists
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.storage.results import (
-    CheckpointMismatch,
-    CorruptStore,
-    Partition,
-    ResultReader,
-    ResultWriter,
-    StoreExists,
-)
+from jointplay.storage.results.layout import Partition
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 # where a part of the run ends, and what happens there: nothing, a checkpoint, or a checkpoint and
 # later a kill that loses what was appended since

@@ -23,8 +23,10 @@ from made_up_runs import (
 )
 from zarr.storage import ZipStore
 
+from jointplay.storage.errors import NotAStore, UnknownChannel
 from jointplay.storage.packed import pack
-from jointplay.storage.results import NotAStore, ResultReader, ResultWriter, UnknownChannel
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.results.writer import ResultWriter
 
 json_documents = st.dictionaries(
     st.text(max_size=10),

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numcodecs import blosc
 
-from jointplay.storage.results import Partition, shards
+from jointplay.storage.results import shards
+from jointplay.storage.results.layout import Partition
 
 LONG = 32 * 16_384  # a whole shard of the default partition
 

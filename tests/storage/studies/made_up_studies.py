@@ -4,7 +4,9 @@ import numpy as np
 
 from jointplay.records.channel import Channel
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
-from jointplay.storage.studies import StudyBlock, StudyLayout, create, seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.layout import StudyLayout
+from jointplay.storage.studies.store import create, seal
 from tests.stores import packed, target
 
 

@@ -14,7 +14,9 @@ from made_up_studies import MadeUpStudy, made_up_layout, packed, target
 from jointplay.records.point import StudySlice
 from jointplay.storage.errors import IncompleteStudy
 from jointplay.storage.packed import Running
-from jointplay.storage.studies import StudyBlock, StudyReader, create, seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.reader import StudyReader
+from jointplay.storage.studies.store import create, seal
 
 SHAPES = {
     "a chunk a block": made_up_layout(),
