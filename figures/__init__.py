@@ -135,10 +135,8 @@ def draw(
 
     Raises
     ------
-    UnknownFigure
-        There is no such figure or channel.
-    NotDrawable
-        The source or the selection lacks what the figure needs.
+    UnknownFigure, NotDrawable
+        As for `required`.
     """
     kind, selection = _find(source, name, selection)
     kind.channels(source, selection)

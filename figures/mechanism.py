@@ -63,16 +63,13 @@ def _draw(shape: Geometry) -> page.Figure:
     draw_rails(axes, shape, metres.factor)
     draw_bodies(axes, shape, metres.factor)
     draw_joints(axes, shape, metres.factor)
-    draw_labels(axes, shape, metres.factor, _points(frame) / width)
+    points = frame * 72.0 / 25.4  # of a printer
+    draw_labels(axes, shape, metres.factor, points / width)
     draw_gravity(axes, shape)
     axes.set_xlabel(metres.label("x"))
     axes.set_ylabel(metres.label("y"))
     page.legend(figure, axes)
     return figure
-
-
-def _points(millimetres: float) -> float:
-    return millimetres * 72.0 / 25.4
 
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts, smooth
+from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
@@ -22,7 +22,7 @@ def _names(joint: str) -> tuple[str, str]:
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
     joints = scene_facts.chosen_joints(source, selection)
-    rates = [rate for joint in joints for rate in smooth.stored_rates(source, _names(joint))]
+    rates = [rate for joint in joints for rate in sampling.stored_rates(source, _names(joint))]
     names = [name for joint in joints for name in _names(joint)]
     return scene_facts.stored(source, [*rates, *names])
 
@@ -34,7 +34,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     )
     metres = scale("m", np.array(list(joints.values())))
     for axes, (joint, clearance) in zip(panels, joints.items(), strict=True):
-        time, path = smooth.path(source, joint, _names(joint), selection)
+        time, path = sampling.path(source, joint, _names(joint), selection)
         x, y = (path[name] / metres.factor for name in _names(joint))
         beginning = sampling.beginning(source, time, selection)
         _orbit(axes, x, y, clearance / metres.factor, beginning)

@@ -94,18 +94,9 @@ def panels(
     share_y: bool | Literal["row"] = False,
     row_heights: Sequence[float] | None = None,
 ) -> tuple[Figure, Panels]:
-    """Make a figure of column width.
+    """Make a figure of column width and this height [mm].
 
-    Parameters
-    ----------
-    rows, columns
-        Panels.
-    height
-        Of the figure [mm].
-    share_x, share_y
-        As matplotlib's `sharex` and `sharey`.
-    row_heights
-        Of the rows, relative to each other; by default all the same.
+    `share_x` and `share_y` are matplotlib's; `row_heights` are relative, by default all the same.
     """
     from matplotlib.figure import Figure as NewFigure
 

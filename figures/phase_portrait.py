@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from jointplay.figures import page, sampling, scene_facts, smooth
+from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
@@ -59,7 +59,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
 
 def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selection) -> None:
     if panel.joint:
-        time, path = smooth.path(source, panel.joint, panel.names, selection)
+        time, path = sampling.path(source, panel.joint, panel.names, selection)
     else:
         time, path = sampling.in_a_plane(source, panel.names, selection)
     points = _sections(source, panel.names, selection)

@@ -1,4 +1,4 @@
-"""Values for the screen: as many as a figure can show, whatever the length of the history."""
+"""Values for the screen: as many as a figure can show, smooth between samples where they may be."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from jointplay.figures.kind import NotDrawable, Selection
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.run import Columns, Source
 
 MOST_SAMPLES: Final = 4000
@@ -14,6 +14,10 @@ MOST_SAMPLES: Final = 4000
 MOST_PATH_SAMPLES: Final = 50_000
 """Above, a curve in a plane shows its end only; it has no order that extremes would keep."""
 NO_SAMPLES: Final = "There are no samples in this window of time; widen it."
+_MOST_ARCS: Final = 12
+"""Pieces of an arc: no corner is seen between them."""
+_WIDEST: Final = 0.5
+"""An arc that leaves its chord by more of its length is no motion that the samples resolve."""
 
 
 def window(source: Source, selection: Selection) -> tuple[int, int]:
@@ -72,3 +76,88 @@ def _extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
     ]
     order = np.unique(chosen)
     return time[order], values[order]
+
+
+def stored_rates(source: Source, positions: tuple[str, ...]) -> tuple[str, ...]:
+    """Name the rates of positions if all of them were stored, else nothing."""
+    known = {channel.name for channel in source.channels}
+    rates = tuple(_rate_of(name) for name in positions)
+    return rates if known.issuperset(rates) else ()
+
+
+def path(source: Source, joint: str, names: tuple[str, ...], selection: Selection) -> Columns:
+    """Give times [s] and values of a joint's eccentricities, dense enough to look smooth.
+
+    Between two samples a position follows the cubic of both positions and rates (Hermite), which
+    is exact in free flight under constant acceleration, and a rate its derivative. Where a contact
+    begins or ends in between, or the arc would be wild, the samples are joined straight.
+
+    Parameters
+    ----------
+    joint
+        Its contacts are looked at.
+    names
+        Of channels; those of positions need their rates among the stored ones.
+    """
+    positions = tuple(name for name in names if ".eccentricity_rate_" not in name)
+    rates = stored_rates(source, positions)
+    time, values = in_a_plane(source, tuple(dict.fromkeys((*names, *rates))), selection)
+    pieces = min(MOST_PATH_SAMPLES // max(len(time), 1), _MOST_ARCS)
+    if not rates or pieces < 2 or len(time) < 2:
+        return time, {name: values[name] for name in names}
+    smooth = _quiet(source, joint, time)
+    for position, rate in zip(positions, rates, strict=True):
+        smooth &= _tame(time, values[position], values[rate])
+    fraction = np.arange(pieces) / pieces
+    dense: dict[str, Floats] = {}
+    for position, rate in zip(positions, rates, strict=True):
+        arcs, slopes = _hermite(time, values[position], values[rate], fraction)
+        dense[position] = _joined(arcs, values[position], smooth, fraction)
+        dense[rate] = _joined(slopes, values[rate], smooth, fraction)
+    moments = time[:-1, None] + np.diff(time)[:, None] * fraction
+    return np.append(moments.ravel(), time[-1]), {name: dense[name] for name in names}
+
+
+def _rate_of(position: str) -> str:
+    return position.replace(".eccentricity_", ".eccentricity_rate_")
+
+
+def _quiet(source: Source, joint: str, time: Floats) -> Flags:
+    """Tell of each interval between samples whether no contact begins or ends in it."""
+    rows = source.impacts()
+    rows = rows[rows["joint"] == list(source.joints).index(joint)]
+    quiet = np.ones(len(time) - 1, dtype=bool)
+    for events in (rows["onset"], rows["release"]):
+        inside = events[(events >= time[0]) & (events < time[-1])]
+        quiet[np.searchsorted(time, inside, side="right") - 1] = False
+    return quiet
+
+
+def _tame(time: Floats, position: Floats, rate: Floats) -> Flags:
+    """Tell of each interval whether its arc stays near its chord."""
+    middle, _ = _hermite(time, position, rate, np.array([0.25, 0.75]))
+    chord = position[:-1, None] + np.diff(position)[:, None] * np.array([0.25, 0.75])
+    reach = np.max(np.abs(rate)) * np.diff(time)
+    beyond = np.abs(middle - chord).max(axis=1)
+    return np.asarray(beyond <= _WIDEST * np.maximum(np.abs(np.diff(position)), 0.1 * reach))
+
+
+def _hermite(
+    time: Floats, position: Floats, rate: Floats, fraction: Floats
+) -> tuple[Floats, Floats]:
+    """Give positions and rates at fractions of every interval, (intervals, fractions)."""
+    step = np.diff(time)[:, None]
+    rise = np.diff(position)[:, None]
+    begin, end = rate[:-1, None] * step, rate[1:, None] * step
+    square, cube = fraction**2, fraction**3
+    arcs = position[:-1, None] + begin * fraction
+    arcs = arcs + (3.0 * rise - 2.0 * begin - end) * square + (begin + end - 2.0 * rise) * cube
+    slopes = begin + 2.0 * (3.0 * rise - 2.0 * begin - end) * fraction
+    slopes = slopes + 3.0 * (begin + end - 2.0 * rise) * square
+    return arcs, slopes / step
+
+
+def _joined(arcs: Floats, samples: Floats, smooth: Flags, fraction: Floats) -> Floats:
+    """Take the arcs where the motion is smooth, straight lines elsewhere."""
+    straight = samples[:-1, None] + np.diff(samples)[:, None] * fraction
+    return np.append(np.where(smooth[:, None], arcs, straight).ravel(), samples[-1])

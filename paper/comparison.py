@@ -5,9 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Final
 
-SAME: Final = 0.02
-CLOSE: Final = 0.15
-ORDER: Final = 0.5
+_GRADES: Final = {"same": 0.02, "close": 0.15, "order": 0.5}
 """Deviations up to which ours are called the same, close, or of the same order."""
 
 
@@ -25,10 +23,7 @@ class Cell:
         if self.ratio is None:
             return ""
         deviation = abs(self.ratio - 1.0)
-        for word, bound in (("same", SAME), ("close", CLOSE), ("order", ORDER)):
-            if deviation <= bound:
-                return word
-        return "far"
+        return next((word for word, bound in _GRADES.items() if deviation <= bound), "far")
 
 
 @dataclass(frozen=True)

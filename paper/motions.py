@@ -140,9 +140,8 @@ def diagram_rows(stores: Stores, which: int, variants: Sequence[Variant]) -> Ite
     entry = reported.document()["bifurcation"][which]
     for words in entry["reported"]:
         low, high = words["interval"]
-        cells = [
-            _diagram_cell(stores.study("diagram", which, one), entry, words) for one in variants
-        ]
+        studies = [stores.study("diagram", which, variant) for variant in variants]
+        cells = [_diagram_cell(study, entry, words) for study in studies]
         yield Row(
             (),
             f"{low:g} to {high:g} {entry['unit']}",

@@ -23,17 +23,14 @@ class Measurement:
 
     def __init__(self, calibration: Calibration, *, every: bool) -> None:
         """Look at every target, or only at those that are fitted."""
-        self.cases: list[CaseMeasure] = []
-        self.columns: list[list[int]] = []
-        """By case: where its values stand among all targets."""
-        self.indices: list[int] = []
+        self.cases: list[tuple[int, CaseMeasure, list[int]]] = []
+        """Index of each case, and where its values stand among all targets."""
         self.count = 0
         for index, case in enumerate(calibration.cases):
             chosen = [i for i, target in enumerate(case.targets) if every or target.weight > 0.0]
             if chosen:
-                self.cases.append(CaseMeasure(calibration, case, chosen))
-                self.columns.append([self.count + number for number in chosen])
-                self.indices.append(index)
+                columns = [self.count + number for number in chosen]
+                self.cases.append((index, CaseMeasure(calibration, case, chosen), columns))
             self.count += len(case.targets)
 
     def prepare(self) -> None:
@@ -48,7 +45,7 @@ class Measurement:
         """
         problems = [
             Problem(f"/cases/{index}{problem.pointer}", problem.detail)
-            for index, case in zip(self.indices, self.cases, strict=True)
+            for index, case, _ in self.cases
             for problem in case.prepare()
         ]
         if problems:
@@ -57,7 +54,7 @@ class Measurement:
     def __call__(self, candidates: Floats) -> Floats:
         """Return (n, targets): NaN where a run failed or a target is not looked at."""
         out = np.full((len(candidates), self.count), np.nan)
-        for case, columns in zip(self.cases, self.columns, strict=True):
+        for _, case, columns in self.cases:
             out[:, columns] = case(candidates)
         return out
 
