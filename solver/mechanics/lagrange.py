@@ -44,10 +44,7 @@ class LagrangeMechanism:
         impact_rates: Mapping[str, Scalar],
         inner: Mapping[str, Sequence[Scalar]] = NOTHING,
     ) -> Motion:
-        """Return accelerations and all forces; modes and impact rates (m/s) by joint with play.
-
-        `inner` states of friction laws by joint, where there are any.
-        """
+        """Return accelerations and all forces; see `ReducedMechanism.motion`."""
         play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
         forces = forces_between(self.numbers, self._ends, play, modes, impact_rates, inner)
         applied = self._applied(forces)

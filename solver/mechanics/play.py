@@ -70,20 +70,11 @@ class Contact:
 def contact(
     joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar, inner: Sequence[Scalar] = ()
 ) -> Contact:
-    """Evaluate a joint with play.
+    """Evaluate a joint with play: its numbers, and its journal's centre against the bearing's.
 
-    Parameters
-    ----------
-    joint
-        The joint's numbers; it has a clearance.
-    between
-        Of the journal's centre against the bearing's.
-    mode
-        1 in contact, 0 apart; apart there is no force whatever the penetration.
-    impact_rate
-        Penetration rate latched at the onset of this contact, m/s.
-    inner
-        Inner states of the friction law.
+    `mode` : 1 in contact, 0 apart, where there is no force whatever the penetration.
+    `impact_rate` : penetration rate latched at the onset of this contact, m/s.
+    `inner` : states of the friction law.
     """
     clearance = joint.clearance
     assert clearance is not None  # noqa: S101  (narrows the type)

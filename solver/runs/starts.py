@@ -23,25 +23,13 @@ class Perturbation(NamedTuple):
 def perturbed_start(
     state: Floats, scales: Floats, perturbation: Perturbation, member: int
 ) -> Floats:
-    """Return the start of a member: independent normal deviates about the scene's own start.
+    """Return the start of a member, (states,): independent normal deviates about the scene's own.
 
     Member 0 is unperturbed. A member depends on the seed and its own number alone, through the
-    counter-based generator Philox (Salmon et al. 2011) keyed by both.
+    counter-based generator Philox (Salmon et al. 2011) keyed by both, each below 2^64.
 
-    Parameters
-    ----------
-    state : (states,) float
-        The scene's start: m or rad, m/s or rad/s, then inner states.
-    scales : (states,) float
-        What a deviate of one stands for in each state; see `start_scales`.
-    perturbation : Perturbation
-        Its seed, below 2^64, is one half of the generator's key.
-    member : int
-        The other half.
-
-    Returns
-    -------
-    (states,) float
+    state : (states,) m or rad, m/s or rad/s, then inner states. scales : (states,) what a deviate
+    of one stands for; see `start_scales`.
     """
     if member == 0:
         return state.copy()

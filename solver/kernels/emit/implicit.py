@@ -18,12 +18,14 @@ from jointplay.solver.kernels.record.recorder import Expression
 INNER = (0.5 - math.sqrt(0.05), 0.5 + math.sqrt(0.05))
 """Nodes of Lobatto's formula of order six between the ends of a step."""
 LOBATTO = (1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0)
+VECTORS = ("direction", "product", "drift", "right", "pivot")
+"""Blocks of a number a state, of the linear equations of a step."""
 
 
 def allocate(layout: Layout, states: int) -> None:
     """Give slots to the linear equations of a step."""
     layout.add("direction_time")
-    for name in ("direction", "product", "drift", "right", "pivot"):
+    for name in VECTORS:
         layout.add_block(name, states)
     layout.add_block("factor", states * states)
 
@@ -71,12 +73,8 @@ class RosenbrockRecorder(StepRecorder):
 
     def _linear(self) -> str:
         """Write jacobian(W), which leaves the factors of I - h γ J, and solve(W)."""
-        block = {
-            name: self.layout.block(name).start
-            for name in ("direction", "product", "drift", "right", "pivot", "factor")
-        }
-        direction, product, drift = block["direction"], block["product"], block["drift"]
-        right, pivot, factor = block["right"], block["pivot"], block["factor"]
+        firsts = (self.layout.block(name).start for name in (*VECTORS, "factor"))
+        direction, product, drift, right, pivot, factor = firsts
         n, time, tried = self.states, self.layout["direction_time"], self.layout["tried"]
         return f"""{DECORATOR}
 def jacobian(W):

@@ -31,20 +31,11 @@ def indicators_of(
 ) -> dict[str, float]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
 
-    Parameters
-    ----------
-    chosen
-        Of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``.
-    states : (sections, states)
-        Generalised coordinates and speeds.
-    scales : (states,)
-        What counts as one in each: the finest clearance, as length, turn, or rate of either.
-    angles : (states,)
-        Which are angles; whole turns do not count.
-    log_growth : (periods,)
-        Logarithm of the tangent vector's growth in each period of the record.
-    period
-        s.
+    chosen : of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``. states :
+    (sections, states) generalised coordinates and speeds. scales : (states,) what counts as one in
+    each: the finest clearance, as length, turn, or rate of either. angles : (states,) which are
+    angles, whose whole turns do not count. log_growth : (periods,) logarithm of the tangent
+    vector's growth in each period of the record. period : s.
     """
     states = unwound(states[:MOST_SECTIONS], angles) / scales
     found: dict[str, float] = {}
