@@ -21,7 +21,6 @@ class JobNotFound(CatalogueError):
 
     def __init__(self, job: str) -> None:
         super().__init__(f"there is no job {job!r}")
-        self.job = job
 
 
 class JobNotFinished(CatalogueError):
@@ -29,7 +28,6 @@ class JobNotFinished(CatalogueError):
 
     def __init__(self, job: str, state: str) -> None:
         super().__init__(f"job {job} is {state}; cancel it before it is deleted")
-        self.job = job
 
 
 class BatchNotFound(CatalogueError):
@@ -37,17 +35,14 @@ class BatchNotFound(CatalogueError):
 
     def __init__(self, batch: str) -> None:
         super().__init__(f"there is no batch {batch!r}")
-        self.batch = batch
 
 
 class KeyReused(CatalogueError):
     """An idempotency key came back with a different request."""
 
     def __init__(self, key: str) -> None:
-        super().__init__(
-            f"the idempotency key {key!r} was used for a different request; use a new key"
-        )
-        self.key = key
+        used = f"the idempotency key {key!r} was used for a different request"
+        super().__init__(f"{used}; use a new key")
 
 
 class Fenced(CatalogueError):

@@ -14,7 +14,7 @@ from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block, BlockState, Claim, Job, JobState, Verdict
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
-from jointplay.storage.catalogue.submission import drop_queued_blocks
+from jointplay.storage.catalogue.submission import drop_blocks
 
 RECOVERED_QUEUE = "recovered"
 _PUT_OFF: Final = "put-off"
@@ -212,7 +212,7 @@ def _settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
     When only the block that seals is left, it is queued, ahead of blocks that never started.
     """
     if error is not None:
-        drop_queued_blocks(unit, job_id, untouched=False)
+        drop_blocks(unit, _block.c.job == job_id, untouched=False)
         step_job(unit, job_id, JobState.failed, error=error)
         return lock_job(unit, job_id).state
     of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
@@ -263,7 +263,7 @@ def put_off(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
 def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
     """Queue a block that was given back, to be claimed after a pause [s]."""
     if job.state.terminal:
-        drop_queued_blocks(unit, job.id, untouched=False)
+        drop_blocks(unit, _block.c.job == job.id, untouched=False)
     else:
         queue_again(unit, block_id, pause)
 

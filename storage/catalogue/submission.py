@@ -235,7 +235,7 @@ def request_cancel(unit: Unit, job_id: str) -> Job:
     if job.state.terminal or job.state is JobState.cancelling:
         return job
     block = tables.block
-    drop_queued_blocks(unit, job_id, untouched=True)
+    drop_blocks(unit, block.c.job == job_id, untouched=True)
     live = unit.execute(
         select(func.count()).where(block.c.job == job_id, block.c.state.in_(_LIVE))
     ).scalar_one()
@@ -246,13 +246,8 @@ def request_cancel(unit: Unit, job_id: str) -> Job:
     return find_job(unit, job_id)
 
 
-def drop_queued_blocks(unit: Unit, job_id: str, *, untouched: bool) -> None:
-    """Cancel a job's blocks that no worker holds, or ever held; forget their wake-ups."""
-    drop_blocks(unit, tables.block.c.job == job_id, untouched=untouched)
-
-
 def drop_blocks(unit: Unit, of: ColumnElement[bool], *, untouched: bool) -> None:
-    """Cancel those blocks among some that no worker holds, or ever held."""
+    """Cancel those among some blocks that no worker holds, or ever held; forget their wake-ups."""
     block, outbox = tables.block, tables.outbox
     dropped = and_(of, block.c.state.in_((BlockState.queued, BlockState.waiting)))
     if untouched:

@@ -6,8 +6,7 @@ files with a manifest; what a running store finished is in packed files without 
 
 from pathlib import Path
 
-from jointplay.storage.packed.files import Files
-from jointplay.storage.packed.reading import Packed
+from jointplay.storage.packed.reading import Files, Packed
 from jointplay.storage.packed.running import Running
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject

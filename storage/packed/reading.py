@@ -1,15 +1,44 @@
-"""The keys of a packed file, found by its central directory."""
+"""Files of a store by key; those of a packed one are found by its central directory."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from jointplay.storage.errors import NotAStore
-from jointplay.storage.packed.files import Entry
 from jointplay.storage.packed.writing import CENTRAL, COMMENT, END, END_64, LOCAL, LOCATOR, LONG
 
 _TAIL = 2**16
 """Bytes read first: the whole directory of a store of some hundred arrays."""
+
+
+class Entry(NamedTuple):
+    """Where a file's bytes begin in a packed one, how many there are, and their CRC-32."""
+
+    offset: int
+    size: int
+    crc: int
+
+
+class Files(Protocol):
+    """Readable files of a store: sealed and packed, or being filled."""
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the keys that can be listed: all once sealed, else those of the documents."""
+        ...
+
+    def entry(self, key: str) -> Entry:
+        """Return size and CRC-32 of a file; FileNotFoundError if there is none."""
+        ...
+
+    def read(self, key: str, start: int = 0, stop: int | None = None) -> bytes:
+        """Return bytes [start, stop) of a file, to its end by default.
+
+        Raises
+        ------
+        FileNotFoundError
+            There is none of this key.
+        """
+        ...
 
 
 class Ranges(Protocol):

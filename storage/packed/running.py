@@ -12,8 +12,7 @@ from typing import Final, TypeVar
 
 from jointplay.storage import durable
 from jointplay.storage.errors import NotAStore
-from jointplay.storage.packed.files import Entry
-from jointplay.storage.packed.reading import Packed
+from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder

@@ -11,7 +11,7 @@ from zarr.abc.store import (
 )
 from zarr.core.buffer import Buffer, BufferPrototype
 
-from jointplay.storage.packed.files import Files
+from jointplay.storage.packed.reading import Files
 
 
 class FilesStore(Store):

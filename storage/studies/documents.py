@@ -111,15 +111,11 @@ def _documents(
         "points": layout.points,
         "record": layout.record,
         "blocks": layout.blocks,
-        "parameters": _listed(layout.parameters),
-        "observables": _listed(layout.observables),
-        "channels": _listed(layout.channels),
+        "parameters": layout.parameters,
+        "observables": layout.observables,
+        "channels": layout.channels,
     }
     own = {"peaks": {"channels": [spec.name for spec in layout.channels]}}
     groups = dict.fromkeys(key.partition("/")[0] for key in arrays if "/" in key)
     nodes = {group: metadata.group(own.get(group, {}), {}) for group in groups}
     return metadata.documents({**layout.attributes, **about, **attributes}, {**nodes, **arrays})
-
-
-def _listed(specs: Sequence[Channel]) -> list[list[str]]:
-    return [[spec.name, spec.unit, spec.long_name] for spec in specs]

@@ -114,10 +114,7 @@ class StudyLayout:
         """SHA-256 over arrays, values and attributes: stores of one digest are one store."""
         shape = [
             STUDY_SCHEMA,
-            [
-                [[spec.name, spec.unit, spec.long_name] for spec in specs]
-                for specs in (self.parameters, self.observables, self.channels)
-            ],
+            [self.parameters, self.observables, self.channels],
             self.record,
             self.blocks,
             sha256(np.ascontiguousarray(self.values, dtype="<f8").tobytes()).hexdigest(),
