@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line.connection import connect
 from jointplay.command_line.exits import Exit, Stopped
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import tell
 
 if TYPE_CHECKING:

@@ -4,8 +4,7 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line.connection import connect
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, connect
 from jointplay.command_line.output import tell
 
 

@@ -4,8 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from jointplay.command_line.connection import job_of
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL, job_of
 from jointplay.command_line.output import tell
 
 if TYPE_CHECKING:

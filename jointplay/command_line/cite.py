@@ -4,8 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from jointplay.command_line.connection import job_of
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import tell
 
 TITLE = "jointplay: simulation of planar mechanisms whose joints have play"

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line.connection import job_of
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, form_of
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, form_of, job_of
 from jointplay.command_line.output import tell
 from jointplay.command_line.peaks import peak_rows, peak_table
 

@@ -6,9 +6,8 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line.connection import job_of
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
-from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL
+from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of
 
 
 def export(

@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from jointplay.command_line.connection import job_of
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.options import (
     AS_JSON,
@@ -15,6 +14,7 @@ from jointplay.command_line.options import (
     STOP,
     URL,
     Form,
+    job_of,
     listed,
 )
 from jointplay.command_line.output import tell

@@ -5,8 +5,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line.connection import job_of, wait_for
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL, WAIT
+from jointplay.command_line.options import (
+    AS_JSON,
+    DEFAULT_URL,
+    RESULTS,
+    URL,
+    WAIT,
+    job_of,
+    wait_for,
+)
 from jointplay.command_line.output import print_json, tell
 
 if TYPE_CHECKING:

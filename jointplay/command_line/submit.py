@@ -6,10 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jointplay.command_line.connection import connect, wait_for
 from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, JOB, SET, URL, WAIT
+from jointplay.command_line.options import (
+    AS_JSON,
+    DEFAULT_URL,
+    JOB,
+    SET,
+    URL,
+    WAIT,
+    connect,
+    wait_for,
+)
 from jointplay.command_line.output import print_json, tell
 
 if TYPE_CHECKING:
