@@ -14,11 +14,12 @@ from jointplay.solver.runs.processes import Advance, Call, Processes, cores, pro
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
+from jointplay.storage.studies.store import create, seal
 from jointplay.worker.execute import execute
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.local.interruption import interruption
-from jointplay.worker.study_block import create_store, run_block, seal_store
+from jointplay.worker.study_block import layout_of, run_block
 
 RUNS = "runs"
 PAGE = "report.html"
@@ -89,7 +90,7 @@ def _compute(
             continue
         study = cast("Study", admit(run.job))
         run = replace(run, job=study.job)
-        create_store(study, running)
+        create(running, layout_of(study))
         seals.append(Call(_seal, (run, running, target)))
         for block, (_, count) in enumerate(study.blocks):
             weight = run.weight * count / study.points
@@ -136,4 +137,4 @@ def _block(run: Run, block: int, running: Path, advance: Advance) -> None:
 
 
 def _seal(run: Run, running: Path, target: StoredObject, advance: Advance) -> None:
-    seal_store(cast("Study", parse(run.job)), running, target)
+    seal(running, layout_of(cast("Study", parse(run.job))), target)

@@ -1,10 +1,16 @@
-"""The application: `create_app` puts the resources together."""
+"""The application: `create_app` puts the resources together, and describes them.
+
+The OpenAPI document is what FastAPI derives, plus the bodies' schemas and our kind of errors.
+"""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
+from typing import Any
 
 from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from pydantic import TypeAdapter
 
 import jointplay.service.batches.endpoints
 import jointplay.service.jobs.endpoints
@@ -14,10 +20,14 @@ import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, problems, scenes
-from jointplay.service.idempotency import InFlight
-from jointplay.service.jobs.watcher import Watcher
-from jointplay.service.openapi import described
+from jointplay.service.batches.admission import BatchDocument
+from jointplay.service.jobs.submission import FIELDS
+from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.prober import Prober
+from jointplay.service.problems import ProblemDocument
+from jointplay.service.problems.handlers import install
+from jointplay.service.problems.kinds import INVALID_REQUEST
+from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 
@@ -27,6 +37,7 @@ Simulate planar mechanisms whose joints have play, and read the results.
 All values are in SI units; the schemas give the unit of every field.  Everything that goes wrong
 is an RFC 9457 problem document whose `errors` point at the fields.
 """
+_REFERENCE = "#/components/schemas/{model}"
 _RESOURCES = (
     jointplay.service.jobs.endpoints,
     events,
@@ -60,7 +71,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         catalogue.migrate()
         app.state.catalogue = catalogue
         app.state.watcher = Watcher(catalogue)
-        app.state.in_flight = InFlight()
+        app.state.in_flight = {}
         app.state.prober = prober = Prober()
         try:
             yield
@@ -75,8 +86,55 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         lifespan=lifespan,
     )
     app.state.settings = settings
-    problems.install(app)
+    install(app)
     for resource in _RESOURCES:
         app.include_router(resource.router)
-    app.openapi = described(app)  # type: ignore[method-assign]  # as FastAPI documents it
+
+    def openapi() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            app.openapi_schema = _described(app)
+        return app.openapi_schema
+
+    app.openapi = openapi  # type: ignore[method-assign]  # as FastAPI documents it
     return app
+
+
+def _described(app: FastAPI) -> dict[str, Any]:
+    document = get_openapi(
+        title=app.title, version=app.version, description=app.description, routes=app.routes
+    )
+    _add_schemas(document["components"]["schemas"])
+    _replace_fastapi_errors(document)
+    return document
+
+
+def _add_schemas(schemas: dict[str, Any]) -> None:
+    """Add what no endpoint's signature mentions: bodies that we parse, and problems."""
+    unmentioned = {
+        "JobDocument": any_job(),
+        "BatchDocument": BatchDocument,
+        "ProblemDocument": ProblemDocument,
+    }
+    for name, described_type in unmentioned.items():
+        schema = TypeAdapter(described_type).json_schema(ref_template=_REFERENCE)
+        for part, definition in schema.pop("$defs", {}).items():
+            schemas.setdefault(part, definition)
+        schemas[name] = schema
+    for kind in KINDS.values():
+        schemas[kind.document.__name__]["properties"] |= FIELDS
+    # its model takes them as they are: admission checks one after the other
+    schemas["BatchDocument"]["properties"]["jobs"]["items"] = {
+        "$ref": _REFERENCE.format(model="JobDocument")
+    }
+
+
+def _replace_fastapi_errors(document: dict[str, Any]) -> None:
+    """FastAPI announces its own 422 wherever there are parameters; we answer with a problem."""
+    problem = problems.problems(INVALID_REQUEST)[INVALID_REQUEST.status]
+    for operations in document["paths"].values():
+        for operation in operations.values():
+            responses = operation["responses"]
+            if "HTTPValidationError" in str(responses.get("422")):
+                responses["422"] = problem
+    for name in ("HTTPValidationError", "ValidationError"):
+        document["components"]["schemas"].pop(name, None)

@@ -2,11 +2,17 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from jointplay.service.body import JsonDocument
-from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, SettingsDependency
+from jointplay.service.dependencies import (
+    NO_PARAMETERS,
+    CatalogueDependency,
+    SettingsDependency,
+    of_the_application,
+)
+from jointplay.service.fields import in_unit
 from jointplay.service.jobs.submission import REQUEST_BODY, checked
 from jointplay.service.prober import Prober
 from jointplay.service.problems import kinds, problems
@@ -17,14 +23,11 @@ router = APIRouter(prefix="/v1/estimates", tags=["jobs"])
 class Estimate(BaseModel):
     """Cost of a job on the machine of the service."""
 
-    seconds: float = Field(
-        description="Computing time of one core; compiling is not in it, nor waiting in the queue.",
-        json_schema_extra={"unit": "s"},
+    seconds: float = in_unit(
+        "s", "Computing time of one core; compiling is not in it, nor waiting in the queue."
     )
-    steps: int = Field(description="Accepted steps of the solver.", json_schema_extra={"unit": "1"})
-    bytes: int = Field(
-        description="What the results take on the disk.", json_schema_extra={"unit": "B"}
-    )
+    steps: int = in_unit("1", "Accepted steps of the solver.")
+    bytes: int = in_unit("B", "What the results take on the disk.")
     points: int = Field(description="Points of a study; 1 of a simulation.")
     blocks: int = Field(description="Parts that workers can compute at the same time.")
     exact: bool = Field(
@@ -34,11 +37,6 @@ class Estimate(BaseModel):
     cached: bool = Field(
         description="Whether an identical job is there, so that a submission costs nothing."
     )
-
-
-async def _prober(request: Request) -> Prober:
-    prober: Prober = request.app.state.prober
-    return prober
 
 
 @router.post(
@@ -51,7 +49,7 @@ def estimate_job(
     document: JsonDocument,
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
-    prober: Annotated[Prober, Depends(_prober)],
+    prober: Annotated[Prober, of_the_application("prober")],
 ) -> Estimate:
     """Say what a job will cost, and queue nothing.
 

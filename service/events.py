@@ -10,8 +10,7 @@ from pydantic import BaseModel, Field
 
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.jobs.schemas import Progress, moment
-from jointplay.service.jobs.waiting import WatcherDependency
-from jointplay.service.jobs.watcher import Watcher
+from jointplay.service.jobs.waiting import Watcher, WatcherDependency
 from jointplay.service.problems import kinds, problems
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Event, Job, JobState

@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
-from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.service.problems import kinds, problems, unavailable
 from jointplay.storage.catalogue.errors import Unavailable
 
 router = APIRouter(tags=["health"])
@@ -38,11 +38,7 @@ def is_ready(catalogue: CatalogueDependency, settings: SettingsDependency) -> He
         catalogue.ping()
     except (Unavailable, SQLAlchemyError, RuntimeError) as error:
         _log.warning("the catalogue does not answer", exc_info=error)
-        raise _unavailable("The catalogue does not answer.") from error
+        raise unavailable("The catalogue does not answer.", 5) from error
     if not os.access(settings.data, os.R_OK | os.W_OK):
-        raise _unavailable("The results' folder cannot be written.")
+        raise unavailable("The results' folder cannot be written.", 5)
     return Health()
-
-
-def _unavailable(detail: str) -> RequestRefused:
-    return RequestRefused(kinds.UNAVAILABLE, detail, headers={"Retry-After": "5"})

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Annotated
@@ -21,7 +20,7 @@ class Repeatable:
     def __init__(self, request: Request, key: str | None) -> None:
         self._path = request.url.path
         self._key = key
-        self._in_flight: InFlight = request.app.state.in_flight
+        self._in_flight: dict[str, Repeatable] = request.app.state.in_flight
 
     @contextmanager
     def key_for(self, document: object) -> Iterator[SubmissionKey | None]:
@@ -37,33 +36,15 @@ class Repeatable:
             return
         body = json.dumps([self._path, document], sort_keys=True, separators=(",", ":"))
         fingerprint = hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
-        with self._in_flight.holding(self._key):
-            yield SubmissionKey(self._key, fingerprint)
-
-
-class InFlight:
-    """The keys of the requests that are being answered."""
-
-    def __init__(self) -> None:
-        self._keys: set[str] = set()
-        self._lock = threading.Lock()
-
-    @contextmanager
-    def holding(self, key: str) -> Iterator[None]:
-        """Hold a key while the block runs."""
-        with self._lock:
-            taken = key in self._keys
-            self._keys.add(key)
-        if taken:
+        if self._in_flight.setdefault(self._key, self) is not self:  # one step, for all threads
             sentence = "A request with this key is being answered; send it again in a moment."
             raise RequestRefused.of_parameter(
                 _HEADER, sentence, kinds.KEY_IN_FLIGHT, headers={"Retry-After": "1"}
             )
         try:
-            yield
+            yield SubmissionKey(self._key, fingerprint)
         finally:
-            with self._lock:
-                self._keys.discard(key)
+            del self._in_flight[self._key]
 
 
 async def _repeatable(

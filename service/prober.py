@@ -1,19 +1,19 @@
 """The process that computes the beginning of jobs, kept warm: `jointplay.worker.probe`."""
 
 import json
-import select
 import subprocess
 import sys
 import threading
-import time
+from contextlib import suppress
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, Problem
-from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems import unavailable
 
 _PATIENCE = 90.0  # s; compiling the kernel of a new mechanism takes some 20 of them
 _MOST_WAITING = 8
-_LONGEST_ANSWER = 65_536  # bytes
 
 
 class Prober:
@@ -23,6 +23,7 @@ class Prober:
         self._turn = threading.Lock()
         self._waiting = threading.BoundedSemaphore(_MOST_WAITING)
         self._process: subprocess.Popen[bytes] | None = None
+        self._connection: Connection | None = None
 
     def cost_of(self, job: dict[str, Any]) -> dict[str, Any]:
         """Return what an admitted job costs, as `worker.probe.Cost` has it.
@@ -35,10 +36,10 @@ class Prober:
             503: too many are waiting, or the process does not answer.
         """
         if not self._waiting.acquire(blocking=False):
-            raise _unavailable("Many estimates are being made; ask again in a moment.", 2)
+            raise unavailable("Many estimates are being made; ask again in a moment.", 2)
         try:
             with self._turn:
-                answer = self._asked(json.dumps(job).encode() + b"\n")
+                answer = self._asked(json.dumps(job).encode())
         finally:
             self._waiting.release()
         if "refused" in answer:
@@ -47,55 +48,33 @@ class Prober:
 
     def close(self) -> None:
         """End the process."""
-        process, self._process = self._process, None
-        if process is not None:
-            process.kill()
-            process.communicate()
+        if self._process is not None and self._connection is not None:
+            self._connection.close()
+            self._process.kill()
+            self._process.wait()
+        self._process = self._connection = None
 
-    def _asked(self, line: bytes) -> dict[str, Any]:
+    def _asked(self, question: bytes) -> dict[str, Any]:
         for _ in range(2):  # it ends by itself when idle for a while
-            process = self._process = self._alive()
-            assert process.stdin is not None  # noqa: S101  (it was opened with pipes)
-            try:
-                process.stdin.write(line)
-                process.stdin.flush()
-            except BrokenPipeError:
+            connection = self._connected()
+            with suppress(EOFError, OSError):
+                connection.send_bytes(question)
+                if connection.poll(_PATIENCE):
+                    return dict(json.loads(connection.recv_bytes()))
                 self.close()
-                continue
-            text = self._line(process)
-            if text.endswith(b"\n"):
-                found: dict[str, Any] = json.loads(text)
-                return found
+                raise unavailable(f"No estimate was made within {_PATIENCE:g} s.", 30)
             self.close()
-        raise _unavailable("The beginning of the job could not be computed.", 5)
+        raise unavailable("The beginning of the job could not be computed.", 5)
 
-    def _alive(self) -> subprocess.Popen[bytes]:
-        if self._process is not None and self._process.poll() is None:
-            return self._process
-        self.close()
-        return subprocess.Popen(
-            [sys.executable, "-P", "-m", "jointplay.worker.probe"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            bufsize=0,
-        )
-
-    def _line(self, process: subprocess.Popen[bytes]) -> bytes:
-        """Return one line, or less when the process ended or takes too long."""
-        assert process.stdout is not None  # noqa: S101  (it was opened with pipes)
-        text = b""
-        deadline = time.monotonic() + _PATIENCE
-        while not text.endswith(b"\n"):
-            left = deadline - time.monotonic()
-            if left <= 0 or not select.select([process.stdout], [], [], left)[0]:
-                self.close()
-                raise _unavailable(f"No estimate was made within {_PATIENCE:g} s.", 30)
-            some = process.stdout.read(_LONGEST_ANSWER)
-            if not some:
-                break
-            text += some
-        return text
-
-
-def _unavailable(sentence: str, seconds: int) -> RequestRefused:
-    return RequestRefused(kinds.UNAVAILABLE, sentence, headers={"Retry-After": str(seconds)})
+    def _connected(self) -> Connection:
+        """Return the way to the process, which is started if it does not run."""
+        if self._process is None or self._process.poll() is not None or self._connection is None:
+            self.close()
+            self._connection, theirs = Pipe()
+            with theirs:
+                self._process = subprocess.Popen(  # noqa: S603 - our own program
+                    [sys.executable, "-P", "-m", "jointplay.worker.probe", str(theirs.fileno())],
+                    stdin=subprocess.DEVNULL,
+                    pass_fds=[theirs.fileno()],
+                )
+        return self._connection

@@ -6,8 +6,7 @@ from fastapi import APIRouter, Path
 from pydantic import BaseModel, Field
 
 from jointplay.records.failure import InvalidInput
-from jointplay.service.problems import RequestRefused, kinds, problems
-from jointplay.service.problems.document import clipped
+from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
 
@@ -52,10 +51,4 @@ def _document(name: str) -> dict[str, Any]:
 
 def _summary(name: str) -> SceneSummary:
     scene = Scene.model_validate(presets.document(name))
-    return SceneSummary(
-        name=name,
-        description=scene.description,
-        source=scene.source,
-        parameters=scene.parameters,
-        link=f"/v1/scenes/{name}",
-    )
+    return SceneSummary.model_validate(vars(scene) | {"name": name, "link": f"/v1/scenes/{name}"})

@@ -19,7 +19,7 @@ from jointplay.worker.execute import Answer, Outcome, Progress
 from jointplay.worker.lease import Lease
 from jointplay.worker.passing import PASSING, waits_for
 from jointplay.worker.removal import withdraw
-from jointplay.worker.work import Kept, Work, work_of
+from jointplay.worker.work import Work, work_of
 
 Answered = TypeVar("Answered")
 _log = logging.getLogger(__name__)
@@ -142,7 +142,7 @@ class BlockRun:
     def _failed(self, error_class: ErrorClass, code: str, detail: str) -> Outcome:
         return Outcome("failed", *self._reached, JobError(error_class, code, detail))
 
-    def _report(self, progress: Progress[Any], keep: Callable[[], Kept]) -> Answer:
+    def _report(self, progress: Progress) -> Answer:
         """Between two slices: soon notice a request to stop; about once a second, record."""
         self._lease.advanced()
         self._reports += 1
@@ -150,14 +150,14 @@ class BlockRun:
             self._compiling.cancel()
         self._reached = (progress.time, progress.fraction)
         if self._draining.is_set():
-            self._keep(keep)
+            self._keep(progress)
             return Answer.leave
         now = time.monotonic()
         if now >= self._next_record:
             self._require_room()
         try:
             if now >= self._next_record:
-                took = self._keep(keep)
+                took = self._keep(progress)
                 verdict = self._lease.record_progress(
                     progress.time, progress.fraction, progress.steps()
                 )
@@ -178,10 +178,10 @@ class BlockRun:
         if self._settings.room() <= 0:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(self._settings.data))
 
-    def _keep(self, keep: Callable[[], Kept]) -> float:
+    def _keep(self, progress: Progress) -> float:
         """Put a restart point on the disk, then name it in the catalogue; return the seconds."""
         began = time.monotonic()
-        name, watermark = keep()
+        name, watermark = progress.keep()
         self._catalogue.record_checkpoint(
             self._block.id, self._block.attempt, watermark=watermark, checkpoint=name
         )

@@ -3,17 +3,16 @@
 import logging
 import math
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, Generic, Literal, TypeVar
+from typing import Any, Literal
 
+from jointplay.records.checkpoint import UnusableCheckpoint
 from jointplay.records.failure import InvalidInput, SimulationFailed
-from jointplay.records.job import JobError
+from jointplay.records.job import ErrorClass, JobError
 from jointplay.solver.kinds import Admission
-from jointplay.solver.runs.certificate.certificate import Certificate
-from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
@@ -21,9 +20,9 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.worker.certificates import record_of
+from jointplay.worker.checkpoints import RestartPoint
 
 _log = logging.getLogger(__name__)
-EndState = Literal["succeeded", "failed", "cancelled", "left"]
 _LIMIT_CODES = frozenset({"step-limit", "time-limit"})
 
 
@@ -36,36 +35,28 @@ class Answer(StrEnum):
 
 
 @dataclass(frozen=True)
-class RestartPoint:
-    """Simulation and results store at one instant; both are needed to go on from it."""
-
-    simulation: bytes
-    results: bytes
-    folder: Path  # of the store that `results` belongs to
-    watermark: int  # samples readers may see: all so far, as `results` brought them to the disk
-    time: float  # simulated time [s]
-    fraction: float  # 0..1
-
-
-Kept = TypeVar("Kept", covariant=True)
-
-
-@dataclass(frozen=True)
-class Progress(Generic[Kept]):
-    """State of a block between two slices. `restart_point()` is valid until the report returns."""
+class Progress:
+    """State of a block between two slices. `keep()` is valid until the report returns."""
 
     time: float  # simulated time [s]; 0 of a study
     fraction: float  # 0..1, of the block
-    restart_point: Callable[[], Kept]
-    steps: Callable[[], int | None] = lambda: None  # accepted steps of this try so far
+    keep: Callable[[], tuple[str, int]]
+    """Brings a restart point to the disk; gives its name, and the samples or points that readers
+    may see."""
+    steps: Callable[[], int | None]  # accepted steps of this try so far
     watermark: int = 0  # points of a study that have ended
+
+
+Report = Callable[[Progress], Answer | str]
+"""Called before each slice of at most about 0.25 s of computing, hence several times a second;
+answers "continue", "cancel" or "leave"."""
 
 
 @dataclass(frozen=True)
 class Outcome:
     """End of a run; `left` means that it did not end, and its store is open."""
 
-    state: EndState
+    state: Literal["succeeded", "failed", "cancelled", "left"]
     time: float  # simulated time reached [s]
     fraction: float  # 0..1
     error: JobError | None = None
@@ -77,8 +68,8 @@ def execute(
     folder: Path,
     target: StoredObject,
     *,
-    report: Callable[[Progress[RestartPoint]], Answer | str],
-    restart: RestartPoint | None = None,
+    report: Report,
+    resume_from: str | None = None,
     longest: float = math.inf,
 ) -> Outcome:
     """Simulate a checked job and write its results store.
@@ -88,15 +79,14 @@ def execute(
     admission
         The job as `solver.kinds.admit` filled it in.
     folder
-        Where the store grows; made here, and must not hold a store.
+        Where the store grows; made here, and must not hold a store.  Restart points go beside it.
     target
         Where the sealed store goes.
     report
-        Called before each slice of at most about 0.25 s of computing, hence several times a
-        second; answers "continue", "cancel" or "leave".
-    restart
-        Where an earlier run of the same job left off; its folder is only read. Where what it
-        wrote is not there any more the run begins anew.
+        Hears how far the run is, and says whether to go on.
+    resume_from
+        Name of a restart point of an earlier try at the same job, which is only read; where it, or
+        what that try wrote, is no good the run begins anew.
     longest
         Seconds of computing after which the run fails.
 
@@ -113,32 +103,39 @@ def execute(
     OSError
         The store cannot be written, for example because the disk is full.
     """
-    writer, restart = _begin(folder, layout_of(admission), restart)
+    writer, restart = _begin(folder, layout_of(admission), resume_from)
     begin = (restart.time, restart.fraction) if restart else (0.0, 0.0)
     try:
         simulation = Simulation(admission, restart.simulation if restart else None)
     except InvalidInput as refused:
         writer.seal(target, peaks={}, summary={}, complete=False)
         return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
-    outcome = _advance(simulation, simulation.slices(longest), writer, folder, report, begin)
+    outcome = _advance(simulation, longest, writer, folder, report, begin)
     if outcome.state == "left":
         return outcome
-    summary = simulation.summary()
-    _seal(writer, target, summary, simulation.certificate(), complete=outcome.state == "succeeded")
+    summary, certificate = simulation.summary(), simulation.certificate()
+    writer.seal(
+        target,
+        peaks=summary.peaks,
+        summary=summary.statistics,
+        complete=outcome.state == "succeeded",
+        certificate=None if certificate is None else record_of(certificate),
+    )
     return replace(outcome, statistics=summary.statistics)
 
 
 def _begin(
-    folder: Path, layout: ResultLayout, restart: RestartPoint | None
+    folder: Path, layout: ResultLayout, resume_from: str | None
 ) -> tuple[ResultWriter, RestartPoint | None]:
     """Return a writer and the restart point that it goes on from; none if its rows are lost."""
-    if restart is not None:
+    if resume_from is not None:
         try:
+            restart = RestartPoint.load(folder.with_name(resume_from))
             writer = ResultWriter.resume(
                 folder, layout, restart.results, taken_over_from=restart.folder
             )
             return writer, restart
-        except (CheckpointMismatch, CorruptStore, FileNotFoundError) as error:
+        except (UnusableCheckpoint, CheckpointMismatch, CorruptStore, FileNotFoundError) as error:
             _log.warning("the run begins anew: %s", error)
             shutil.rmtree(folder, ignore_errors=True)
     return ResultWriter.create(folder, layout), None
@@ -146,30 +143,27 @@ def _begin(
 
 def _advance(
     simulation: Simulation,
-    slices: Iterator[Slice],
+    longest: float,
     writer: ResultWriter,
     folder: Path,
-    report: Callable[[Progress[RestartPoint]], Answer | str],
+    report: Report,
     begin: tuple[float, float],
 ) -> Outcome:
     """Run to the end, to an error, or to an answer other than to go on."""
+    slices = simulation.slices(longest)
     time, fraction = begin
 
-    def restart_point() -> RestartPoint:
-        return RestartPoint(
-            simulation.checkpoint(),
-            writer.checkpoint(),
-            folder,
-            writer.samples,
-            time,
-            fraction,
-        )
+    def keep() -> tuple[str, int]:
+        path = folder.with_name(f"block0-{folder.name}")
+        checkpoint = simulation.checkpoint(), writer.checkpoint()
+        RestartPoint(*checkpoint, folder, writer.samples, time, fraction).store(path)
+        return path.name, writer.samples
 
     def steps() -> int:
         return int(simulation.summary().statistics["steps"])
 
     while True:
-        answer = Answer(report(Progress(time, fraction, restart_point, steps)))
+        answer = Answer(report(Progress(time, fraction, keep, steps)))
         if answer is Answer.leave:
             return Outcome("left", time, fraction)
         if answer is Answer.cancel:
@@ -177,9 +171,7 @@ def _advance(
         try:
             piece = next(slices, None)
         except SimulationFailed as failure:
-            error_class: Literal["limit", "solver"] = (
-                "limit" if failure.code in _LIMIT_CODES else "solver"
-            )
+            error_class: ErrorClass = "limit" if failure.code in _LIMIT_CODES else "solver"
             error = JobError(error_class, failure.code, failure.detail, failure.time)
             return Outcome("failed", failure.time, fraction, error)
         if piece is None:
@@ -211,22 +203,4 @@ def layout_of(admission: Admission) -> ResultLayout:
             "period": admission.period,
             "section_note": admission.section_note,
         },
-    )
-
-
-def _seal(
-    writer: ResultWriter,
-    target: StoredObject,
-    summary: Summary,
-    certificate: Certificate | None,
-    *,
-    complete: bool,
-) -> None:
-    record = None if certificate is None else record_of(certificate)
-    writer.seal(
-        target,
-        peaks=summary.peaks,
-        summary=summary.statistics,
-        complete=complete,
-        certificate=record,
     )

@@ -1,26 +1,26 @@
 """`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
 
-Reads one admitted job document a line and answers each with one line of JSON; ends with its
-input, or after five minutes without a question. A job that is over within the budget is known
-exactly; of a longer one the pace at the end of the beginning is taken for the rest.
+Receives admitted job documents through the connection whose file descriptor is its argument, and
+answers each with JSON; ends with the connection, or after five minutes without a question. A job
+that is over within the budget is known exactly; of a longer one the pace at the end of the
+beginning is taken for the rest.
 """
 
 import json
-import os
-import select
 import shutil
 import sys
 import tempfile
 import time
 from contextlib import suppress
 from dataclasses import asdict, dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.simulate import Simulation
-from jointplay.storage.packed import Packed
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.certificate_group import CERTIFICATE
@@ -104,7 +104,7 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
     marks: list[Mark] = []
     began = time.process_time()
 
-    def report(progress: Progress[Any]) -> Answer:
+    def report(progress: Progress) -> Answer:
         spent = time.process_time() - began
         marks.append(Mark(spent, progress.fraction, progress.steps() or 0))
         return Answer.cancel if len(marks) > 1 and spent > budget else Answer.go_on
@@ -184,19 +184,14 @@ def _extrapolated(marks: list[Mark]) -> Mark:
 
 
 def main() -> None:
-    """Answer until the input ends."""
-    answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # whatever else prints must not be taken for an answer
-    while select.select([sys.stdin], [], [], _IDLE)[0]:
-        line = sys.stdin.readline()
-        if not line:
-            return
-        try:
-            answer = asdict(cost_of(json.loads(line)))
-        except InvalidInput as error:
-            answer = {"refused": str(error)}
-        answers.write(json.dumps(answer) + "\n")
-        answers.flush()
+    """Answer until nobody asks any more."""
+    with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
+        while asking.poll(_IDLE):
+            try:
+                answer = asdict(cost_of(json.loads(asking.recv_bytes())))
+            except InvalidInput as error:
+                answer = {"refused": str(error)}
+            asking.send_bytes(json.dumps(answer).encode())
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 import logging
 import math
 import time
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -19,17 +18,12 @@ from jointplay.solver.runs.work_precision.plan import WorkPrecisionStudy
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import ResultsError
-from jointplay.storage.places import StoredObject
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.store import create, seal
-from jointplay.worker.execute import Answer, Outcome, Progress
+from jointplay.storage.studies.store import create
+from jointplay.worker.execute import Answer, Outcome, Progress, Report
 
 _log = logging.getLogger(__name__)
-
-
-Report = Callable[[Progress[str]], Answer | str]
-"""Called between slices; a restart point is the name of what was brought to the disk."""
 
 
 def layout_of(study: Study) -> StudyLayout:
@@ -57,21 +51,6 @@ def layout_of(study: Study) -> StudyLayout:
         },
         outputs={name: Channel(name, *output) for name, output in (OUTPUTS | own).items()},
     )
-
-
-def create_store(study: Study, folder: Path) -> None:
-    """Make the store that a study's blocks fill, or find it there.
-
-    Several processes may do it at once.
-
-    Raises
-    ------
-    StoreExists
-        The folder holds other results, or this study's by another version of the solver.
-    OSError
-        The store cannot be written.
-    """
-    create(folder, layout_of(study))
 
 
 def computation_of(
@@ -105,13 +84,12 @@ def run_block(
     folder
         Of the store.
     report
-        Called before each slice of at most about 0.25 s of computing; answers "continue",
-        "cancel" or "leave".
+        Hears how far the block is, and says whether to go on.
     attempt
         Which try at the block this is: every try needs a number of its own.
     resume_from
-        What a restart point of an earlier try returned, and the fraction of the block at which it
-        was made. Where it is no good the block begins anew.
+        Name of a restart point of an earlier try, and the fraction of the block at which it was
+        made. Where it is no good the block begins anew.
     layout
         The study's, if it is at hand.
     longest
@@ -128,7 +106,7 @@ def run_block(
     InvalidInput
         The study cannot be computed after all.
     StoreExists
-        As of `create_store`.
+        The folder holds other results, or this study's by another version of the solver.
     OSError
         The store cannot be written.
     """
@@ -142,12 +120,12 @@ def run_block(
     steps = 0
     begun = time.monotonic()
 
-    def restart_point() -> str:
-        return block.flush(computation.checkpoint())
+    def keep() -> tuple[str, int]:
+        return block.flush(computation.checkpoint()), block.watermark
 
     while True:
         known = partial(int, steps)
-        answer = Answer(report(Progress(0.0, fraction, restart_point, known, block.watermark)))
+        answer = Answer(report(Progress(0.0, fraction, keep, known, block.watermark)))
         if answer is Answer.leave:
             return Outcome("left", 0.0, fraction)
         if answer is Answer.cancel:
@@ -163,18 +141,6 @@ def run_block(
             return Outcome("failed", 0.0, piece.fraction, _out_of_time(longest, piece.fraction))
         steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
         fraction = piece.fraction
-
-
-def seal_store(study: Study, folder: Path, target: StoredObject) -> Outcome:
-    """Finish the store of a study whose blocks are all done; it is durable on return.
-
-    Raises
-    ------
-    IncompleteStudy
-        A block is not done.
-    """
-    seal(folder, layout_of(study), target)
-    return Outcome("succeeded", 0.0, 1.0)
 
 
 def _out_of_time(seconds: float, fraction: float) -> JobError:

@@ -1,34 +1,21 @@
 """The work of a claimed block: a simulation, a block of a study, or the sealing of one."""
 
-import logging
 import shutil
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
-from jointplay.records.checkpoint import UnusableCheckpoint
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.errors import NotAStore
-from jointplay.storage.packed import Packed
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import seal
-from jointplay.worker import checkpoints
-from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.study_block import layout_of, run_block
-
-_log = logging.getLogger(__name__)
-
-Kept = tuple[str, int]
-"""Name of a restart point on the disk, and the samples or points that readers may see."""
-
-
-Report = Callable[[Progress[Any], Callable[[], Kept]], Answer]
-"""Called between two slices; the second argument brings a restart point to the disk."""
 
 
 class Work(Protocol):
@@ -38,7 +25,10 @@ class Work(Protocol):
     """Whether a second attempt at the block finds that it is done, and need not repeat it."""
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
-        """Do it; `advanced` is for what has no slices."""
+        """Do it, from the restart point of the attempt before if there is one.
+
+        `advanced` is for what has no slices.
+        """
         ...
 
     def tidy(self) -> None:
@@ -58,20 +48,14 @@ class SimulationWork:
         self._settings = settings
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
-        """Simulate, from the restart point of the attempt before if there is one."""
+        """Simulate, unless an attempt that was lost had come to its end."""
         target = self._sealed(self._block.attempt)
-        if (outcome := self._adopted(target)) is not None:
-            return outcome
-
-        def between_slices(progress: Progress[RestartPoint]) -> Answer:
-            return report(progress, lambda: self._keep(progress.restart_point()))
-
-        return execute(
+        return self._adopted(target) or execute(
             self._admission,
             self._folder,
             target,
-            report=between_slices,
-            restart=self._restart_point(),
+            report=report,
+            resume_from=self._block.checkpoint,
             longest=self._settings.longest,
         )
 
@@ -101,50 +85,30 @@ class SimulationWork:
                 return Outcome("succeeded", end, 1.0, statistics=run.attributes["summary"])
         return None
 
-    def _keep(self, point: RestartPoint) -> Kept:
-        path = self._folder.parent / f"block{self._block.index}-a{self._block.attempt}"
-        checkpoints.store(path, point, SOLVER_VERSION)
-        return path.name, point.watermark
-
-    def _restart_point(self) -> RestartPoint | None:
-        if self._block.checkpoint is None:
-            return None
-        try:
-            return checkpoints.load(self._folder.parent / self._block.checkpoint, SOLVER_VERSION)
-        except UnusableCheckpoint as error:
-            _log.warning("block %s begins anew: %s", self._block.id, error)
-            return None
-
 
 class StudyWork:
     """One block of a study, into the store that all its blocks fill."""
 
     recognised = True
 
-    def __init__(
-        self, study: Study, layout: StudyLayout, claim: Claim, folder: Path, longest: float
-    ) -> None:
+    def __init__(self, study: Study, layout: StudyLayout, claim: Claim, settings: Settings) -> None:
         self._study, self._layout = study, layout
         self._block = claim.block
-        self._folder, self._longest = folder, longest
+        self._settings = settings
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
-        """Compute the block's points, from the restart point of the attempt before if any."""
-
-        def between_slices(progress: Progress[str]) -> Answer:
-            return report(progress, lambda: (progress.restart_point(), progress.watermark))
-
+        """Compute the block's points."""
         block = self._block
         name = block.checkpoint
         return run_block(
             self._study,
             block.index,
-            self._folder,
-            report=between_slices,
+            self._settings.running_study(block.job).folder,
+            report=report,
             attempt=block.attempt,
             resume_from=None if name is None else (name, block.progress_fraction),
             layout=self._layout,
-            longest=self._longest,
+            longest=self._settings.longest,
         )
 
     def tidy(self) -> None:
@@ -156,8 +120,9 @@ class SealWork:
 
     recognised = False  # with it the job ends, which must be durable
 
-    def __init__(self, layout: StudyLayout, folder: Path, target: StoredObject) -> None:
-        self._layout, self._folder, self._target = layout, folder, target
+    def __init__(self, layout: StudyLayout, job: str, settings: Settings) -> None:
+        self._layout, self._target = layout, settings.sealed_study(job)
+        self._folder = settings.running_study(job).folder
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Seal. It takes a moment and is not interrupted: all that was asked for is computed."""
@@ -190,7 +155,6 @@ def work_of(claim: Claim, settings: Settings) -> Work:
             return SimulationWork(admitted, claim, settings)
         _last_study = job.id, admitted, layout_of(admitted)
     _, study, layout = _last_study
-    folder = settings.running_study(job.id).folder
     if claim.block.count == 0:
-        return SealWork(layout, folder, settings.sealed_study(job.id))
-    return StudyWork(study, layout, claim, folder, settings.longest)
+        return SealWork(layout, job.id, settings)
+    return StudyWork(study, layout, claim, settings)

@@ -1,5 +1,6 @@
 """``/v1/batches``: submit, look at and cancel many jobs at once."""
 
+from contextlib import suppress
 from typing import Annotated, Any, Self
 
 from fastapi import APIRouter, Depends, Path, Query, Response
@@ -17,8 +18,7 @@ from jointplay.service.dependencies import (
 from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.schemas import JobPage, Moment
-from jointplay.service.problems import RequestRefused, header, kinds, problems
-from jointplay.service.problems.document import clipped
+from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import Batch, JobState
 from jointplay.worker.wake_up import wake_relay
@@ -74,11 +74,9 @@ class AcceptedBatch(BatchResource):
 
 
 def _batch_of_the_path(catalogue: CatalogueDependency, batch_id: BatchId) -> Batch:
-    if is_job_id(batch_id):
-        try:
+    with suppress(BatchNotFound):
+        if is_job_id(batch_id):
             return catalogue.batch(batch_id)
-        except BatchNotFound:
-            pass
     sentence = f"There is no batch {clipped(batch_id)!r}."
     raise RequestRefused.of_parameter("batch_id", sentence, kinds.UNKNOWN_BATCH)
 

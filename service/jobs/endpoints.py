@@ -15,12 +15,13 @@ from jointplay.service.dependencies import (
 from jointplay.service.idempotency import Repeatable, RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
-from jointplay.service.jobs.submission import REQUEST_BODY, submit
+from jointplay.service.jobs.submission import REQUEST_BODY, checked
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Submitted
 from jointplay.storage.settings import Settings
+from jointplay.worker.wake_up import wake_relay
 
 router = APIRouter(prefix="/v1/jobs", tags=["jobs"])
 _LOCATION = {"headers": {"Location": header("Path of the job.")}}
@@ -68,7 +69,11 @@ def _submit(
     catalogue: Catalogue, settings: Settings, repeatable: Repeatable, document: object
 ) -> Submitted:
     with repeatable.key_for(document) as key:
-        return submit(catalogue, settings, document, key)
+        new, reuse = checked(document, settings)
+        submitted = catalogue.submit(new, key, reuse=reuse)
+    if submitted.created:
+        wake_relay(settings.redis_url)
+    return submitted
 
 
 @router.get("", responses=problems(kinds.INVALID_REQUEST))

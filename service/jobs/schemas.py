@@ -6,11 +6,10 @@ from typing import Annotated, Any, Self
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from jointplay.records.job import ErrorClass
+from jointplay.service.fields import in_unit
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.catalogue.records import JobPage as Page
-
-SECONDS: dict[str, Any] = {"unit": "s"}
 
 
 def moment(epoch_seconds: float) -> datetime:
@@ -29,7 +28,7 @@ Moment = Annotated[datetime, BeforeValidator(_moment_of)]
 class Progress(BaseModel):
     """Progress of a job."""
 
-    time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
+    time: float = in_unit("s", "Simulated time reached.")
     fraction: float = Field(ge=0, le=1, description="Part of the whole job, 0 to 1.")
     steps: int | None = Field(description="Accepted steps of the solver, as far as they are known.")
 
@@ -46,9 +45,7 @@ class JobError(BaseModel):
     )
     code: str = Field(description="The reason for programs, for example step-size-underflow.")
     detail: str = Field(description="The reason, and what to try.")
-    time: float | None = Field(
-        description="Simulated time at which it happened.", json_schema_extra=SECONDS
-    )
+    time: float | None = in_unit("s", "Simulated time at which it happened.")
 
 
 class JobResource(BaseModel):

@@ -7,10 +7,8 @@ from typing import Any
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
-from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import NewJob, SubmissionKey, Submitted
+from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
-from jointplay.worker.wake_up import wake_relay
 
 REQUEST_BODY: dict[str, Any] = {
     "required": True,
@@ -78,25 +76,6 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
         seal=isinstance(admission, Study),
     )
     return new, cache is True
-
-
-def submit(
-    catalogue: Catalogue, settings: Settings, document: object, key: SubmissionKey | None = None
-) -> Submitted:
-    """Check the document, record the job durably, and wake the relay.
-
-    Raises
-    ------
-    InvalidInput
-        With every field that is wrong; nothing was recorded.
-    KeyReused
-        The key came with another document before.
-    """
-    new, reuse = checked(document, settings)
-    submitted = catalogue.submit(new, key, reuse=reuse)
-    if submitted.created:
-        wake_relay(settings.redis_url)
-    return submitted
 
 
 def _to_come(text: object) -> float | None:

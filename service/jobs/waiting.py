@@ -1,19 +1,125 @@
-"""Holding an answer back until a job is finished: ``?wait=30`` and ``Prefer: wait=10``."""
+"""Waiting for jobs: one look at the catalogue for everybody, and answers that are held back.
 
+A request is held back by ``?wait=30`` or ``Prefer: wait=10``.
+"""
+
+import asyncio
+import logging
 import re
+from collections import defaultdict
+from collections.abc import AsyncIterator, Iterator
+from contextlib import contextmanager
 from typing import Annotated
 
-from fastapi import Depends, Header, Request, Response
+from fastapi import Depends, Header, Response
 from fastapi.concurrency import run_in_threadpool
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 
-from jointplay.service.dependencies import CatalogueDependency
-from jointplay.service.jobs.watcher import Watcher
+from jointplay.service.dependencies import CatalogueDependency, of_the_application
+from jointplay.service.fields import in_unit
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Job
+from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import Job, JobStatus
 
 LONGEST_WAIT = 60  # s; a client that wants to wait longer asks again
 _PREFERRED = re.compile(r"""(?:^|[,;])\s*wait\s*=\s*"?(\d{1,9})"?\s*(?=[,;]|$)""", re.IGNORECASE)
+_PERIOD = 0.01
+"""Seconds between two looks when a wait begins; growing to ..."""
+_LONGEST_PERIOD = 0.1
+_GROWTH = 1.04  # so that this takes seconds: most jobs that are waited for are short, and what
+# looks often at one that is not takes a tenth of a core from those who compute it
+_AT_ONCE = 500  # jobs in one question to the database
+_log = logging.getLogger(__name__)
+
+
+class Watch:
+    """One client's view of one job; made by `Watcher.watching`."""
+
+    def __init__(self) -> None:
+        self.latest: JobStatus | None = None
+        self._changed = asyncio.Event()
+
+    def show(self, status: JobStatus) -> None:
+        """Note what the job looks like now."""
+        self.latest = status
+        self._changed.set()
+
+    async def changes(self, quiet: float) -> AsyncIterator[JobStatus | None]:
+        """Yield the job whenever it has changed, at first as it is, and none after `quiet` s."""
+        while True:
+            try:
+                await asyncio.wait_for(self._changed.wait(), quiet)
+            except TimeoutError:
+                yield None
+                continue
+            self._changed.clear()
+            yield self.latest
+
+
+class Watcher:
+    """Looks at all watched jobs together: a thousand waiting clients cost one question."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        self._catalogue = catalogue
+        self._watches: dict[str, set[Watch]] = defaultdict(set)
+        self._looking: asyncio.Task[None] | None = None
+        self._woken = asyncio.Event()
+
+    @contextmanager
+    def watching(self, job_id: str) -> Iterator[Watch]:
+        """Watch a job while the block runs."""
+        watch = Watch()
+        self._watches[job_id].add(watch)
+        self._woken.set()
+        if self._looking is None or self._looking.done():
+            self._looking = asyncio.create_task(self._look())
+        try:
+            yield watch
+        finally:
+            self._watches[job_id].discard(watch)
+            if not self._watches[job_id]:
+                del self._watches[job_id]
+
+    async def finished(self, job_id: str, seconds: float) -> bool:
+        """Return as soon as a job is finished, or after `seconds`; the answer is whether it is."""
+        try:
+            async with asyncio.timeout(seconds):
+                with self.watching(job_id) as watch:
+                    async for status in watch.changes(seconds):
+                        if status is not None and status.state.terminal:
+                            return True
+        except TimeoutError:
+            pass
+        return False
+
+    async def _look(self) -> None:
+        """Look until no one watches; what a database that does not answer hides is seen later."""
+        pause = _PERIOD
+        while self._watches:
+            self._woken.clear()
+            try:
+                self._show(await self._statuses(list(self._watches)))
+            except Unavailable as error:
+                _log.warning("looking again: %s", error)
+            pause = min(_GROWTH * pause, _LONGEST_PERIOD)
+            try:
+                await asyncio.wait_for(self._woken.wait(), pause)
+                pause = _PERIOD
+            except TimeoutError:
+                pass
+
+    async def _statuses(self, jobs: list[str]) -> list[JobStatus]:
+        found: list[JobStatus] = []
+        for first in range(0, len(jobs), _AT_ONCE):
+            some = jobs[first : first + _AT_ONCE]
+            found += await run_in_threadpool(self._catalogue.statuses, some)
+        return found
+
+    def _show(self, statuses: list[JobStatus]) -> None:
+        for status in statuses:
+            for watch in self._watches.get(status.job, ()):
+                if watch.latest != status:
+                    watch.show(status)
 
 
 class WaitQuery(BaseModel):
@@ -21,12 +127,12 @@ class WaitQuery(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True)
 
-    wait: float = Field(
+    wait: float = in_unit(
+        "s",
+        "Answer when the job is finished, at the latest after this time.",
         default=0.0,
         ge=0.0,
         le=LONGEST_WAIT,
-        description="Answer when the job is finished, at the latest after this time.",
-        json_schema_extra={"unit": "s"},
     )
 
 
@@ -52,13 +158,7 @@ class Patience:
         return await run_in_threadpool(self._catalogue.get, job.id)
 
 
-async def watcher_of(request: Request) -> Watcher:
-    """Return the application's watcher."""
-    watcher: Watcher = request.app.state.watcher
-    return watcher
-
-
-WatcherDependency = Annotated[Watcher, Depends(watcher_of)]
+WatcherDependency = Annotated[Watcher, of_the_application("watcher")]
 
 
 async def _patience(

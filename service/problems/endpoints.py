@@ -3,8 +3,7 @@
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from jointplay.service.problems import kinds
-from jointplay.service.problems.document import RequestRefused, problems
+from jointplay.service.problems import RequestRefused, kinds, problems
 
 router = APIRouter(prefix="/problems", tags=["problems"])
 

@@ -11,13 +11,13 @@ from starlette.routing import compile_path
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.records.strict_json import MalformedJson
-from jointplay.service.problems import kinds
-from jointplay.service.problems.document import (
+from jointplay.service.problems import (
     MEDIA_TYPE,
     ErrorDetail,
     ProblemDocument,
     RequestRefused,
     clipped,
+    kinds,
 )
 from jointplay.storage.catalogue.errors import JobNotFinished, KeyReused, Unavailable
 

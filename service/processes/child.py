@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 _LARGEST_LOG = 10_000_000  # bytes; a larger log is set aside when its process starts
@@ -100,11 +100,18 @@ class Child:
             self.start()
         return None
 
-    def last_words(self, lines: int = 12) -> str:
-        """Return the end of the log."""
-        if not self.log.exists():
-            return ""
-        return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
+    def await_answer(
+        self, answers: Callable[[], bool], patience: float, pause: Callable[[float], object]
+    ) -> None:
+        """Wait until the process answers; StartFailed if it ended, or after `patience` seconds."""
+        deadline = time.monotonic() + patience
+        while not answers():
+            if not self.alive:
+                last = "\n".join(self.log.read_text(errors="replace").splitlines()[-12:])
+                raise StartFailed(f"the {self.name} ended at once:\n{last}")
+            if time.monotonic() > deadline:
+                raise StartFailed(f"the {self.name} did not answer in {patience:g} s: {self.log}")
+            pause(_POLL)
 
     def terminate(self) -> None:
         """Ask the process to end."""

@@ -9,7 +9,8 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from types import FrameType
 
@@ -17,7 +18,7 @@ from pydantic import ValidationError
 
 from jointplay.service.processes.broker import Broker, answers
 from jointplay.service.processes.child import Child, StartFailed, WrongSetting
-from jointplay.service.processes.folder_lock import FolderLock
+from jointplay.service.processes.folder_lock import holding
 from jointplay.storage.settings import Settings
 
 _START_PATIENCE = 60.0  # seconds until the API answers; a cold disk is slow
@@ -65,7 +66,7 @@ class Supervisor:
             Something could not be started; what had been started is stopped again.
         """
         with ExitStack() as stack:
-            lock = stack.enter_context(FolderLock(self._settings.data))
+            say = stack.enter_context(holding(self._settings.data))
             wake = stack.enter_context(self._signals())
             listener = stack.enter_context(self._listener())
             redis_url = self._settings.redis_url
@@ -83,7 +84,7 @@ class Supervisor:
             self._await_api(listener, wake)
             if self._stop_asked:
                 return
-            lock.say(f"process {os.getpid()}, {url}")
+            say(f"process {os.getpid()}, {url}")
             announce(url)
             while not self._stop_asked:
                 self._pause(wake)
@@ -95,19 +96,17 @@ class Supervisor:
             "JOINTPLAY_CATALOGUE_URL": self._settings.catalogue_url,
             "JOINTPLAY_REDIS_URL": redis_url,
         }
-        modules: dict[str, tuple[list[str], tuple[int, ...]]] = {
-            "api": (
-                ["jointplay.service.processes.api", "--fd", str(listener.fileno())],
-                (listener.fileno(),),
-            ),
-            "relay": (["jointplay.worker.relay"], ()),
-            "worker": (["jointplay.worker", "--processes", str(self._workers)], ()),
-        }
-        for name, (arguments, inherited) in modules.items():
+        api = ["jointplay.service.processes.api", "--fd", str(listener.fileno())]
+        worker = ["jointplay.worker", "--processes", str(self._workers)]
+        for name, arguments, inherited in (
+            ("API", api, (listener.fileno(),)),
+            ("relay", ["jointplay.worker.relay"], ()),
+            ("worker", worker, ()),
+        ):
             child = Child(
                 name,
                 [sys.executable, "-P", "-m", *arguments],
-                self._log_file(name),
+                self._log_file(name.lower()),
                 environment,
                 inherited,
             )
@@ -146,14 +145,12 @@ class Supervisor:
         return f"http://{host}:{listener.getsockname()[1]}"
 
     def _await_api(self, listener: socket.socket, wake: int) -> None:
-        api = next(child for child in self._children if child.name == "api")
-        deadline = time.monotonic() + _START_PATIENCE
-        while not self._stop_asked and not _healthy(listener):
-            if not api.alive:
-                raise StartFailed(f"the API ended at once:\n{api.last_words()}")
-            if time.monotonic() > deadline:
-                raise StartFailed(f"the API did not answer in {_START_PATIENCE:g} s: {api.log}")
-            self._pause(wake, 0.05)
+        api = next(child for child in self._children if child.name == "API")
+        api.await_answer(
+            lambda: self._stop_asked or _healthy(listener),
+            _START_PATIENCE,
+            partial(self._pause, wake),
+        )
 
     def _pause(self, wake: int, seconds: float = _LOOK_AGAIN) -> None:
         """Wait for a signal, for the end of our parent, or until the time is over."""
@@ -213,11 +210,10 @@ def _healthy(listener: socket.socket) -> bool:
     host, port = listener.getsockname()[:2]
     if host in ("0.0.0.0", "::"):  # noqa: S104 - compared, not bound
         host = "localhost"
-    connection = http.client.HTTPConnection(host, port, timeout=1.0)
-    try:
+    with (
+        suppress(OSError, http.client.HTTPException),
+        closing(http.client.HTTPConnection(host, port, timeout=1.0)) as connection,
+    ):
         connection.request("GET", "/healthz")
         return connection.getresponse().status == http.client.OK
-    except (OSError, http.client.HTTPException):
-        return False
-    finally:
-        connection.close()
+    return False

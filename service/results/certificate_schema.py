@@ -2,7 +2,8 @@
 
 from pydantic import BaseModel, Field
 
-from jointplay.service.results.schemas import Described, Partial, Series, Values, in_unit
+from jointplay.service.fields import in_unit
+from jointplay.service.results.schemas import Described, Partial, Series, Values
 
 Span = tuple[float, float]
 

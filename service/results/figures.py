@@ -8,9 +8,9 @@ from pydantic import Field
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.service.dependencies import NO_PARAMETERS
+from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
-from jointplay.service.problems import RequestRefused, kinds, problems
-from jointplay.service.problems.document import clipped
+from jointplay.service.problems import RequestRefused, clipped, kinds, problems
 from jointplay.service.results.queries import TimeOrPoints, unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
@@ -26,10 +26,7 @@ _MEDIA_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The figure.",
-        "content": {
-            media_type: {"schema": {"type": "string", "format": "binary"}}
-            for media_type in _MEDIA_TYPES.values()
-        },
+        "content": dict.fromkeys(_MEDIA_TYPES.values(), BINARY),
     }
 }
 

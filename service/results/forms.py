@@ -2,7 +2,6 @@
 
 import io
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Annotated, Any, Final, cast
@@ -12,8 +11,8 @@ from fastapi import Depends, Request, Response
 from numpy.typing import NDArray
 
 from jointplay.records.text_tables import csv_lines
-from jointplay.service.problems import RequestRefused, kinds
-from jointplay.service.problems.document import clipped
+from jointplay.service.fields import BINARY
+from jointplay.service.problems import RequestRefused, clipped, kinds
 
 JSON = "application/json"
 CSV = "text/csv"
@@ -21,15 +20,14 @@ NPZ = "application/x-npz"
 MATLAB = "application/x-matlab-data"
 ARROW = "application/vnd.apache.arrow.stream"
 _EXTRA = (ARROW,) if find_spec("pyarrow") else ()  # comes with the extra `arrow`
-FORMS = (JSON, CSV, NPZ, MATLAB, *_EXTRA)
+FORMS: Final[tuple[str, ...]] = (JSON, CSV, NPZ, MATLAB, *_EXTRA)
 _SUFFIX: Final = {CSV: "csv", NPZ: "npz", MATLAB: "mat", ARROW: "arrows"}
 _LONGEST_FIELD: Final = 63  # of a name in MATLAB
 _OF_A_PARENT: Final = "value"
-_BINARY: Final = {"schema": {"type": "string", "format": "binary"}}
 AS_FILES: Final[dict[int | str, dict[str, Any]]] = {
     200: {
         "content": {
-            form: {"schema": {"type": "string"}} if form == CSV else _BINARY for form in FORMS[1:]
+            form: {"schema": {"type": "string"}} if form == CSV else BINARY for form in FORMS[1:]
         }
     }
 }
@@ -136,60 +134,38 @@ def _field(name: str) -> str:
     return (field if field[:1].isalpha() else f"x{field}")[:_LONGEST_FIELD]
 
 
-def preferred(accept: str | None, offered: Sequence[str]) -> str | None:
-    """Return the media type among those offered that an Accept header likes best.
-
-    Parameters
-    ----------
-    accept
-        The header's value; none takes anything.
-    offered
-        Media types; the first is preferred among equals.
-
-    Returns
-    -------
-    str | None
-        None if the header rules all of them out.
-    """
-    if accept is None or not accept.strip():
-        return offered[0]
-    weights: dict[str, float] = {}
-    for one in accept.lower().split(","):
-        media_range, *parameters = (part.strip() for part in one.split(";"))
-        weights[media_range] = _quality(parameters)
-
-    def weight(media_type: str) -> float:
-        whole_family = f"{media_type.partition('/')[0]}/*"
-        for media_range in (media_type, whole_family, "*/*"):
-            if media_range in weights:
-                return weights[media_range]
-        return 0.0
-
-    best = max(offered, key=weight)
-    return best if weight(best) > 0.0 else None
-
-
-def _quality(parameters: Sequence[str]) -> float:
-    for parameter in parameters:
-        name, _, value = parameter.partition("=")
-        if name.strip() == "q":
-            try:
-                return min(max(float(value), 0.0), 1.0)
-            except ValueError:
-                return 0.0
-    return 1.0
+def weights_of(header: str) -> dict[str, float]:
+    """Return how much a header such as Accept likes each of the things it lists, 0 to 1."""
+    weights = {}
+    for one in header.lower().split(","):
+        listed, *parameters = (part.strip() for part in one.split(";"))
+        weights[listed] = 1.0
+        for parameter in parameters:
+            name, _, value = parameter.partition("=")
+            if name.strip() == "q":
+                try:
+                    weights[listed] = min(max(float(value), 0.0), 1.0)
+                except ValueError:
+                    weights[listed] = 0.0
+    return weights
 
 
 async def _form(request: Request) -> str:
-    accept = ",".join(request.headers.getlist("accept")) or None
-    form = preferred(accept, FORMS)
-    if form is None:
+    accept = ",".join(request.headers.getlist("accept"))
+    weights = weights_of(accept) if accept.strip() else {"*/*": 1.0}
+
+    def weight(form: str) -> float:
+        ranges = form, f"{form.partition('/')[0]}/*", "*/*"
+        return next((weights[one] for one in ranges if one in weights), 0.0)
+
+    form = max(FORMS, key=weight)  # the first among equals
+    if weight(form) == 0.0:
         raise RequestRefused(
             kinds.NOT_ACCEPTABLE,
-            f"Accept is {clipped(accept or '')!r}; this answer is there as {', '.join(FORMS)}.",
+            f"Accept is {clipped(accept)!r}; this answer is there as {', '.join(FORMS)}.",
         )
     return form
 
 
 Form = Annotated[str, Depends(_form)]
-"""Media type of the answer; refused with 406 if the client takes none that there is."""
+"""Media type of the answer (RFC 9110, section 12.5.1); 406 if the client takes none of them."""

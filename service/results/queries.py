@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.service.fields import in_unit
 from jointplay.service.problems import ErrorDetail, RequestRefused, kinds
 
 MOST_POINTS = 100_000  # of an overview: more than any screen is wide
@@ -17,12 +18,8 @@ class Window(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, frozen=True)
 
-    start: float | None = Field(
-        default=None, description="From this time on.", json_schema_extra={"unit": "s"}
-    )
-    stop: float | None = Field(
-        default=None, description="Up to this time.", json_schema_extra={"unit": "s"}
-    )
+    start: float | None = in_unit("s", "From this time on.", default=None)
+    stop: float | None = in_unit("s", "Up to this time.", default=None)
 
     def checked(self) -> tuple[float | None, float | None]:
         """Return start and stop, or refuse a window that ends before it begins."""

@@ -8,13 +8,9 @@ from pydantic import BaseModel, Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.impact import MEASURED
+from jointplay.service.fields import in_unit
 
 Values = list[float | None]
-
-
-def in_unit(unit: str, description: str, **more: Any) -> Any:  # what pydantic's Field returns
-    """Declare a field with its unit."""
-    return Field(description=description, json_schema_extra={"unit": unit}, **more)
 
 
 class Partial(BaseModel):
@@ -89,9 +85,9 @@ class Peak(BaseModel):
 
     unit: str
     minimum: float | None
-    minimum_time: float | None = Field(json_schema_extra={"unit": "s"})
+    minimum_time: float | None = in_unit("s")
     maximum: float | None
-    maximum_time: float | None = Field(json_schema_extra={"unit": "s"})
+    maximum_time: float | None = in_unit("s")
 
 
 class Peaks(Partial):
@@ -143,10 +139,8 @@ class Statistics(Partial):
     steps: int | None = Field(default=None, description="Accepted steps of the integrator.")
     rejections: int | None = Field(default=None, description="Steps that were tried again.")
     onsets: int | None = Field(default=None, description="Contacts that began.")
-    smallest_step: float | None = Field(default=None, json_schema_extra={"unit": "s"})
-    solver_seconds: float | None = Field(
-        default=None, description="Processor time of the solver.", json_schema_extra={"unit": "s"}
-    )
+    smallest_step: float | None = in_unit("s", default=None)
+    solver_seconds: float | None = in_unit("s", "Processor time of the solver.", default=None)
     energy: EnergyLedger | None = Field(
         default=None, description="Null for a run without freedom: nothing is integrated there."
     )

@@ -128,10 +128,7 @@ def page(points: range, width: int) -> tuple[range, int | None]:
             "range of its sections with `section_start` and `section_stop`, or for fewer channels."
         )
         raise RequestRefused.of_parameter(
-            "section_stop",
-            sentence,
-            kinds.RESPONSE_TOO_LARGE,
-            remedy="Choose fewer sections.",
+            "section_stop", sentence, kinds.RESPONSE_TOO_LARGE, remedy="Choose fewer sections."
         )
     if len(points) <= most:
         return points, None

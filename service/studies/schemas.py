@@ -1,14 +1,13 @@
 """Studies as the API shows them: columns over their points. What is not known is null."""
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import BaseModel, Field
 
+from jointplay.service.fields import in_unit
 from jointplay.service.results.schemas import Described, Partial, Series, Values
 
 Status = Literal["waiting", "running", "done", "failed"]
-SECONDS: dict[str, Any] = {"unit": "s"}
-PURE: dict[str, Any] = {"unit": "1"}
 
 
 class PointFailure(BaseModel):
@@ -17,7 +16,7 @@ class PointFailure(BaseModel):
     point: int
     code: str = Field(description="The reason for programs, for example step-size-underflow.")
     detail: str = Field(description="The reason, and what to try.")
-    time: float = Field(description="Simulated time reached.", json_schema_extra=SECONDS)
+    time: float = in_unit("s", "Simulated time reached.")
 
 
 class StudyPoints(Partial):
@@ -79,9 +78,9 @@ class PeakColumns(Described):
     """Signed extremes of one channel, found between the samples too."""
 
     minimum: Values
-    minimum_time: Values = Field(json_schema_extra=SECONDS)
+    minimum_time: Values = in_unit("s")
     maximum: Values
-    maximum_time: Values = Field(json_schema_extra=SECONDS)
+    maximum_time: Values = in_unit("s")
     range: Values = Field(description="Maximum less minimum.")
 
 
@@ -95,43 +94,34 @@ class AccuracyPoint(BaseModel):
     """One run of an accuracy-study."""
 
     method: str
-    tolerance: float | None = Field(description="null: the step is fixed.", json_schema_extra=PURE)
-    step: float | None = Field(
-        description="null: the error is controlled.", json_schema_extra=SECONDS
-    )
+    tolerance: float | None = in_unit("1", "null: the step is fixed.")
+    step: float | None = in_unit("s", "null: the error is controlled.")
     admitted: bool = Field(description="Whether jobs may ask for it.")
-    error: float | None = Field(
-        description="Root mean square over the window, of coordinates and speeds, relative to the "
+    error: float | None = in_unit(
+        "1",
+        "Root mean square over the window, of coordinates and speeds, relative to the "
         "scales that tolerances are relative to; null: the run did not come to its end.",
-        json_schema_extra=PURE,
     )
-    astray: float | None = Field(
-        description="Energy lost track of, as a share of what contacts and friction took; null: "
+    astray: float | None = in_unit(
+        "1",
+        "Energy lost track of, as a share of what contacts and friction took; null: "
         "they took nothing.",
-        json_schema_extra=PURE,
     )
-    steps: int = Field(description="Accepted steps.", json_schema_extra=PURE)
-    evaluations: int = Field(
-        description="Of the equations of motion, in attempted steps.", json_schema_extra=PURE
-    )
-    seconds: float = Field(
-        description="Computing time of one core; differs when it is measured again.",
-        json_schema_extra=SECONDS,
-    )
+    steps: int = in_unit("1", "Accepted steps.")
+    evaluations: int = in_unit("1", "Of the equations of motion, in attempted steps.")
+    seconds: float = in_unit("s", "Computing time of one core; differs when it is measured again.")
     failure: str | None = Field(description="Why the run did not come to its end.")
 
 
 class Accuracy(Partial):
     """Cost and error of every method and tolerance, against a reference run."""
 
-    duration: float = Field(description="Simulated time of every run.", json_schema_extra=SECONDS)
-    window: float | None = Field(
-        description="Time from the start in which the reference is known; null: not yet.",
-        json_schema_extra=SECONDS,
+    duration: float = in_unit("s", "Simulated time of every run.")
+    window: float | None = in_unit(
+        "s", "Time from the start in which the reference is known; null: not yet."
     )
-    uncertainty: float | None = Field(
-        description="How far two references are apart there; smaller errors mean nothing.",
-        json_schema_extra=PURE,
+    uncertainty: float | None = in_unit(
+        "1", "How far two references are apart there; smaller errors mean nothing."
     )
     points: list[AccuracyPoint] = Field(description="The runs that were computed so far.")
     advice: str | None = Field(description="What to choose; null: the study is not complete.")

@@ -7,8 +7,9 @@ from typing import Annotated, Any, Final
 from fastapi import APIRouter, Path, Request, Response
 
 from jointplay.service.dependencies import NO_PARAMETERS
-from jointplay.service.problems import ErrorDetail, RequestRefused, header, kinds, problems
-from jointplay.service.problems.document import clipped
+from jointplay.service.fields import BINARY
+from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, header, kinds, problems
+from jointplay.service.results.forms import weights_of
 from jointplay.service.results.stores import ResultsOfThePath
 from jointplay.service.zarr import ranges
 from jointplay.service.zarr.contents import Content, content_of, former_content, is_key
@@ -28,7 +29,7 @@ _SERVED: dict[int | str, dict[str, Any]] = {
         "description": "The bytes of the key.",
         "headers": _TAG,
         "content": {
-            "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
+            "application/octet-stream": BINARY,
             "application/json": {"schema": {"type": "object"}},
         },
     },
@@ -36,8 +37,8 @@ _SERVED: dict[int | str, dict[str, Any]] = {
         "description": "The bytes of the range.",
         "headers": _TAG | {"Content-Range": header("Which bytes of how many.")},
         "content": {
-            "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
-            "application/json": {"schema": {"type": "string", "format": "binary"}},
+            "application/octet-stream": BINARY,
+            "application/json": BINARY,
         },
     },
     304: {"description": "It is what If-None-Match names.", "headers": _TAG},
@@ -125,11 +126,8 @@ def _answer(request: Request, key: str, content: Content) -> Response:
 
 
 def _takes_gzip(accepted: str) -> bool:
-    for one in accepted.lower().split(","):
-        coding, _, quality = one.replace(" ", "").partition(";q=")
-        if coding in ("gzip", "*"):
-            return quality.strip("0.") != "" or quality == ""
-    return False
+    weights = weights_of(accepted)
+    return weights.get("gzip", weights.get("*", 0.0)) > 0.0
 
 
 def _not_satisfiable(request: Request, key: str, size: int) -> RequestRefused:

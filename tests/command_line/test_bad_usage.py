@@ -9,7 +9,7 @@ from jointplay import client, figures
 from jointplay.command_line.application import EXITS
 from jointplay.records import failure, strict_json
 from jointplay.service import processes
-from jointplay.service.processes.folder_lock import FolderLock
+from jointplay.service.processes.folder_lock import holding
 from jointplay.solver.scene import presets
 from jointplay.storage import results
 
@@ -129,7 +129,7 @@ def test_the_data_folder_may_be_named_by_the_environment(jointplay, tmp_path, mo
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("JOINTPLAY_DATA", "named")
     monkeypatch.setenv("JOINTPLAY_REDIS_URL", "redis://127.0.0.1:1/0")  # so that it never serves
-    with FolderLock(tmp_path / "named"):
+    with holding(tmp_path / "named"):
         ended = jointplay("serve", "--port", "0")
     assert ended.code == 2
     assert f"{tmp_path / 'named'} is in use" in ended.line()

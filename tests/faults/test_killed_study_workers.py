@@ -14,10 +14,11 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, NewJob
-from jointplay.storage.packed import Packed
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
-from jointplay.worker.study_block import run_block, seal_store
+from jointplay.storage.studies.store import seal
+from jointplay.worker.study_block import layout_of, run_block
 from tests.stores import files_of, packed, target
 from tests.waiting import until
 
@@ -45,7 +46,7 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[
     folder = tmp_path_factory.mktemp("undisturbed") / "study"
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    seal_store(study, folder, target(folder))
+    seal(folder, layout_of(study), target(folder))
     return files_of(packed(folder))
 
 

@@ -11,8 +11,9 @@ from jointplay.solver.kinds import Study, admit
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.studies.reader import StudyReader
+from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Answer, Progress
-from jointplay.worker.study_block import run_block, seal_store
+from jointplay.worker.study_block import layout_of, run_block
 from tests.stores import packed, target
 
 JOB = {
@@ -36,7 +37,7 @@ def study() -> Study:
 def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> StudyReader:
     folder = tmp_path_factory.mktemp("undisturbed") / "store"
     assert run_block(study, 0, folder).state == "succeeded"
-    seal_store(study, folder, target(folder))
+    seal(folder, layout_of(study), target(folder))
     return StudyReader(packed(folder))
 
 
@@ -66,10 +67,10 @@ def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
     names: list[str] = []
 
     def leave_after(points: int) -> Any:
-        def report(progress: Progress[str]) -> Answer:
+        def report(progress: Progress) -> Answer:
             if progress.watermark < points:
                 return Answer.go_on
-            names.append(progress.restart_point())
+            names.append(progress.keep()[0])
             return Answer.leave
 
         return report
@@ -80,7 +81,7 @@ def test_a_block_that_is_left_and_resumed_keeps_what_was_measured(
     assert np.isfinite(seconds).tolist() == [True] * 5 + [False] * 6
     resume_from = (names[0], first.fraction)
     assert run_block(study, 0, tmp_path, attempt=2, resume_from=resume_from).state == "succeeded"
-    seal_store(study, tmp_path, target(tmp_path))
+    seal(tmp_path, layout_of(study), target(tmp_path))
     resumed = StudyReader(packed(tmp_path))
     np.testing.assert_array_equal(resumed.statistics["seconds"][:5], seconds[:5])
     assert repeatable(resumed) == repeatable(undisturbed)

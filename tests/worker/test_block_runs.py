@@ -10,7 +10,7 @@ from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob
-from jointplay.storage.packed import Packed
+from jointplay.storage.packed.reading import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker import block_run, work
@@ -253,7 +253,7 @@ def test_what_a_worker_sealed_before_it_was_lost_is_adopted(
     """Killed between sealing and saying so: the next attempt has nothing left to compute."""
     lost = catalogue.claim_block(block, "killed", lease=0.0)
     assert lost is not None
-    work.work_of(lost, settings).execute(lambda *_: Answer.go_on, lambda: None)
+    work.work_of(lost, settings).execute(lambda _: Answer.go_on, lambda: None)
     sealed = settings.sealed_run(lost.job.id, 1)
     content = sealed.read(0, sealed.size())
     while not catalogue.reap(3).requeued:

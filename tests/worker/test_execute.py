@@ -6,7 +6,7 @@ import pytest
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.errors import StoreExists
 from jointplay.storage.results.reader import ResultReader
-from jointplay.worker.execute import Answer, Outcome, Progress, RestartPoint, execute
+from jointplay.worker.execute import Answer, Outcome, Progress, execute
 from tests.stores import files_of, target
 
 JOB = {
@@ -23,18 +23,16 @@ def admission() -> Admission:
     return admit(JOB)
 
 
-def after(
-    slices: int, answer: Answer, points: list[RestartPoint]
-) -> Callable[[Progress[RestartPoint]], Answer]:
+def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress], Answer]:
     """Let so many slices pass, then take a restart point and give an answer."""
     seen = 0
 
-    def report(progress: Progress[RestartPoint]) -> Answer:
+    def report(progress: Progress) -> Answer:
         nonlocal seen
         seen += 1
         if seen <= slices:
             return Answer.go_on
-        points.append(progress.restart_point())
+        names.append(progress.keep()[0])
         return answer
 
     return report
@@ -44,8 +42,14 @@ def arrays(store: Path) -> dict[str, bytes]:
     return {key: content for key, content in files_of(store).items() if "/" in key}
 
 
-def run(admission: Admission, folder: Path, restart: RestartPoint | None = None) -> Outcome:
-    return execute(admission, folder, target(folder), report=lambda _: "continue", restart=restart)
+def run(admission: Admission, folder: Path, resume_from: str | None = None) -> Outcome:
+    return execute(
+        admission,
+        folder,
+        target(folder),
+        report=lambda _: "continue",
+        resume_from=resume_from,
+    )
 
 
 def test_a_store_repeats_itself_from_its_job_file(admission: Admission, tmp_path: Path) -> None:
@@ -67,18 +71,18 @@ def test_however_often_it_is_left_and_resumed_the_bits_are_the_same(
     admission: Admission, tmp_path: Path
 ) -> None:
     assert run(admission, tmp_path / "undisturbed").state == "succeeded"
-    points: list[RestartPoint] = []
-    restart = None
+    names: list[str] = []
+    fractions: list[float] = []
+    resume_from = None
     for leg in range(3):
-        report = after(1 + leg, Answer.leave, points)
+        report = after(1 + leg, Answer.leave, names)
         folder = tmp_path / f"a{leg}"
-        assert (
-            execute(admission, folder, target(folder), report=report, restart=restart).state
-            == "left"
-        )
-        restart = points[-1]
-    assert 0 < points[0].fraction < points[1].fraction < points[2].fraction < 1
-    assert run(admission, tmp_path / "a3", restart).state == "succeeded"
+        outcome = execute(admission, folder, target(folder), report=report, resume_from=resume_from)
+        assert outcome.state == "left"
+        fractions.append(outcome.fraction)
+        resume_from = names[-1]
+    assert 0 < fractions[0] < fractions[1] < fractions[2] < 1
+    assert run(admission, tmp_path / "a3", resume_from).state == "succeeded"
     assert arrays(tmp_path / "a3.zip") == arrays(tmp_path / "undisturbed.zip")
 
 

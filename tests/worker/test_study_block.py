@@ -11,12 +11,9 @@ import pytest
 from jointplay.solver.kinds import Study, admit
 from jointplay.storage.errors import IncompleteStudy, StoreExists
 from jointplay.storage.studies.reader import StudyReader
+from jointplay.storage.studies.store import create, seal
 from jointplay.worker.execute import Answer, Outcome, Progress
-from jointplay.worker.study_block import (
-    create_store,
-    run_block,
-    seal_store,
-)
+from jointplay.worker.study_block import layout_of, run_block
 from tests.stores import packed, target
 
 PARAMETERS = {"clearance": 5e-4, "friction": 0.1, "stiffness": 5e9}
@@ -49,20 +46,20 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def write(study: Study, folder: Path) -> Path:
     for index in range(len(study.blocks)):
         assert run_block(study, index, folder).state == "succeeded"
-    assert seal_store(study, folder, target(folder)).state == "succeeded"
+    seal(folder, layout_of(study), target(folder))
     return packed(folder)
 
 
-def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress[str]], Answer]:
+def after(slices: int, answer: Answer, names: list[str]) -> Callable[[Progress], Answer]:
     """Let so many slices pass, then take a restart point and give an answer."""
     seen = 0
 
-    def report(progress: Progress[str]) -> Answer:
+    def report(progress: Progress) -> Answer:
         nonlocal seen
         seen += 1
         if seen <= slices:
             return Answer.go_on
-        names.append(progress.restart_point())
+        names.append(progress.keep()[0])
         return answer
 
     return report
@@ -101,14 +98,14 @@ def test_a_study_is_readable_and_repeats_itself_from_its_job_file(
 def test_the_bits_do_not_depend_on_processes_or_the_order_of_blocks(
     study: Study, undisturbed: Path, tmp_path: Path
 ) -> None:
-    create_store(study, tmp_path / "store")
+    create(tmp_path / "store", layout_of(study))
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
         running = [
             pool.submit(run_block, study, index, tmp_path / "store")
             for index in reversed(range(len(study.blocks)))
         ]
         assert {run.result().state for run in running} == {"succeeded"}
-    seal_store(study, tmp_path / "store", target(tmp_path / "store"))
+    seal(tmp_path / "store", layout_of(study), target(tmp_path / "store"))
     assert packed(tmp_path / "store").read_bytes() == undisturbed.read_bytes()
 
 
@@ -132,7 +129,7 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
         assert run_block(study, index, folder, attempt=4, resume_from=resume_from) == Outcome(
             "succeeded", 0.0, 1.0
         )
-    seal_store(study, folder, target(folder))
+    seal(folder, layout_of(study), target(folder))
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
@@ -148,21 +145,21 @@ def test_a_restart_point_that_is_no_good_costs_time_only(
     assert (
         run_block(study, 1, folder, attempt=2, resume_from=("00001-a1", 0.1)).state == "succeeded"
     )
-    seal_store(study, folder, target(folder))
+    seal(folder, layout_of(study), target(folder))
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
 def test_a_block_that_is_done_is_not_computed_again(study: Study, tmp_path: Path) -> None:
     assert run_block(study, 1, tmp_path).state == "succeeded"
 
-    def report(progress: Progress[str]) -> str:
+    def report(progress: Progress) -> str:
         raise AssertionError("nothing is to be computed")
 
     assert run_block(study, 1, tmp_path, report=report, attempt=2).state == "succeeded"
 
 
 def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) -> None:
-    def report(progress: Progress[str]) -> Answer:
+    def report(progress: Progress) -> Answer:
         return Answer.cancel if progress.fraction > 0.4 else Answer.go_on
 
     outcome = run_block(study, 0, tmp_path, report=report)
@@ -175,7 +172,7 @@ def test_a_cancelled_block_keeps_what_it_computed(study: Study, tmp_path: Path) 
     found = reader.sections("slider7.x")
     assert np.isfinite(found).sum() == reader.counts.sum()
     with pytest.raises(IncompleteStudy):
-        seal_store(study, tmp_path, target(tmp_path))
+        seal(tmp_path, layout_of(study), target(tmp_path))
 
 
 def test_a_block_that_computes_too_long_fails_with_what_it_has(
@@ -217,6 +214,6 @@ def test_a_point_that_fails_leaves_the_others_standing(tmp_path: Path) -> None:
 
 def test_results_of_something_else_are_never_written_over(study: Study, tmp_path: Path) -> None:
     other = admitted(JOB | {"record": 31})
-    create_store(other, tmp_path)
+    create(tmp_path, layout_of(other))
     with pytest.raises(StoreExists):
         run_block(study, 0, tmp_path)

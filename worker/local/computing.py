@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.worker.local.folder import JOB_FILE, RUNNING, STORE, write_outcome
+from jointplay.worker.local.folder import JOB_FILE, OUTCOME_FILE, RUNNING, STORE
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
@@ -46,12 +46,14 @@ def compute(
     (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
     running, target = folder / RUNNING, StoredObject(Folder(str(folder)), STORE)
     if isinstance(admission, Study):
-        outcome = _study(admission, running, target, processes, report)
+        from jointplay.worker.local.study import compute_study
+
+        outcome = compute_study(admission, running, target, processes, report)
     else:
         outcome = _simulation(admission, running, target, report)
     if target.exists():
         shutil.rmtree(running)
-    write_outcome(folder, begun, outcome)
+    _write_outcome(folder, begun, outcome)
     return outcome
 
 
@@ -59,34 +61,24 @@ def _simulation(
     admission: "Admission", running: Path, target: StoredObject, report: Report
 ) -> "Outcome":
     report(0.0, "preparing the kernel")
-    from jointplay.worker.execute import Progress, RestartPoint, execute
+    from jointplay.worker.execute import Progress, execute
 
     with interruption() as asked_to_end:
 
-        def go_on(done: Progress[RestartPoint]) -> str:
+        def go_on(done: Progress) -> str:
             report(done.fraction, f"t = {done.time:.4g} s")
             return "cancel" if asked_to_end() else "continue"
 
         return execute(admission, running, target, report=go_on)
 
 
-def _study(
-    study: "Study", running: Path, target: StoredObject, processes: int | None, report: Report
-) -> "Outcome":
-    from jointplay.records.job import JobError
-    from jointplay.worker.execute import Outcome
-    from jointplay.worker.local.study import ProcessDied, compute
-
-    done = 0.0
-
-    def tell(fraction: float, note: str) -> None:
-        nonlocal done
-        done = fraction
-        report(fraction, note)
-
-    try:
-        complete = compute(study, running, target, processes, tell)
-    except ProcessDied as died:
-        sentence = died.__doc__ or ""
-        return Outcome("failed", 0.0, done, JobError("platform", "process-died", sentence))
-    return Outcome("succeeded" if complete else "cancelled", 0.0, done)
+def _write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
+    """Write beside the results how the run ended."""
+    document = {
+        "state": outcome.state,
+        "error": outcome.error and outcome.error.document(),
+        "started": begun.isoformat(),
+        "finished": datetime.now(UTC).isoformat(),
+        "progress": {"time": outcome.time, "fraction": outcome.fraction},
+    }
+    (folder / OUTCOME_FILE).write_text(json.dumps(document, indent=2) + "\n")

@@ -13,18 +13,15 @@ from jointplay.worker.local.interruption import interruption
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
     from jointplay.storage.places import StoredObject
-
-
-class ProcessDied(Exception):
-    """A process that computed a part of the study died; what others stored is kept."""
-
+    from jointplay.worker.execute import Outcome
 
 Report = Callable[[float, str], None]
+_DIED = "A process that computed a part of the study died; what others stored is kept."
 
 
-def compute(
+def compute_study(
     study: "Study", folder: Path, target: "StoredObject", processes: int | None, report: Report
-) -> bool:
+) -> "Outcome":
     """Compute a study into a store; what is computed does not depend on the processes.
 
     Parameters
@@ -42,29 +39,40 @@ def compute(
 
     Returns
     -------
-    bool
-        Whether the study came to its end; not if it was interrupted by Ctrl-C.  The store is
-        sealed then, otherwise it keeps what was computed.
-
-    Raises
-    ------
-    ProcessDied
-        One of the processes was ended from outside.
+    Outcome
+        The store is sealed if it is "succeeded", otherwise it keeps what was computed: "cancelled"
+        by Ctrl-C, or "failed" because one of the processes was ended from outside.
     """
-    from jointplay.worker.study_block import create_store, seal_store
+    from jointplay.records.job import JobError
+    from jointplay.storage.studies.store import create, seal
+    from jointplay.worker.execute import Outcome
+    from jointplay.worker.study_block import layout_of
+
+    done = 0.0
+
+    def tell(fraction: float, note: str) -> None:
+        nonlocal done
+        done = fraction
+        report(fraction, note)
 
     wanted = min(processes or cores(), len(study.blocks))
     report(0.0, "preparing the kernels")
-    create_store(study, folder)
-    run = _here if wanted == 1 else _spread
-    if not run(study, folder, wanted, report):
-        return False
+    layout = layout_of(study)
+    create(folder, layout)
+    try:
+        complete = (
+            _here(study, folder, tell) if wanted == 1 else _spread(study, folder, wanted, tell)
+        )
+    except BrokenProcessPool:
+        return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
+    if not complete:
+        return Outcome("cancelled", 0.0, done)
     report(1.0, f"{study.points} of {study.points} points")
-    seal_store(study, folder, target)
-    return True
+    seal(folder, layout, target)
+    return Outcome("succeeded", 0.0, 1.0)
 
 
-def _here(study: "Study", folder: Path, count: int, report: Report) -> bool:
+def _here(study: "Study", folder: Path, report: Report) -> bool:
     """Compute all blocks in this process, one after the other."""
     from jointplay.worker.execute import Progress
     from jointplay.worker.study_block import run_block
@@ -72,7 +80,7 @@ def _here(study: "Study", folder: Path, count: int, report: Report) -> bool:
     with interruption() as asked_to_end:
         for index, (first, count) in enumerate(study.blocks):
 
-            def go_on(done: Progress[str], first: int = first, count: int = count) -> str:
+            def go_on(done: Progress, first: int = first, count: int = count) -> str:
                 ended = first + done.watermark
                 fraction = (first + count * done.fraction) / study.points
                 report(fraction, f"{ended} of {study.points} points")
@@ -100,8 +108,6 @@ def _spread(study: "Study", folder: Path, count: int, report: Report) -> bool:
             return pool.make(calls, show) == ["succeeded"] * len(calls)
         except Interrupted:
             return False
-        except BrokenProcessPool:
-            raise ProcessDied from None
 
 
 @lru_cache(maxsize=1)
@@ -117,7 +123,7 @@ def _block(job: str, folder: str, index: int, advance: Advance) -> str:
     from jointplay.worker.execute import Progress
     from jointplay.worker.study_block import run_block
 
-    def go_on(done: Progress[str]) -> str:
+    def go_on(done: Progress) -> str:
         return "continue" if advance(done.fraction, done.watermark) else "cancel"
 
     return run_block(_study(job), index, Path(folder), report=go_on).state
