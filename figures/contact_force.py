@@ -48,18 +48,15 @@ def _sample_step(source: Source, selection: Selection) -> float:
     first, last = sampling.window(source, selection)
     if last - first < 2:
         return np.inf
-    (ends,) = [time for time, _ in source.blocks([], first, first + 1)]
-    begin = float(ends[0])
-    (ends,) = [time for time, _ in source.blocks([], last - 1, last)]
-    return (float(ends[0]) - begin) / (last - first - 1)
+    begin, end = (sampling.time_of(source, index) for index in (first, last - 1))
+    return (end - begin) / (last - first - 1)
 
 
 def _between_samples(
     source: Source, joint: str, selection: Selection, step: float
 ) -> tuple[Floats, Floats]:
     """Give onset [s] and peak force [N] of the contacts that samples cannot resolve."""
-    rows = source.impacts()
-    rows = rows[rows["joint"] == list(source.joints).index(joint)]
+    rows = sampling.impacts_of(source, joint)
     rows = rows[inside(rows["onset"], selection.start, selection.stop)]
     rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
     rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]

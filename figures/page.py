@@ -3,11 +3,10 @@
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
-
-from jointplay.figures import tick_labels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes
@@ -59,6 +58,8 @@ MOST_VECTOR_MARKS: Final = 4000
 """The same for marks that stand alone; each takes ten times the bytes."""
 
 _LONGEST_LABEL: Final = 20
+_GAP: Final = 2.0
+"""Least space between two numbers along an axis [pt]."""
 _MILLIMETRES_AN_INCH: Final = 25.4
 _STYLE: Final = Path(__file__).with_name("journal.mplstyle")
 _METADATA: Final[dict[Form, dict[str, str | None]]] = {
@@ -192,7 +193,7 @@ def save(figure: Figure, form: Form) -> bytes:
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    tick_labels.spread(figure)
+    _spread_numbers(figure)
     buffer = io.BytesIO()
     if form == "png":
         figure.set_dpi(DOTS_PER_INCH)
@@ -201,3 +202,38 @@ def save(figure: Figure, form: Form) -> bytes:
     else:
         figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=_METADATA[form])
     return buffer.getvalue()
+
+
+def _spread_numbers(figure: Figure) -> None:
+    """Leave out every second number of a horizontal axis where they would touch, however long.
+
+    Only a page that is laid out tells: numbers such as 0.49925 are wider than their count lets
+    expect. The layout then stays as it is, for it takes as long as drawing.
+    """
+    from matplotlib.ticker import FixedLocator
+
+    engine = figure.get_layout_engine()
+    if engine is None:
+        return
+    engine.execute(figure)
+    gap = _GAP * figure.dpi / 72.0
+    for axes in figure.axes:
+        while len(places := _crowded(axes.xaxis, gap)) > 1:
+            axes.xaxis.set_major_locator(FixedLocator(places[::2]))
+            engine.execute(figure)
+    figure.set_layout_engine("none")
+
+
+def _crowded(axis: Axis, gap: float) -> list[float]:
+    """Give the places of an axis's numbers if two of them touch, else none."""
+    axis.get_tightbbox(None)  # brings the numbers up to date with the page
+    low, high = sorted(axis.get_view_interval())
+    shown = sorted(
+        (box.x0, box.x1, float(tick.get_loc()))
+        for tick in axis.get_major_ticks()
+        for label in (tick.label1, tick.label2)
+        if low <= tick.get_loc() <= high and label.get_visible() and label.get_text()
+        for box in (label.get_window_extent(),)
+    )
+    touch = any(right[0] - left[1] < gap for left, right in pairwise(shown))
+    return [place for _, _, place in shown] if touch else []

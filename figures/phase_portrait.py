@@ -5,7 +5,6 @@ from typing import NamedTuple
 from jointplay.figures import page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
-from jointplay.records.arrays import Floats
 from jointplay.records.run import Source, inside
 
 _PANEL_HEIGHT = 38.0  # mm
@@ -62,7 +61,9 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
         time, path = sampling.path(source, panel.joint, panel.names, selection)
     else:
         time, path = sampling.in_a_plane(source, panel.names, selection)
-    points = _sections(source, panel.names, selection)
+    moments, columns = source.sections(panel.names)
+    within = inside(moments, selection.start, selection.stop)
+    points = {name: columns[name][within] for name in panel.names}
     across, up = (
         scale(scene_facts.channel(source, name).unit, path[name], points[name])
         for name in panel.names
@@ -89,13 +90,6 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
     axes.set_xlabel(across.label(panel.labels[0]))
     axes.set_ylabel(up.label(panel.labels[1]))
     page.corner_text(axes, f"joint {panel.joint}" if panel.joint else "")
-
-
-def _sections(source: Source, names: tuple[str, str], selection: Selection) -> dict[str, Floats]:
-    """Give the Poincare points inside the window of time."""
-    time, points = source.sections(names)
-    shown = inside(time, selection.start, selection.stop)
-    return {name: points[name][shown] for name in names}
 
 
 PHASE_PORTRAIT = RunFigure(

@@ -1,9 +1,10 @@
 """Values for the screen: as many as a figure can show, smooth between samples where they may be."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.arrays import Flags, Floats
@@ -60,8 +61,19 @@ def joined(source: Source, names: Sequence[str], first: int, last: int) -> Colum
 def beginning(source: Source, time: Floats, selection: Selection) -> str:
     """Say from when on a curve in a plane is drawn, if not from the beginning of the window."""
     first, _ = window(source, selection)
-    ((begin, _),) = source.blocks([], first, first + 1)
-    return f" from {time[0]:.4g} s" if time[0] > begin[0] else ""
+    return f" from {time[0]:.4g} s" if time[0] > time_of(source, first) else ""
+
+
+def time_of(source: Source, sample: int) -> float:
+    """Give the time [s] of one sample."""
+    ((time, _),) = source.blocks([], sample, sample + 1)
+    return float(time[0])
+
+
+def impacts_of(source: Source, joint: str) -> NDArray[Any]:
+    """Give the contacts of one joint, of dtype `records.impact.IMPACT`."""
+    rows = source.impacts()
+    return np.asarray(rows[rows["joint"] == list(source.joints).index(joint)])
 
 
 def _extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
@@ -124,8 +136,7 @@ def _rate_of(position: str) -> str:
 
 def _quiet(source: Source, joint: str, time: Floats) -> Flags:
     """Tell of each interval between samples whether no contact begins or ends in it."""
-    rows = source.impacts()
-    rows = rows[rows["joint"] == list(source.joints).index(joint)]
+    rows = impacts_of(source, joint)
     quiet = np.ones(len(time) - 1, dtype=bool)
     for events in (rows["onset"], rows["release"]):
         inside = events[(events >= time[0]) & (events < time[-1])]
