@@ -18,6 +18,7 @@ COPY scenes scenes
 COPY storage storage
 COPY worker worker
 COPY service service
+COPY chaos chaos
 COPY jointplay jointplay
 COPY records records
 COPY figures figures

@@ -29,6 +29,7 @@ COMMANDS: Final = (
     "compare",
     "cite",
     "openapi",
+    "chaos",
 )
 """In the order of the help; each is the function of this name in the file of this name."""
 

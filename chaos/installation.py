@@ -1,0 +1,129 @@
+"""A whole service in a folder of its own, made to be broken."""
+
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+from pathlib import Path
+from typing import Final
+
+from jointplay.chaos import inside
+from jointplay.chaos.processes import Process, kill, running
+from jointplay.service.processes import StartFailed
+from jointplay.storage.settings import Settings
+
+LEASE: Final = 8.0
+"""Seconds; eight heartbeats, of which a busy machine may swallow some."""
+_SETTINGS: Final = {
+    "JOINTPLAY_LEASE": f"{LEASE:g}",
+    "JOINTPLAY_HEARTBEAT": "1",
+    "JOINTPLAY_PROGRESS_PERIOD": "0.5",
+    "JOINTPLAY_REAPER_PERIOD": "0.5",
+    "JOINTPLAY_REPUBLISH_AFTER": "5",
+    "JOINTPLAY_MAX_ATTEMPTS": "50",  # so many faults in a row are not the job's
+    "JOINTPLAY_RESERVE": f"{2**23}",
+}
+_STOP_PATIENCE = 60.0  # s
+
+
+class Installation:
+    """Broker, API, relay and workers on a data folder of their own.
+
+    Parameters
+    ----------
+    folder
+        Absolute; is there, and empty but for a file system of its own, if any, at `data`.
+    workers
+        How many blocks are computed at a time.
+    """
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        self.folder = folder
+        self.data = folder / "data"
+        self.settings = Settings(
+            data=self.data,
+            catalogue_url="",
+            results_url="",
+            redis_url=None,
+            lease=LEASE,
+            heartbeat=1.0,
+        )
+        self.broker_url = f"unix://{self.data / 'broker' / 'redis.sock'}"
+        self.url = ""
+        self._workers = workers
+        self._service: subprocess.Popen[bytes] | None = None
+        self.set_clock(0.0)
+        (folder / inside.SYNCED).touch()
+        modules = folder / "modules"
+        modules.mkdir()
+        shutil.copy(inside.__file__, modules / "sitecustomize.py")
+
+    def start(self) -> None:
+        """Start the service, on what an earlier one left; StartFailed if it does not answer."""
+        log = self.folder / "supervisor.log"
+        command = [sys.executable, "-P", "-m", "jointplay.service.processes"]
+        command += ["--data", str(self.data), "--workers", str(self._workers)]
+        with log.open("ab") as messages:
+            self._service = subprocess.Popen(  # noqa: S603 - our own program
+                command,
+                stdin=subprocess.PIPE,  # its end tells the service of ours
+                stdout=subprocess.PIPE,
+                stderr=messages,
+                env=self._environment(),
+                process_group=0,
+            )
+        answer = self._service.stdout.readline() if self._service.stdout else b""
+        self.url = answer.decode().strip()
+        if not self.url:
+            raise StartFailed(log.read_text(errors="replace").strip())
+
+    def _environment(self) -> dict[str, str]:
+        ours = {
+            name: value
+            for name, value in os.environ.items()
+            if not name.startswith("JOINTPLAY_") or name == "JOINTPLAY_CACHE"
+        }
+        ours[inside.FOLDER_VARIABLE] = str(self.folder)
+        ours["PYTHONPATH"] = str(self.folder / "modules")
+        return ours | _SETTINGS
+
+    def stop(self) -> None:
+        """Stop the service as its user would; what is still there a minute later is killed."""
+        if self._service is None:
+            return
+        self._service.send_signal(signal.SIGTERM)
+        try:
+            self._service.wait(_STOP_PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.kill()
+
+    def kill(self, *roles: str) -> None:
+        """Kill the processes of some roles, or all."""
+        kill(self.folder, *roles)
+        if self._service is not None and (not roles or "supervisor" in roles):
+            self._service.wait()
+
+    def running(self, *roles: str) -> list[Process]:
+        """Return the processes of these roles that run, or all."""
+        return running(self.folder, *roles)
+
+    @property
+    def alive(self) -> bool:
+        """Whether its supervisor runs."""
+        return self._service is not None and self._service.poll() is None
+
+    def set_clock(self, ahead: float) -> None:
+        """Have the clock of its processes be ahead of the true time [s], at once."""
+        with (self.folder / inside.CLOCK).open("r+b" if self._has_clock() else "wb") as clock:
+            clock.write(struct.pack("d", ahead))
+
+    def _has_clock(self) -> bool:
+        return (self.folder / inside.CLOCK).exists()
+
+    def synced_sizes(self) -> dict[int, int]:
+        """Return how much of each file was synced at its last time, bytes by inode."""
+        lines = (self.folder / inside.SYNCED).read_text().split("\n")
+        pairs = [line.split() for line in lines if line]
+        return {int(inode): int(size) for inode, size in pairs}

@@ -1,0 +1,44 @@
+"""A campaign in a process of its own, which has a small disk of its own where it can."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from jointplay.chaos.faults import FAULTS
+from jointplay.chaos.report import Report
+from jointplay.service.processes import StartFailed
+
+
+def names() -> list[str]:
+    """Return the names of all faults."""
+    return list(FAULTS)
+
+
+def carry_out(
+    folder: Path, *, seed: int, duration: float, faults: Sequence[str], workers: int
+) -> Report:
+    """Run a campaign in a folder, which is there and empty, and return its report.
+
+    Raises
+    ------
+    StartFailed
+        It broke off; its own words are on stderr.
+    """
+    plan = {
+        "folder": str(folder),
+        "seed": seed,
+        "duration": duration,
+        "faults": list(faults),
+        "workers": workers,
+    }
+    command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
+    done = subprocess.run(  # noqa: S603 - our own program
+        command, stdout=subprocess.PIPE, check=False
+    )
+    if done.returncode != 0:
+        raise StartFailed(f"the campaign broke off; what it left is in {folder}")
+    report = Report.of_document(json.loads(done.stdout))
+    report.kept = str(folder)
+    return report
