@@ -1,6 +1,8 @@
 """One campaign: a service, a user, faults by a schedule, and the checks at the end."""
 
+import os
 import random
+import shutil
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -16,7 +18,8 @@ from jointplay.chaos.report import Report, Struck
 from jointplay.chaos.schedule import Strike, schedule
 from jointplay.chaos.undisturbed import undisturbed
 from jointplay.chaos.user import User
-from jointplay.storage.catalogue import Catalogue, CatalogueError
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import CatalogueError
 
 _STUCK = 240.0  # s without any change of any job, after which it is given up
 _AHEAD = 3  # open jobs for each block that is computed at a time
@@ -64,6 +67,9 @@ def campaign(
     report.answers = user.history.answers
     _count(installation, user.history, report)
     report.wrong += wrongs(installation, user.history, expected)
+    if report.wrong and os.path.ismount(installation.data):  # that disk goes with this process
+        kept = folder / "data-as-it-was"
+        shutil.copytree(installation.data, kept, ignore=shutil.ignore_patterns("*.sock"))
     return report
 
 

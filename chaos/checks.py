@@ -7,7 +7,9 @@ from typing import Final
 from jointplay.chaos.history import History, Submission
 from jointplay.chaos.installation import Installation
 from jointplay.chaos.undisturbed import files_of
-from jointplay.storage.catalogue import Catalogue, CatalogueError, Job, JobState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import CatalogueError
+from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.packed import Packed

@@ -10,6 +10,9 @@ from jointplay.chaos.faults import FAULTS
 from jointplay.chaos.report import Report
 from jointplay.service.processes import StartFailed
 
+_DISK = 2**28
+"""Bytes of a disk that is to be full."""
+
 
 def names() -> list[str]:
     """Return the names of all faults."""
@@ -34,6 +37,8 @@ def carry_out(
         "workers": workers,
     }
     command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
+    if "disk-full" in faults:
+        command = _with_a_small_disk(folder / "data", command)
     done = subprocess.run(  # noqa: S603 - our own program
         command, stdout=subprocess.PIPE, check=False
     )
@@ -42,3 +47,19 @@ def carry_out(
     report = Report.of_document(json.loads(done.stdout))
     report.kept = str(folder)
     return report
+
+
+def _with_a_small_disk(data: Path, command: list[str]) -> list[str]:
+    """Return the command that sees a small file system of its own at `data`, if it can have one.
+
+    It needs root, or a system that lets users make name spaces; the disk goes with the command.
+    """
+    alone = ["unshare", "--map-root-user", "--mount", "--"]
+    mounting = f"mount -t tmpfs -o size={_DISK} jointplay-chaos"
+    inside = [*alone, "sh", "-ec", f'{mounting} "$0"; exec "$@"', str(data)]
+    data.mkdir()
+    try:
+        subprocess.run([*inside, "true"], check=True, capture_output=True)  # noqa: S603
+    except (OSError, subprocess.CalledProcessError):
+        return command
+    return [*inside, *command]

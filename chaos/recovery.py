@@ -2,7 +2,9 @@
 
 import time
 
-from jointplay.storage.catalogue import Block, BlockState, Catalogue, JobState, Unavailable
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import Block, BlockState, JobState
 
 PATIENCE = 180.0
 """Seconds after which a block that does not go on is given up; no fault's trace lasts so long."""

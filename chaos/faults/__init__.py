@@ -2,9 +2,16 @@
 
 from typing import Final
 
+from jointplay.chaos.faults.broker_wiped import BrokerWiped
+from jointplay.chaos.faults.catalogue_locked import CatalogueLocked
+from jointplay.chaos.faults.clock_set import ClockSet
+from jointplay.chaos.faults.damaged import Damaged
+from jointplay.chaos.faults.disk_full import DiskFull
 from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.faults.killed import Killed
+from jointplay.chaos.faults.power_lost import PowerLost
 from jointplay.chaos.faults.stopped import Stopped
+from jointplay.chaos.faults.wake_ups import WakeUps
 from jointplay.chaos.processes import ROLES
 
 FAULTS: Final[dict[str, Fault]] = {
@@ -12,6 +19,13 @@ FAULTS: Final[dict[str, Fault]] = {
     "all-killed": Killed(),
     **{f"{role}-stopped": Stopped(role) for role in ROLES},
     "all-stopped": Stopped(),
+    "power-lost": PowerLost(),
+    "broker-wiped": BrokerWiped(),
+    "catalogue-locked": CatalogueLocked(),
+    "disk-full": DiskFull(),
+    "damaged": Damaged(),
+    "clock-set": ClockSet(),
+    "wake-ups": WakeUps(),
 }
 """By name; the names are those of `jointplay chaos --fault`."""
 

@@ -1,0 +1,30 @@
+"""A clock that is set: an hour ahead or back, and right again."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from random import Random
+
+from jointplay.chaos.installation import Installation
+
+_MOST = 3600.0  # s; idempotency keys live longer
+
+
+@dataclass(frozen=True)
+class ClockSet:
+    """`time.time` of every Python process of the service, and no other clock, jumps."""
+
+    lasts: tuple[float, float] = (5.0, 20.0)
+
+    def hindrance(self, installation: Installation) -> str | None:
+        """Return none: it can be done everywhere."""
+        return None
+
+    @contextmanager
+    def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
+        """Set the clock, and set it right."""
+        installation.set_clock(drawn.choice((-_MOST, _MOST)))
+        try:
+            yield
+        finally:
+            installation.set_clock(0.0)
