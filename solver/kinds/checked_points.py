@@ -13,7 +13,6 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Integers
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
-from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds.job import MechanismJob
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
 from jointplay.solver.kinds.mechanism import Echo, check, declared, with_parameters
@@ -170,7 +169,7 @@ def _check_mechanisms(
 
 
 def _check_mechanism(job: MechanismJob, scene: Scene, *, new: bool) -> None:
-    tree, assembly = check(scene)
+    _, assembly = check(scene, job.formulation if new else None)
     if assembly.freedom_with_play == 0:
         raise InvalidInput.at(
             "/scene",
@@ -178,8 +177,6 @@ def _check_mechanism(job: MechanismJob, scene: Scene, *, new: bool) -> None:
             " to integrate. Give a joint a positive clearance; a job of kind 'simulate'"
             " runs the ideal mechanism.",
         )
-    if new:
-        check_length(scene, tree, job.formulation)
     channels(scene)
 
 

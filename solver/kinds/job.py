@@ -24,7 +24,7 @@ ACCURACIES: dict[Accuracy, tuple[str, float]] = {
 
 ChannelPattern = Annotated[str, Field(min_length=1, max_length=80)]
 ChannelChoice = Annotated[
-    list[ChannelPattern], Field(min_length=1, max_length=1024, description="names or globs")
+    list[ChannelPattern], Field(min_length=1, max_length=4096, description="names or globs")
 ]
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
+from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds.job import MechanismJob, PresetScene
 from jointplay.solver.mechanics.assembly import (
     ASSEMBLED,
@@ -83,15 +84,20 @@ def with_parameters(
     return found, filled, echo
 
 
-def check(scene: Scene) -> tuple[Tree, Assembly]:
+def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]:
     """Return a scene's spanning tree and assembly once it can be simulated.
 
     Raises
     ------
+    LimitExceeded
+        Its equations in this formulation, if one is given, are too long to compile.
     InvalidInput
         Redundant constraints, an assembly that cannot close, loops that stay closed.
     """
-    tree, assembly = spanning_tree(scene), assemble(scene)
+    tree = spanning_tree(scene)
+    if formulation is not None and tree.coordinates and not tree.closing:
+        check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer
+    assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
     if assembly.constraints > coordinates:
         raise InvalidInput.at(

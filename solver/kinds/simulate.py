@@ -7,7 +7,6 @@ from pydantic import Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.failure import LimitExceeded, Problem
-from jointplay.solver.kernels.record.equations import check_length
 from jointplay.solver.kinds import documents, limits
 from jointplay.solver.kinds.job import ChannelChoice, Job
 from jointplay.solver.kinds.kind import Kind
@@ -68,10 +67,8 @@ class Simulate(Kind[SimulateJob]):
     def admit(self, job: SimulateJob) -> Admission:
         """Check and fill in; see `Kind.admit`."""
         scene, scene_document, echo = resolve(job)
-        tree, assembly = check(scene)
+        _, assembly = check(scene, job.formulation)
         moves = assembly.freedom_with_play > 0
-        if moves:
-            check_length(scene, tree, job.formulation)
         selected = select(channels(scene), list(job.channels), "/channels")
         chosen(job)
         filled = documents.filled(

@@ -17,6 +17,8 @@ from jointplay.solver.scene.references import ends, has_play
 RANK_TOLERANCE = 1e-9
 """Singular values below this share of the largest count as zero (rows scaled by length)."""
 MOST_ITERATIONS = 200
+ROUNDING = 1e-16
+"""Steps, for each coordinate, below which Newton's iteration only repeats its rounding."""
 LARGEST_TURN = 0.5
 """Largest turn of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
@@ -172,7 +174,7 @@ def _assembled(scene: Scene) -> Assembly:
         # a turn of more than half a radian would lead to another assembly; positions follow
         turn = float(np.abs(step[~positions]).max())
         pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
-        if float(np.abs(step).max()) < 1e-15:
+        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
             break
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 

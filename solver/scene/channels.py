@@ -36,6 +36,9 @@ PLAY = (
 )
 ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
 
+MOST_GLOBS, MOST_UNKNOWN = 256, 32
+"""Patterns that are matched, and wrong ones that are named: each is compared with all channels."""
+
 
 @per_structure
 def channels(scene: Scene) -> tuple[Channel, ...]:
@@ -92,17 +95,27 @@ def select(offered: tuple[Channel, ...], patterns: list[str], pointer: str) -> t
     Raises
     ------
     InvalidInput
-        A pattern that chooses nothing.
+        A pattern that chooses nothing, or more than `MOST_GLOBS` patterns that are no names.
     """
     names = [channel.name for channel in offered]
-    chosen: set[str] = set()
+    known, chosen = set(names), set[str]()
     problems = []
+    globs = 0
     for index, pattern in enumerate(patterns):
+        if pattern in known:
+            chosen.add(pattern)
+            continue
+        globs += 1
         matched = names if pattern == "*" else [n for n in names if fnmatchcase(n, pattern)]
         chosen.update(matched)
+        if globs > MOST_GLOBS:
+            sentence = f"At most {MOST_GLOBS} of the channels may be patterns; give names instead."
+            raise InvalidInput.at(pointer, sentence)
         if not matched:
             sentence = unknown("channel", pattern, names)
             problems.append(Problem(f"{pointer}/{index}", sentence))
+            if len(problems) == MOST_UNKNOWN:
+                break
     if problems:
         raise InvalidInput(problems)
     return tuple(channel for channel in offered if channel.name in chosen)

@@ -73,7 +73,7 @@ class Recorder:
         key = (operation, *(e.index for e in ordered), data)
         found = self._nodes.get(key)
         if found is None:
-            if len(self._nodes) >= 4 * MOST_STATEMENTS:
+            if len(self._nodes) >= 2 * MOST_STATEMENTS:  # of which a third may never be used
                 raise too_many(len(self._nodes))
             found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
             self._nodes[key] = found
