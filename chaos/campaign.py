@@ -21,7 +21,7 @@ from jointplay.chaos.user import User
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError
 
-_STUCK = 240.0  # s without any change of any job, after which it is given up
+_STUCK = 180.0  # s without any change of any job, after which it is given up
 _AHEAD = 3  # open jobs for each block that is computed at a time
 
 Tell = Callable[[str], None]

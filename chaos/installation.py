@@ -1,5 +1,6 @@
 """A whole service in a folder of its own, made to be broken."""
 
+import json
 import os
 import shutil
 import signal
@@ -75,9 +76,9 @@ class Installation:
                 process_group=0,
             )
         answer = self._service.stdout.readline() if self._service.stdout else b""
-        self.url = answer.decode().strip()
-        if not self.url:
+        if not answer:
             raise StartFailed(log.read_text(errors="replace").strip())
+        self.url = json.loads(answer)["url"]
 
     def _environment(self) -> dict[str, str]:
         ours = {
