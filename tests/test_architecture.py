@@ -31,6 +31,12 @@ def test_no_module_is_named_for_what_found_no_home():
     assert [relative(path) for path in SOURCES if path.stem in homeless] == []
 
 
+def test_all_tests_can_be_collected_at_once() -> None:
+    """Files of tests are modules without a package, of which two cannot have one name."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert sorted(names) == sorted(set(names))
+
+
 def test_every_package_says_what_it_is_for():
     silent = [
         relative(path)
