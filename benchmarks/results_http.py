@@ -160,8 +160,8 @@ def main() -> None:
                 store = HTTPStore(wide, client_options={"allow_http": True})
                 return zarr.open_group(ObjectStore(store, read_only=True), mode="r")
 
-            opened(http, "xarray, 95 channels", lambda: xarray.open_zarr(wide))
-            opened(http, "zarr and obstore, 95 channels", through_obstore)
+            opened(http, "xarray, 96 channels", lambda: xarray.open_zarr(wide))
+            opened(http, "zarr and obstore, 96 channels", through_obstore)
             opened(http, "xarray, 2 channels", lambda: xarray.open_zarr(long))
             array = zarr.open_group(long, mode="r")["slider7.x"]
             timed("slice of 1000 samples, zarr", lambda: array[5_000_000:5_001_000])

@@ -74,7 +74,7 @@ def default_history(folder: Path) -> None:
         reader.history()
         read = perf_counter()
         for name, cost in (
-            ("create (95 channels: documents of the groups)", created - begin),
+            ("create (96 channels: documents of the groups)", created - begin),
             ("append 2001 samples", appended - created),
             ("seal into one file, fsynced", sealed - appended),
             ("open for reading", opened - sealed),

@@ -12,6 +12,7 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
+from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Scene
 from jointplay.solver.scene.references import ends, has_play
 
@@ -172,12 +173,14 @@ class AbsoluteMechanism:
 
     def reactions(
         self, rows: list[Row], multipliers: list[Scalar]
-    ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
-        """Return -Φ_qᵀ λ: the force on each joint's second body, N, each driver's effort, N m or N.
+    ) -> tuple[dict[str, Pair], dict[str, Scalar], dict[str, Scalar]]:
+        """Return -Φ_qᵀ λ: force and held moment on each joint's second body, and drivers' efforts.
 
-        multipliers : λ of each row.
+        Forces in N and moments in N m by joint, efforts in N m or N by driver; the moment is that
+        of joints which hold an angle, about the second body's point. multipliers : λ of each row.
         """
         forces: dict[str, Pair] = {}
+        moments: dict[str, Scalar] = {}
         efforts: dict[str, Scalar] = {}
         for row, multiplier in zip(rows, multipliers, strict=True):
             joint = self.scene.joints[row.joint]
@@ -195,7 +198,9 @@ class AbsoluteMechanism:
                 "angle" if joint.type == "revolute" else "along"
             ):
                 efforts[driver] = -multiplier
-        return forces, efforts
+            if row.part == "angle" and joint.type in HOLDING:
+                moments[row.joint] = -multiplier
+        return forces, moments, efforts
 
     def axis(self, joint: Prismatic, guide: Marker) -> Pair:
         """Return the guide's unit axis in world components."""

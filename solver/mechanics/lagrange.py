@@ -51,11 +51,11 @@ class LagrangeMechanism:
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)
         bodies = body_motions(self.constraints.bodies, self.q, self.v, accelerations)
-        joint_force, efforts = self.constraints.reactions(rows, multipliers)
+        joint_force, held, efforts = self.constraints.reactions(rows, multipliers)
         for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
-        return Motion(accelerations, bodies, forces, joint_force, efforts, speeds)
+        return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
 
     def _ends(self, first: str, second: str) -> Ends:
         return self.constraints.ends((first, second), self.q, self.v)

@@ -69,6 +69,7 @@ class Motion:
 
     `accelerations` : one per coordinate of the formulation, in the order of its state.
     `joint_force` : force on a joint's second body (journal, slider, part), N, world components.
+    `held_moment` : moment on it, about its point, of joints that hold an angle, N m.
     `driver_effort` : torque (N m) or force (N) of each driver along its motion; `driver_speed`.
     """
 
@@ -76,6 +77,7 @@ class Motion:
     bodies: dict[str, BodyMotion]
     forces: Forces
     joint_force: dict[str, Pair]
+    held_moment: dict[str, Scalar]
     driver_effort: dict[str, Scalar]
     driver_speed: dict[str, Scalar]
 

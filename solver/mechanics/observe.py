@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.channels import BODY, JOINT, PLAY
+from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY
 from jointplay.solver.scene.document import Scene
 
 
@@ -15,6 +15,8 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
         values |= _named(name, BODY, body_values(body))
     for name, force in motion.joint_force.items():
         values |= _named(name, JOINT, force)
+    for name, moment in motion.held_moment.items():
+        values |= _named(name, HELD, (moment,))
     for name, found in motion.contacts.items():
         pairs = (*found.eccentricity, *found.eccentricity_rate)
         forces = (found.normal_force, found.friction_force, found.slip_velocity)

@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Scene
 
 Load = tuple[Scalar, Scalar, Scalar]
@@ -59,9 +60,10 @@ class ReducedMechanism:
         joint_force, moments = self._reactions(loads, bodies)
         for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
+        held = self._held_moments(joint_force, moments)
         efforts = self._efforts(joint_force, moments)
         speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
-        return Motion(accelerations, bodies, forces, joint_force, efforts, speeds)
+        return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
 
     def _ends(self, first: str, second: str) -> Ends:
         k = self.kinematics
@@ -200,6 +202,23 @@ class ReducedMechanism:
             forces[branch.joint] = (-x, -y) if branch.outward else (x, y)
             held[branch.joint] = -moments[branch.body]
         return forces, held
+
+    def _held_moments(
+        self, forces: Mapping[str, Pair], moments: Mapping[str, Scalar]
+    ) -> dict[str, Scalar]:
+        """Return the moment on the second body of joints that hold an angle, about its point."""
+        held: dict[str, Scalar] = {}
+        for branch in self.tree.branches:
+            if branch.kind not in HOLDING:
+                continue
+            moment = moments[branch.joint]
+            if not branch.outward:
+                moment = -moment
+                if branch.kind == "prismatic":  # the guide's point is elsewhere
+                    arm = self.kinematics.arm(branch.parent, branch.parent_point)
+                    moment = moment + cross(self._travel(branch, arm), forces[branch.joint])
+            held[branch.joint] = moment
+        return held
 
     def _efforts(
         self, forces: Mapping[str, Pair], moments: Mapping[str, Scalar]

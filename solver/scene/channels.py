@@ -24,6 +24,9 @@ JOINT = (
     ("force_x", "N", "force x on the joint's second body (journal, slider, part)"),
     ("force_y", "N", "force y on the joint's second body (journal, slider, part)"),
 )
+HOLDING = ("prismatic", "fixed")
+"""Types of joints that let no angle change."""
+HELD = (("moment", "N m", "moment on the joint's second body (slider, part) about its point"),)
 PLAY = (
     ("eccentricity_x", "m", "journal centre less bearing centre, x"),
     ("eccentricity_y", "m", "journal centre less bearing centre, y"),
@@ -60,6 +63,8 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
         add(body, "body", BODY)
     for name, joint in scene.joints.items():
         add(name, "joint", JOINT)
+        if joint.type in HOLDING:
+            add(name, "joint", HELD)
         if has_play(joint):
             add(name, "joint", PLAY)
             add(name, "joint", tuple((s.name, s.unit, s.long_name) for s in inner.get(name, ())))

@@ -124,7 +124,7 @@ def test_a_window_at_the_resolution_of_a_screen_keeps_the_extremes(client, finis
 
 
 def test_results_too_large_for_one_answer_come_whole(client, worker):
-    job_id = worker.finished(output_step=1e-4)  # 20 001 samples of 95 channels: 2 answers
+    job_id = worker.finished(output_step=1e-4)  # 20 001 samples of 96 channels: 2 answers
     history = client.job(job_id).window()
     time = np.linspace(0.0, 2.0, 20_001)
     np.testing.assert_array_equal(history.time, time)

@@ -112,18 +112,18 @@ def test_the_energy_ledger_is_part_of_the_result(http, worker, finished_job):
 
 
 def test_an_answer_too_large_is_refused_with_what_would_be_small_enough(http, worker):
-    job = worker.finished(output_step=1e-4)  # 20 001 samples of 95 channels
+    job = worker.finished(output_step=1e-4)  # 20 001 samples of 96 channels
     problem = get(http, f"/v1/jobs/{job}/history", 422)
     assert problem["type"] == "/problems/response-too-large"
-    assert "10416 samples (about 1.04 s)" in problem["detail"]
-    window = get(http, f"/v1/jobs/{job}/history", start=0.0, stop=1.04)
-    assert len(window["time"]["values"]) == 10_401
+    assert "10309 samples (about 1.03 s)" in problem["detail"]
+    window = get(http, f"/v1/jobs/{job}/history", start=0.0, stop=1.03)
+    assert len(window["time"]["values"]) == 10_301
     get(http, f"/v1/jobs/{job}/history", channels="slider7.*")
 
 
 def test_peaks_are_signed_and_have_times_and_units(http, finished_job):
     peaks = get(http, f"/v1/jobs/{finished_job}/peaks")["peaks"]
-    assert len(peaks) == 95
+    assert len(peaks) == 96
     assert peaks["slider7.ax"] == {
         "unit": "m/s^2",
         "minimum": -1.0,

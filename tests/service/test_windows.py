@@ -67,8 +67,8 @@ def test_a_number_of_points_that_makes_no_sense_is_refused(http, job, points):
 def test_too_many_points_of_too_many_channels_are_refused_with_how_many_there_may_be(http, job):
     problem = ask(http, job, status=422, points=20_000, channels="*").json()
     assert problem["type"] == "/problems/response-too-large"
-    assert problem["errors"] == [{"parameter": "points", "detail": "Ask for at most 5208 points."}]
-    assert len(ask(http, job, points=5208, channels="*").json()["extremes"]) == 95
+    assert problem["errors"] == [{"parameter": "points", "detail": "Ask for at most 5154 points."}]
+    assert len(ask(http, job, points=5154, channels="*").json()["extremes"]) == 96
 
 
 @pytest.mark.parametrize(

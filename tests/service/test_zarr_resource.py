@@ -28,7 +28,7 @@ def long_url(service_url, worker):
 def test_xarray_opens_the_history_lazily_with_units(url):
     history = xarray.open_zarr(url)
     assert history.sizes == {"sample": 2001}
-    assert len(history.data_vars) == 95
+    assert len(history.data_vars) == 96
     assert list(history.coords) == ["time"]
     assert history["slider7.vx"].attrs == {
         "units": "m/s",

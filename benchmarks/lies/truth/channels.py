@@ -151,8 +151,11 @@ def _reactions(
     forces: Floats,
     values: dict[str, Floats],
 ) -> None:
-    """Add the force on the second body of an ideal joint."""
+    """Add the force on the second body of an ideal joint, and the moment that holds its angle."""
     rows = named.rows[name]
+    if joint["type"] != "revolute":
+        turning = next(row for row in rows if named.mechanism.row[row, 0] == ANGLE)
+        values[f"{name}.moment"] = forces[:, turning]
     if joint["type"] != "prismatic":
         values[f"{name}.force_x"], values[f"{name}.force_y"] = (
             forces[:, rows[0]],
@@ -167,7 +170,6 @@ def _reactions(
     along = forces[:, rows[2]] if len(rows) > 2 else np.zeros(len(forces))
     values[f"{name}.force_x"] = -across * uy + along * ux
     values[f"{name}.force_y"] = across * ux + along * uy
-    assert named.mechanism.row[rows[1], 0] == ANGLE
 
 
 def _energies(scene: Mapping[str, Any], values: dict[str, Floats]) -> None:

@@ -74,9 +74,9 @@ class IdealMotion:
         shown = q.copy()
         shown[:, 2::3] += turned[:, 2::3]
         bodies = body_motions(self.mechanism.bodies, *map(_columns, (shown, v, a)))
-        forces, efforts = self.mechanism.reactions(rows, _columns(multipliers))
+        forces, held, efforts = self.mechanism.reactions(rows, _columns(multipliers))
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
-        return Motion(list(_columns(a)), bodies, acting, forces, efforts, speeds)
+        return Motion(list(_columns(a)), bodies, acting, forces, held, efforts, speeds)
 
     def _inertia_and_gravity(self, accelerations: Floats) -> Floats:
         """Return g - M q̈ of eq. (23), which the multipliers balance."""
