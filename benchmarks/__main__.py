@@ -17,7 +17,9 @@ ALL = (
     "platform",
     "submission",
     "latency",
+    "memory",
     "start",
+    "compilation",
     "results_store",
     "results_http",
 )

@@ -4,10 +4,14 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 MOST_LISTED = 12
+LONGEST = 100
+"""Characters of a name for which a nearest one is looked for: comparing takes their square."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return the question after the nearest known name, or nothing where none is near."""
+    if len(name) > LONGEST:
+        return ""
     names = list(known)
     near = [other for other in names if other.casefold() == name.casefold()] or (
         get_close_matches(name, names, n=1)

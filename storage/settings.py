@@ -65,6 +65,9 @@ class Settings(BaseSettings):
         86_400.0,
         description="A run, or a block of a study, that computes longer fails with what it has.",
     )
+    longest_compilation: Hour = Field(
+        600.0, description="A job whose equations take longer to compile has failed."
+    )
     reserve: int = Field(
         default=2**26,
         ge=0,

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.job import ErrorClass, JobError
+from jointplay.solver.kernels.watched import watched
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import BlockState, Claim, Verdict
@@ -119,7 +120,8 @@ class BlockRun:
             self._require_room()
             self._work = work_of(self._claim, self._settings)
             self._compiling.start()
-            return self._work.execute(self._report, self._lease.advanced)
+            with watched(self._while_compiling, self._settings.longest_compilation):
+                return self._work.execute(self._report, self._lease.advanced)
         except (Fenced, *PASSING):
             raise
         except InvalidInput as error:
@@ -173,6 +175,22 @@ class BlockRun:
             return Answer.go_on
         self._next_look = now + _LOOK
         return Answer.go_on if verdict is Verdict.go_on else Answer.cancel
+
+    def _while_compiling(self) -> Answer | None:
+        """Say whether code that is being compiled is unwanted, and why; None while it is wanted."""
+        self._lease.advanced()
+        if self._draining.is_set():
+            return Answer.leave
+        now = time.monotonic()
+        if now < self._next_look:
+            return None
+        self._next_look = now + _LOOK
+        try:
+            return None if self._lease.verdict() is Verdict.go_on else Answer.cancel
+        except PASSING as fault:
+            _log.warning("block %s goes on without a word: %s", self._block.id, fault)
+            self._next_look = now + _ASK_AGAIN
+            return None
 
     def _require_room(self) -> None:
         if self._settings.room() <= 0:

@@ -12,6 +12,11 @@ from typing import Any, Literal
 from jointplay.records.checkpoint import UnusableCheckpoint
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.records.job import ErrorClass, JobError
+from jointplay.solver.kernels.watched import (
+    CompilationEnded,
+    CompilationTooLong,
+    CompilationUnwanted,
+)
 from jointplay.solver.kinds import Admission
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
@@ -110,6 +115,11 @@ def execute(
     except InvalidInput as refused:
         writer.seal(target, peaks={}, summary={}, complete=False)
         return Outcome("failed", *begin, JobError("user", "invalid-input", str(refused)))
+    except CompilationEnded as ended:
+        outcome = uncompiled(ended, *begin)
+        if outcome.state != "left":
+            writer.seal(target, peaks={}, summary={}, complete=False)
+        return outcome
     outcome = _advance(simulation, longest, writer, folder, report, begin)
     if outcome.state == "left":
         return outcome
@@ -174,6 +184,8 @@ def _advance(
             error_class: ErrorClass = "limit" if failure.code in _LIMIT_CODES else "solver"
             error = JobError(error_class, failure.code, failure.detail, failure.time)
             return Outcome("failed", failure.time, fraction, error)
+        except CompilationEnded as ended:
+            return uncompiled(ended, time, fraction)
         if piece is None:
             return Outcome("succeeded", time, fraction)
         writer.append(
@@ -186,6 +198,14 @@ def _advance(
             piece.impacts,
         )
         time, fraction = piece.time, piece.fraction
+
+
+def uncompiled(ended: CompilationEnded, time: float, fraction: float) -> Outcome:
+    """Return the outcome of a block whose code was not compiled to its end."""
+    if isinstance(ended, CompilationTooLong):
+        return Outcome("failed", time, fraction, JobError("limit", ended.code, str(ended)))
+    left = isinstance(ended, CompilationUnwanted) and ended.answer is Answer.leave
+    return Outcome("left" if left else "cancelled", time, fraction)
 
 
 def layout_of(admission: Admission) -> ResultLayout:

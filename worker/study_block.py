@@ -9,6 +9,7 @@ from pathlib import Path
 from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
+from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
 from jointplay.solver.runs.study.outputs import OUTPUTS
@@ -21,7 +22,7 @@ from jointplay.storage.errors import ResultsError
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import create
-from jointplay.worker.execute import Answer, Outcome, Progress, Report
+from jointplay.worker.execute import Answer, Outcome, Progress, Report, uncompiled
 
 _log = logging.getLogger(__name__)
 
@@ -114,33 +115,52 @@ def run_block(
     create(folder, layout)
     if StudyBlock.done(folder, layout, index):
         return Outcome("succeeded", 0.0, 1.0)
-    block, carried, fraction = _begin(layout, index, folder, attempt, resume_from)
-    computation = computation_of(study, index, carried)
-    slices = computation.slices()
+    begin = _begin(layout, index, folder, attempt, resume_from)
+    return _compute(study, index, *begin, report, longest)
+
+
+def _compute(
+    study: Study,
+    index: int,
+    block: StudyBlock,
+    carried: bytes | None,
+    fraction: float,
+    report: Report,
+    longest: float,
+) -> Outcome:
+    """Compute a block from a restart point, or anew; see `run_block`."""
     steps = 0
     begun = time.monotonic()
+    try:
+        computation = computation_of(study, index, carried)
+        slices = computation.slices()
 
-    def keep() -> tuple[str, int]:
-        return block.flush(computation.checkpoint()), block.watermark
+        def keep() -> tuple[str, int]:
+            return block.flush(computation.checkpoint()), block.watermark
 
-    while True:
-        known = partial(int, steps)
-        answer = Answer(report(Progress(0.0, fraction, keep, known, block.watermark)))
-        if answer is Answer.leave:
-            return Outcome("left", 0.0, fraction)
-        if answer is Answer.cancel:
+        while True:
+            known = partial(int, steps)
+            answer = Answer(report(Progress(0.0, fraction, keep, known, block.watermark)))
+            if answer is Answer.leave:
+                return Outcome("left", 0.0, fraction)
+            if answer is Answer.cancel:
+                block.flush(b"")
+                return Outcome("cancelled", 0.0, fraction)
+            piece: StudySlice | None = next(slices, None)
+            if piece is None:
+                block.finish()
+                return Outcome("succeeded", 0.0, 1.0, statistics={"steps": steps})
+            block.take(piece)
+            if time.monotonic() - begun > longest and piece.fraction < 1.0:
+                block.flush(b"")
+                return Outcome("failed", 0.0, piece.fraction, _out_of_time(longest, piece.fraction))
+            steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
+            fraction = piece.fraction
+    except CompilationEnded as ended:
+        outcome = uncompiled(ended, 0.0, fraction)
+        if outcome.state != "left":
             block.flush(b"")
-            return Outcome("cancelled", 0.0, fraction)
-        piece: StudySlice | None = next(slices, None)
-        if piece is None:
-            block.finish()
-            return Outcome("succeeded", 0.0, 1.0, statistics={"steps": steps})
-        block.take(piece)
-        if time.monotonic() - begun > longest and piece.fraction < 1.0:
-            block.flush(b"")
-            return Outcome("failed", 0.0, piece.fraction, _out_of_time(longest, piece.fraction))
-        steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
-        fraction = piece.fraction
+        return outcome
 
 
 def _out_of_time(seconds: float, fraction: float) -> JobError:

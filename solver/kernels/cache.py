@@ -20,6 +20,7 @@ from types import ModuleType
 import numba
 
 from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
 
 
@@ -49,7 +50,10 @@ def cache_folder() -> Path:
 
 
 def load(source: str) -> ModuleType:
-    """Import generated source under the name of its digest; compiled once, then from the cache."""
+    """Import generated source under the name of its digest; compiled once, then from the cache.
+
+    Raises what `watched` does, where somebody watches.
+    """
     name = f"jointplay_kernel_{hashlib.sha256(source.encode()).hexdigest()[:24]}"
     if name in sys.modules:
         return sys.modules[name]
@@ -58,6 +62,19 @@ def load(source: str) -> ModuleType:
         with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False) as partial:
             partial.write(source)
         os.replace(partial.name, path)
+    if not is_compiled(path):
+        compile_if_watched(path)
+    return load_file(path)
+
+
+def is_compiled(path: Path) -> bool:
+    """Return whether all functions of a generated file have once been compiled."""
+    return _mark(path).exists()
+
+
+def load_file(path: Path) -> ModuleType:
+    """Import a generated file; what is not in the cache is compiled here."""
+    name = path.stem
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:
         raise ImportError(f"cannot load {path}")
@@ -69,7 +86,13 @@ def load(source: str) -> ModuleType:
     except BaseException:
         del sys.modules[name]
         raise
+    if not is_compiled(path):
+        _mark(path).touch()
     return module
+
+
+def _mark(path: Path) -> Path:
+    return path.with_suffix(".compiled")
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.loop.advance import advance
 from jointplay.solver.kernels.loop.dense_rows import observe_rows
+from jointplay.solver.kernels.watched import attend
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.mechanics.view import form
 from jointplay.solver.scene.document import Scene
@@ -51,6 +52,8 @@ def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Ker
     ------
     LimitExceeded
         The scene's equations are too long to compile.
+    CompilationEnded
+        Somebody watched the compilation, and it took too long or was not wanted any more.
     """
     tree = spanning_tree(scene)
     key = (form(scene), tree, formulation, method)
@@ -61,7 +64,7 @@ def ready_kernel(scene: Scene, formulation: str, method: str = AUTO.name) -> Ker
         _kernels.pop(next(iter(_kernels)))
     kernel = _kernels[key] = compile_kernel(scene, tree, formulation, METHODS[method])
     if aside is not None:
-        aside.wait()
+        attend(aside)
     return kernel
 
 

@@ -102,11 +102,12 @@ class DynamicRun:
         formulation, problem = self.admission.job["formulation"], self.problem
         if method != self.admission.method:
             problem = stiff_method.tightened(problem)
-        self.reason = reason
-        self.kernel = ready_kernel(problem.scene, formulation, method)
-        self.bundle = Bundle(self.kernel, [problem])
+        kernel = ready_kernel(problem.scene, formulation, method)
+        bundle = Bundle(kernel, [problem])
         certified = self.admission.job["certificate"]
-        self.survey = Survey(self.bundle, problem, formulation) if certified else None
+        survey = Survey(bundle, problem, formulation) if certified else None
+        # compiling may have ended the run, with what it had so far
+        self.reason, self.kernel, self.bundle, self.survey = reason, kernel, bundle, survey
         rows, channels = self.kernel.rows, self.admission.channels
         self.columns = np.array([rows.index(c.name) for c in channels], dtype=np.int64)
         self.samples_done = 0

@@ -1,6 +1,7 @@
 """Schema errors as sentences: which field, and what would be right, with its unit."""
 
 from collections.abc import Iterable, Iterator
+from functools import cache
 from typing import Any, get_origin
 
 from pydantic import BaseModel, ValidationError
@@ -15,6 +16,9 @@ from jointplay.solver.scene.unions import is_form
 JOINTS = frozenset({"revolute", "prismatic", "fixed"})
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
+
+MOST_HINTS = 100
+"""Unknown fields for which the one that may be meant is looked for; it takes a millisecond each."""
 
 SENTENCES = {
     "missing": "The field '{field}' is required.",
@@ -48,13 +52,16 @@ SENTENCES = {
 def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
     """Return one problem for each wrong place; `root` is the model that was validated."""
     found: dict[str, str] = {}
+    hints = 0
     for item in error.errors(include_url=False, include_input=False):
         location = [str(part) for part in item["loc"]]
         place = _place(location)
         pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
         if item["type"] == "extra_forbidden":
-            sentence = _no_such_field(field, root)
+            hints += 1
+            meant = _meant(field, root) if hints <= MOST_HINTS else ""
+            sentence = f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
         else:
             sentence = _sentence(item, field, _unit(place, root))
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
@@ -84,10 +91,15 @@ def _place(location: list[str]) -> list[str]:
     return place
 
 
-def _no_such_field(field: str, root: type[BaseModel]) -> str:
-    known = {name for model in _models([root], {}) for name, _ in _fields(model)}
-    meant = did_you_mean(field, known - {field})
-    return f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
+def _meant(field: str, root: type[BaseModel]) -> str:
+    """Return the question after the known field that is nearest; empty where none is near."""
+    return did_you_mean(field, _known(root) - {field})
+
+
+@cache
+def _known(root: type[BaseModel]) -> frozenset[str]:
+    """Return the names of all fields of a model, and of the models in them."""
+    return frozenset(name for model in _models([root], {}) for name, _ in _fields(model))
 
 
 def _unit(place: list[str], root: type[BaseModel]) -> str:

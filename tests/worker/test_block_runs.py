@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from jointplay.solver.kernels import cache, kernel_cache
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -16,6 +17,7 @@ from jointplay.storage.studies.reader import StudyReader
 from jointplay.worker import block_run, work
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.execute import Answer
+from tests.solver.random_mechanisms import chain
 from tests.stores import sealed_run
 
 JOB = {
@@ -267,3 +269,51 @@ def test_what_a_worker_sealed_before_it_was_lost_is_adopted(
     assert adopted.read(0, adopted.size()) == content  # with the seconds that the first one took
     assert not sealed.exists()
     assert not settings.running_folder(job.id).exists()
+
+
+SEVERAL_BODIES = {"kind": "simulate", "scene": chain(10).model_dump(mode="json"), "duration": 0.1}
+
+
+@pytest.fixture
+def compiling(catalogue: Catalogue, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A block whose kernel is in no cache, and takes seconds to compile."""
+    monkeypatch.setattr(kernel_cache, "_kernels", {})
+    folder = tmp_path / "kernels"
+    folder.mkdir()
+    (folder / "loop-compiled").touch()
+    for module in (cache, kernel_cache):
+        monkeypatch.setattr(module, "cache_folder", lambda: folder)
+    admitted = admit(SEVERAL_BODIES)
+    new = NewJob("simulate", admitted.job, admitted.digest, SOLVER_VERSION)
+    return f"{catalogue.submit(new).job.id}-0"
+
+
+def test_a_job_can_be_cancelled_while_its_equations_are_compiled(
+    catalogue: Catalogue, settings: Settings, compiling: str
+) -> None:
+    job = compiling.rpartition("-")[0]
+    claim = catalogue.claim_block(compiling, "this process", settings.lease)
+    assert claim is not None
+    catalogue.request_cancel(job)
+    BlockRun(catalogue, settings, claim, threading.Event()).run()
+    assert catalogue.get(job).state is JobState.cancelled
+    assert not list(cache.cache_folder().glob("*.compiled"))
+
+
+def test_a_worker_told_to_stop_gives_back_a_block_that_it_compiles(
+    catalogue: Catalogue, settings: Settings, compiling: str
+) -> None:
+    state, released = run(catalogue, settings, compiling, draining=True)
+    assert (state, released.state, released.losses) == (JobState.running, BlockState.queued, 0)
+
+
+def test_equations_that_take_too_long_to_compile_fail_with_the_limit(
+    catalogue: Catalogue, settings: Settings, compiling: str
+) -> None:
+    impatient = settings.model_copy(update={"longest_compilation": 0.1})
+    state, ended = run(catalogue, impatient, compiling)
+    error = catalogue.get(ended.job).error
+    assert state is JobState.failed
+    assert error is not None
+    assert (error.error_class, error.code) == ("limit", "compile-time")
+    assert "bodies" in error.detail

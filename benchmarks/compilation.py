@@ -1,0 +1,112 @@
+"""Seconds and memory of compiling kernels, against the length of a scene's equations.
+
+    python -m benchmarks compilation [--most 20] [--tangents]
+
+Chains of bodies and bodies that each have play, in both formulations.  Every scene is compiled in
+a process of its own, into an empty cache that has the driving loop only.  Statements are those
+that admission counts; emitted lines are what the compiler is given.
+"""
+
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+
+from benchmarks.hostile_bodies import chain, free
+from jointplay.records.failure import LimitExceeded
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import compile_loop, ready_kernel
+from jointplay.solver.kernels.record.equations import record
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.scene.document import Scene
+
+SCENES = {"chain": chain, "free": free}
+COUNTS = (4, 8, 12, 14, 16, 20, 32, 64)
+FORMULATIONS = ("reduced", "lagrange")
+PATIENCE = 900.0  # s a scene
+
+
+def cases(most: int) -> Iterator[tuple[str, int, str]]:
+    """Yield what is compiled: scene, bodies, formulation."""
+    for name in SCENES:
+        for count in COUNTS:
+            for formulation in FORMULATIONS:
+                if count <= most:
+                    yield name, count, formulation
+
+
+def compiled(name: str, count: int, formulation: str, with_tangents: bool) -> dict[str, object]:
+    """Compile one scene in this process and return what it took."""
+    scene = Scene.model_validate(SCENES[name](count))
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    begun = time.perf_counter()
+    try:
+        record(scene, spanning_tree(scene), formulation)
+        recorded = time.perf_counter() - begun
+        kernel = ready_kernel(scene, formulation)
+        tangents_begun = time.perf_counter()
+        modules = [kernel.module]
+        if with_tangents:
+            modules.append(compile_tangents(kernel).module)
+    except LimitExceeded as refused:
+        return {"refused": str(refused)}
+    ended = time.perf_counter()
+    lines = 0
+    for module in modules:
+        with open(str(module.__file__)) as source:
+            lines += sum(1 for _ in source)
+    return {
+        "recording": recorded,
+        "kernel": tangents_begun - begun - recorded,
+        "tangents": ended - tangents_begun,
+        "lines": lines,
+        "before": before / 1024,
+        "peak": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+    }
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks compilation")
+    parser.add_argument("--most", type=int, default=20, help="most bodies")
+    parser.add_argument("--tangents", action="store_true", help="those of exponents, too")
+    parser.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    if arguments.one:
+        name, count, formulation = arguments.one
+        compile_loop()
+        print(json.dumps(compiled(name, int(count), formulation, arguments.tangents)))
+        return
+    print("scene  bodies  formulation   lines  recording s  kernel s  tangents s  peak MB")
+    for name, count, formulation in cases(arguments.most):
+        print(f"{name:<6}{count:7d}  {formulation:<11}", end="", flush=True)
+        print(_in_a_process(name, count, formulation, arguments.tangents), flush=True)
+
+
+def _in_a_process(name: str, count: int, formulation: str, with_tangents: bool) -> str:
+    command = [sys.executable, "-m", "benchmarks", "compilation"]
+    command += ["--one", name, str(count), formulation] + ["--tangents"] * with_tangents
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {"JOINTPLAY_CACHE": folder}
+        try:
+            done = subprocess.run(
+                command, capture_output=True, env=environment, timeout=PATIENCE, check=True
+            )
+        except subprocess.TimeoutExpired:
+            return f"  more than {PATIENCE:g} s"
+    found = json.loads(done.stdout.splitlines()[-1])
+    if "refused" in found:
+        return f"  {found['refused']}"
+    return (
+        f"{found['lines']:8d}{found['recording']:13.2f}{found['kernel']:10.1f}"
+        f"{found['tangents']:12.1f}{found['peak']:9.0f}"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""Compiling in a process of its own, which somebody watches who may end it.
+
+Numba cannot be interrupted, and what it takes in memory it never gives back. A worker therefore has
+a source compiled by another process, into the cache on the disk, and asks meanwhile whether the
+code is still wanted. Without a watch, as on the command line, code is compiled where it is used.
+"""
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from pathlib import Path
+
+MOST_MEMORY = 4 * 2**30
+"""Bytes that a compiling process may take; the largest scene that is admitted takes less than half
+of them."""
+_POLL = 0.1  # s between two questions
+_MODULE = "jointplay.solver.kernels.compile_file"
+
+
+class CompilationEnded(Exception):
+    """Code was not compiled to its end."""
+
+
+class CompilationUnwanted(CompilationEnded):
+    """Somebody asked for the end; `answer` is what was said."""
+
+    def __init__(self, answer: object) -> None:
+        self.answer = answer
+        super().__init__("the compilation was ended, as was asked for")
+
+
+class CompilationTooLong(CompilationEnded):
+    """It took more than is allowed; `code` is ``compile-time`` or ``compile-memory``."""
+
+    def __init__(self, code: str, detail: str) -> None:
+        self.code = code
+        super().__init__(detail)
+
+
+@dataclass(frozen=True)
+class _Watch:
+    ask: Callable[[], object | None]
+    seconds: float
+
+
+_watch: ContextVar[_Watch | None] = ContextVar("watch", default=None)
+
+
+@contextmanager
+def watched(ask: Callable[[], object | None], seconds: float) -> Iterator[None]:
+    """Compile in another process while the block runs.
+
+    Parameters
+    ----------
+    ask
+        Called ten times a second; anything but None ends the compilation.
+    seconds
+        Longest time for one source, the wait for others that compile the same one included.
+
+    Raises
+    ------
+    CompilationUnwanted
+        The answer was another than None.
+    CompilationTooLong
+        It took more time, or more than `MOST_MEMORY`.
+    """
+    token = _watch.set(_Watch(ask, seconds))
+    try:
+        yield
+    finally:
+        _watch.reset(token)
+
+
+def compile_if_watched(path: Path) -> None:
+    """Have a source compiled into the cache by another process; nothing where nobody watches.
+
+    An error in the source is left to who loads it afterwards: it is raised again there.
+    """
+    if _watch.get() is None:
+        return
+    process = subprocess.Popen(  # noqa: S603 - our own program
+        [sys.executable, "-P", "-m", _MODULE, str(path)],
+        stdin=subprocess.PIPE,  # its end tells the process of ours
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    with process:
+        try:
+            attend(process)
+        finally:
+            process.kill()
+    if process.returncode < 0 or process.returncode == OUT_OF_MEMORY:
+        raise CompilationTooLong(
+            "compile-memory",
+            "Compiling the equations of this scene takes more than"
+            f" {MOST_MEMORY / 2**30:g} GB of memory, or more than there is. Use fewer bodies.",
+        )
+
+
+OUT_OF_MEMORY = 3
+"""Exit status of a compiling process that ran out of memory and could still say so."""
+
+
+def attend(process: subprocess.Popen[bytes]) -> None:
+    """Wait until a process ends that compiles; raises what `watched` does, which ends it not."""
+    watch = _watch.get()
+    if watch is None:
+        process.wait()
+        return
+    until = time.monotonic() + watch.seconds
+    while True:
+        try:
+            process.wait(_POLL)
+            return
+        except subprocess.TimeoutExpired:
+            pass
+        answer = watch.ask()
+        if answer is not None:
+            raise CompilationUnwanted(answer)
+        if time.monotonic() > until:
+            raise CompilationTooLong(
+                "compile-time",
+                f"Compiling the equations of this scene takes more than {watch.seconds:g} s, the"
+                " limit (JOINTPLAY_LONGEST_COMPILATION). Use fewer bodies.",
+            )
