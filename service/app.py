@@ -27,8 +27,10 @@ from jointplay.service.prober import Prober
 from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import INVALID_REQUEST
+from jointplay.service.results.damage import answer_damage
 from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.errors import CorruptStore
 from jointplay.storage.settings import Settings
 
 _DESCRIPTION = """
@@ -87,6 +89,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     )
     app.state.settings = settings
     install(app)
+    app.add_exception_handler(CorruptStore, answer_damage)
     for resource in _RESOURCES:
         app.include_router(resource.router)
 

@@ -44,6 +44,13 @@ SettingsDependency = Annotated[Settings, of_the_application("settings")]
 JobId = Annotated[str, Path(description="Id of the job, as POST /v1/jobs returned it.")]
 
 
+def expired(job: Job) -> RequestRefused:
+    """Return the refusal of a job that can be read no more."""
+    moment = datetime.fromtimestamp(job.expires or 0.0, UTC)
+    sentence = f"Job {job.id} expired or was deleted at {moment:%Y-%m-%dT%H:%M:%SZ}."
+    return RequestRefused(kinds.EXPIRED_JOB, sentence)
+
+
 def _job_of_the_path(catalogue: CatalogueDependency, job_id: JobId) -> Job:
     """Return the job, or refuse with 404 or 410; the id is matched before it is looked up."""
     with suppress(JobNotFound):
@@ -51,9 +58,7 @@ def _job_of_the_path(catalogue: CatalogueDependency, job_id: JobId) -> Job:
             job = catalogue.get(job_id)
             if not catalogue.expired(job):
                 return job
-            moment = datetime.fromtimestamp(job.expires or 0.0, UTC)
-            sentence = f"Job {job.id} expired or was deleted at {moment:%Y-%m-%dT%H:%M:%SZ}."
-            raise RequestRefused(kinds.EXPIRED_JOB, sentence)
+            raise expired(job)
     sentence = f"There is no job {clipped(job_id)!r}; GET /v1/jobs lists the jobs."
     raise RequestRefused.of_parameter("job_id", sentence, kinds.UNKNOWN_JOB)
 

@@ -29,6 +29,10 @@ class CorruptStore(ResultsError):
     """The files are not those that the manifest or the checkpoint speaks of."""
 
 
+class LostObject(CorruptStore):
+    """A file is gone that should be there."""
+
+
 class CheckpointMismatch(ResultsError):
     """The checkpoint belongs to another layout, or to a folder that lacks its rows."""
 

@@ -1,5 +1,6 @@
 """The work of a claimed block: a simulation, a block of a study, or the sealing of one."""
 
+import logging
 import shutil
 from collections.abc import Callable
 from typing import Protocol
@@ -7,7 +8,7 @@ from typing import Protocol
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import Claim
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.errors import CheckpointMismatch, CorruptStore, IncompleteStudy, NotAStore
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
@@ -16,6 +17,8 @@ from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import seal
 from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.study_block import layout_of, run_block
+
+_log = logging.getLogger(__name__)
 
 
 class Work(Protocol):
@@ -50,12 +53,22 @@ class SimulationWork:
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
         """Simulate, unless an attempt that was lost had come to its end."""
         target = self._sealed(self._block.attempt)
-        return self._adopted(target) or execute(
+        if (adopted := self._adopted(target)) is not None:
+            return adopted
+        try:
+            return self._simulated(target, report, self._block.checkpoint)
+        except CorruptStore as damage:
+            _log.warning("block %s begins anew: %s", self._block.id, damage)
+            shutil.rmtree(self._folder)
+            return self._simulated(target, report, None)
+
+    def _simulated(self, target: StoredObject, report: Report, restart: str | None) -> Outcome:
+        return execute(
             self._admission,
             self._folder,
             target,
             report=report,
-            resume_from=self._block.checkpoint,
+            resume_from=restart,
             longest=self._settings.longest,
         )
 
@@ -76,7 +89,8 @@ class SimulationWork:
             lost = self._sealed(attempt)
             try:
                 run = ResultReader(Packed(lost))
-            except NotAStore:
+                run.verify()
+            except (NotAStore, CorruptStore):
                 continue
             if run.complete and run.attributes["solver_version"] == SOLVER_VERSION:
                 if not target.place.adopt(target.key, lost.key):
@@ -120,13 +134,27 @@ class SealWork:
 
     recognised = False  # with it the job ends, which must be durable
 
-    def __init__(self, layout: StudyLayout, job: str, settings: Settings) -> None:
-        self._layout, self._target = layout, settings.sealed_study(job)
+    def __init__(self, study: Study, layout: StudyLayout, job: str, settings: Settings) -> None:
+        self._study, self._layout = study, layout
+        self._target = settings.sealed_study(job)
         self._folder = settings.running_study(job).folder
 
     def execute(self, report: Report, advanced: Callable[[], None]) -> Outcome:
-        """Seal. It takes a moment and is not interrupted: all that was asked for is computed."""
-        seal(self._folder, self._layout, self._target, advanced)
+        """Seal. It takes a moment and is not interrupted: all that was asked for is computed.
+
+        What a block left and is damaged by now is computed again.
+        """
+        try:
+            seal(self._folder, self._layout, self._target, advanced)
+        except (CorruptStore, CheckpointMismatch, IncompleteStudy) as damage:
+            _log.warning("blocks of %s are computed again: %s", self._folder, damage)
+            for index in range(len(self._study.blocks)):
+                outcome = run_block(
+                    self._study, index, self._folder, report=report, layout=self._layout
+                )
+                if outcome.state != "succeeded":
+                    return outcome
+            seal(self._folder, self._layout, self._target, advanced)
         return Outcome("succeeded", 0.0, 1.0)
 
     def tidy(self) -> None:
@@ -156,5 +184,5 @@ def work_of(claim: Claim, settings: Settings) -> Work:
         _last_study = job.id, admitted, layout_of(admitted)
     _, study, layout = _last_study
     if claim.block.count == 0:
-        return SealWork(layout, job.id, settings)
+        return SealWork(study, layout, job.id, settings)
     return StudyWork(study, layout, claim, settings)

@@ -86,6 +86,12 @@ class Expired(Refused):
     """The job was deleted or has expired, and its results with it (410)."""
 
 
+class Damaged(Refused):
+    """Files of the job's results are not what was stored: submit its document again (410)."""
+
+    _usual = (410, "damaged-results")
+
+
 class ResultsNotReady(Refused):
     """The job exists, but there are no results yet (409)."""
 
@@ -100,7 +106,11 @@ class TimedOut(ClientError):
     """Waiting took too long; the job goes on."""
 
 
-_BY_PROBLEM = {"not-finished": NotFinished, "results-not-ready": ResultsNotReady}
+_BY_PROBLEM = {
+    "not-finished": NotFinished,
+    "results-not-ready": ResultsNotReady,
+    "damaged-results": Damaged,
+}
 _BY_STATUS = {401: NotAllowed, 403: NotAllowed, 404: NotFound, 410: Expired}
 
 

@@ -40,7 +40,8 @@ class JobRecord:
     """One job; ``job`` is its document with every default filled in.
 
     ``activity`` says what it is busy with before it advances, such as compiling.  ``cached``: the
-    answer to a submission was a job that was there already.
+    answer to a submission was a job that was there already.  ``damaged`` says which file of its
+    results is not what was stored: submit ``job`` again.
     """
 
     id: str
@@ -60,6 +61,7 @@ class JobRecord:
     job: dict[str, Any]
     solver_version: str | None
     cached: bool = field(default=False, compare=False)
+    damaged: str | None = None
 
     @property
     def is_finished(self) -> bool:

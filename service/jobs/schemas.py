@@ -68,6 +68,10 @@ class JobResource(BaseModel):
         description="When the job and its results go; null: they are kept until they are deleted."
     )
     error: JobError | None
+    damaged: str | None = Field(
+        description="Which file of its results is not what was stored, as far as was noticed: "
+        "posting the document computes the job anew."
+    )
     links: dict[str, str] = Field(description="Addresses of the job and of what it computed.")
     job: dict[str, Any] = Field(
         description="The job's document with every default filled in: posting it repeats the job."

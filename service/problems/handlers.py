@@ -29,10 +29,11 @@ _BY_STATUS = {404: kinds.NOT_FOUND, 405: kinds.METHOD_NOT_ALLOWED}
 def install(app: FastAPI) -> None:
     """Let ``app`` answer every exception with a problem document."""
     for answered in {*refusal.registry, Exception} - {object}:
-        app.add_exception_handler(answered, _answer)
+        app.add_exception_handler(answered, answer)
 
 
-async def _answer(request: Request, error: Exception) -> Response:
+async def answer(request: Request, error: Exception) -> Response:
+    """Answer a request that failed with the problem document of its error."""
     refused = refusal(error)
     if refused.kind is kinds.METHOD_NOT_ALLOWED:
         known = _methods_at(request).union(refused.headers.get("Allow", "").split(", "))

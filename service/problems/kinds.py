@@ -66,6 +66,13 @@ EXPIRED_JOB = _kind(
     "The job has expired",
     "It and its results were removed; submit its document again to compute it once more.",
 )
+DAMAGED_RESULTS = _kind(
+    "damaged-results",
+    410,
+    "Files of the job's results are damaged",
+    "The problem's `detail` names the file. The bytes are lost, and nothing of them is served: "
+    "POST the job's document again, which computes it anew, or restore the file from a copy.",
+)
 NOT_FINISHED = _kind(
     "not-finished",
     409,
@@ -188,6 +195,13 @@ OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED
 OF_SUBMISSIONS = *OF_A_BODY, KEY_REUSED, KEY_IN_FLIGHT, INVALID_REQUEST, UNAVAILABLE, DISK_FULL
-OF_STORES = *OF_A_JOB, WRONG_KIND, NO_RESULTS, RESULTS_NOT_READY, INVALID_REQUEST
+OF_STORES = (
+    *OF_A_JOB,
+    WRONG_KIND,
+    NO_RESULTS,
+    DAMAGED_RESULTS,
+    RESULTS_NOT_READY,
+    INVALID_REQUEST,
+)
 OF_RESULTS = *OF_STORES, UNKNOWN_CHANNEL, RESPONSE_TOO_LARGE
 """Problems of every address where numbers of a job's results are read."""

@@ -13,8 +13,9 @@ from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, Se
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Job
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.catalogue.records import BlockState, Job, JobState
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.identity import require_results_of
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
@@ -30,8 +31,7 @@ class ResultsOfJob:
     """What a job has computed, as it is now."""
 
     def __init__(self, job: Job, settings: Settings, catalogue: Catalogue) -> None:
-        self.job, self.settings = job, settings
-        self._catalogue = catalogue
+        self.job, self.settings, self.catalogue = job, settings, catalogue
         self._names = KINDS[job.kind].results
         self.is_study = "history" not in self._names
         """It has points, and not one history."""
@@ -57,10 +57,30 @@ class ResultsOfJob:
 
         Until an attempt has a restart point of its own, what counts is that of the one before.
         """
-        (block, *_) = self._catalogue.blocks(self.job.id)
+        (block, *_) = self.catalogue.blocks(self.job.id)
         if block.checkpoint is None:
             return self.job.attempt, block.watermark
         return int(block.checkpoint.rpartition("-a")[2]), block.watermark
+
+    def whole(self) -> ResultReader | StudyReader | None:
+        """Return the reader of the sealed results, which are the job's; None: there are none yet.
+
+        Raises
+        ------
+        CorruptStore
+            They are damaged, or another job's.
+        """
+        version = self.sealed.version()
+        if version is None:
+            return None
+        try:
+            reader = (_sealed_study if self.is_study else _sealed_run)(self.sealed, version)
+        except NotAStore as error:
+            if not self.sealed.exists():
+                return None
+            raise CorruptStore(f"{self.sealed} holds something else: {error}") from error
+        require_results_of(self.job, reader.attributes, str(self.sealed))
+        return reader
 
     def run(self) -> ResultReader:
         """Return the reader of a simulation's results.
@@ -69,19 +89,22 @@ class ResultsOfJob:
         ------
         RequestRefused
             409 before the job has begun, 404 if it ended before anything was computed.
+        CorruptStore
+            Files are not what was stored.
         """
 
         def growing() -> ResultReader:
             attempt, samples = self.committed()
             return ResultReader(self.settings.running_run(self.job.id, attempt), samples)
 
-        return self._open(_sealed_run, growing, "its results can be read once it has begun")
+        return self._open(ResultReader, growing, "its results can be read once it has begun")
 
     def study(self) -> StudyReader:
         """Return the reader of a study; it is refused as a run is."""
-        running = self.settings.running_study(self.job.id)
         when = "its points can be read once the first ones are computed"
-        return self._open(_sealed_study, lambda: StudyReader(running), when)
+        return self._open(
+            StudyReader, lambda: growing_study(self.settings, self.catalogue, self.job.id), when
+        )
 
     def not_ready(self, when: str) -> RequestRefused:
         """Return the refusal of what a running job has not yet; `when` says when it will."""
@@ -91,42 +114,65 @@ class ResultsOfJob:
             headers={"Retry-After": "1"},
         )
 
-    def _open(
-        self, sealed: Callable[[StoredObject], Reader], growing: Callable[[], Reader], when: str
-    ) -> Reader:
+    def require_computed(self) -> None:
+        """Raise `CorruptStore` if the job has computed something, of which there is nothing."""
+        job = self.job
+        if job.state is JobState.succeeded or (job.state.terminal and job.progress_fraction):
+            raise LostObject(f"{self.sealed} is gone")
+
+    def _open(self, wanted: type[Reader], growing: Callable[[], Reader], when: str) -> Reader:
         for _ in range(2):  # it may be sealed between the two looks
-            try:
-                return sealed(self.sealed)
-            except NotAStore:
-                pass
+            whole = self.whole()
+            if isinstance(whole, wanted):
+                return whole
             try:
                 reader = growing()
             except NotAStore:
                 continue
+            except CorruptStore:
+                if self.sealed.exists():
+                    continue
+                raise
             if not self.sealed.exists():
+                require_results_of(self.job, reader.attributes, str(reader.files))
                 return reader
         if not self.job.state.terminal:
             raise self.not_ready(when)
+        self.require_computed()
         why = f" {self.job.error.detail}" if self.job.error else ""
         sentence = f"Job {self.job.id} is {self.job.state} and computed nothing.{why}"
         raise RequestRefused(kinds.NO_RESULTS, sentence)
 
 
-@lru_cache(maxsize=_OPEN_STORES)
-def packed(source: StoredObject) -> Packed:
-    """Return the files of a sealed store, which never change again; NotAStore if there is none."""
-    return Packed(source)
+def growing_study(settings: Settings, catalogue: Catalogue, job: str) -> StudyReader:
+    """Return the reader of a study that is not sealed.
+
+    Raises
+    ------
+    NotAStore
+        There is none yet.
+    CorruptStore
+        Files are not what was stored, or hold less than the catalogue knows of.
+    """
+    ended = {
+        block.index: block.count if block.state is BlockState.done else block.watermark
+        for block in catalogue.blocks(job)
+        if block.count
+    }
+    reader = StudyReader(settings.running_study(job))
+    reader.require({index: count for index, count in ended.items() if count})
+    return reader
 
 
 @lru_cache(maxsize=_OPEN_STORES)
-def _sealed_run(source: StoredObject) -> ResultReader:
-    """Return a reader to be shared."""
-    return ResultReader(packed(source))
+def _sealed_run(source: StoredObject, version: str) -> ResultReader:
+    """Return a reader to be shared, of one version of an object: another is checked anew."""
+    return ResultReader(Packed(source))
 
 
 @lru_cache(maxsize=_OPEN_STUDIES)
-def _sealed_study(source: StoredObject) -> StudyReader:
-    return StudyReader(packed(source))
+def _sealed_study(source: StoredObject, version: str) -> StudyReader:
+    return StudyReader(Packed(source))
 
 
 async def _results_of_the_path(

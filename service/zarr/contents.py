@@ -10,9 +10,11 @@ from hashlib import sha256
 from typing import Final, Self
 
 from jointplay.records.channel import Channel
-from jointplay.service.results.stores import ResultsOfJob, packed
+from jointplay.service.results.stores import ResultsOfJob, growing_study
 from jointplay.solver.runs.study.outputs import OUTPUTS
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.errors import LostObject, NotAStore
+from jointplay.storage.identity import require_results_of
 from jointplay.storage.packed import Files
 from jointplay.storage.results.live import LiveStore, loosened
 from jointplay.storage.results.metadata import FILE
@@ -73,21 +75,32 @@ class Content:
 
 
 def content_of(results: ResultsOfJob, key: str) -> Content | None:
-    """Return what a key of the job's store holds, or None."""
-    try:
-        content = Content.of_file(packed(results.sealed), key)
+    """Return what a key of the job's store holds, or None.
+
+    Raises
+    ------
+    CorruptStore
+        It is damaged, or gone.
+    """
+    whole = results.whole()
+    if whole is not None:
+        content = Content.of_file(whole.files, key)
         if content is not None:
             content.final = results.job.state.terminal
         return content
-    except NotAStore:
-        pass
     try:
         store = _live(results)
-        if not key.endswith(FILE) and (stored := Content.of_file(store.files, key)):
-            return stored
-        made = store.document(key) if key.endswith(FILE) else store.chunk(key)
     except NotAStore:
+        results.require_computed()
         return None
+    if key.endswith(FILE):
+        made = store.document(key)
+    elif stored := Content.of_file(store.files, key):
+        return stored
+    elif store.in_file(key):
+        raise LostObject(f"{key} was written and is gone")
+    else:
+        made = store.chunk(key)
     return None if made is None else Content.of_bytes(made)
 
 
@@ -97,9 +110,14 @@ def _live(results: ResultsOfJob) -> LiveStore | LiveStudy:
     Of a run at one of its checkpoints, for the second until the next; of a study as of at most
     `_FRESH` seconds ago.
     """
+    store: LiveStore | LiveStudy
     if results.is_study:
-        return _study_at(results.settings, results.job.id, time.monotonic() // _FRESH)
-    return _run_at(results.settings, results.job.id, *results.committed())
+        moment = time.monotonic() // _FRESH
+        store = _study_at(results.settings, results.catalogue, results.job.id, moment)
+    else:
+        store = _run_at(results.settings, results.job.id, *results.committed())
+    require_results_of(results.job, store.attributes, str(store.files))
+    return store
 
 
 @lru_cache(maxsize=2)
@@ -108,8 +126,8 @@ def _run_at(settings: Settings, job: str, attempt: int, samples: int) -> LiveSto
 
 
 @lru_cache(maxsize=4)
-def _study_at(settings: Settings, job: str, moment: float) -> LiveStudy:
-    return LiveStudy(settings.running_study(job), _OUTPUTS)
+def _study_at(settings: Settings, catalogue: Catalogue, job: str, moment: float) -> LiveStudy:
+    return LiveStudy(growing_study(settings, catalogue, job), _OUTPUTS)
 
 
 def former_content(results: ResultsOfJob, key: str, content: Content) -> Content | None:
@@ -121,11 +139,8 @@ def former_content(results: ResultsOfJob, key: str, content: Content) -> Content
     lately = finished is None or time.time() - finished < _GRACE
     if results.is_study or not lately or key.endswith(FILE):
         return None
-    files: Files
-    try:
-        files = packed(results.sealed)
-    except NotAStore:
-        files = _live(results).files
+    whole = results.whole()
+    files = _live(results).files if whole is None else whole.files
     members = json.loads(files.read(FILE))["consolidated_metadata"]["metadata"]
     made = loosened(members.get(key.rpartition("/c/")[0]), content.read(0, content.size))
     return None if made is None else Content.of_bytes(made)

@@ -160,6 +160,7 @@ class Catalogue:
     request_cancel = _durably(submission.request_cancel)
     cancel_batch = _durably(batches.cancel_batch)
     delete = _durably(upkeep.expire)
+    mark_damaged = _writing(upkeep.mark_damaged)
 
     def expired(self, job: Job) -> bool:
         """Tell whether a job and its results can be read no more."""

@@ -111,6 +111,7 @@ class Job(JobRequest):
     activity: str | None = None  # a word for what takes long before anything advances: "compiling"
     steps: int | None = None  # accepted steps of the solver, as far as they are known
     removed: float | None = None  # when its results were removed
+    damaged: str | None = None  # which file of its results is not what was stored
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""

@@ -126,6 +126,7 @@ _SAME_JOB = (
         tables.job.c.solver_version == bindparam("solver_version"),
         tables.job.c.kind == bindparam("kind"),
         tables.job.c.state.in_(_REUSED),
+        tables.job.c.damaged.is_(None),
         tables.job.c.expires.is_(None) | (tables.job.c.expires > bindparam("now")),
     )
     .order_by(tables.job.c.id.desc())
@@ -136,7 +137,7 @@ _SAME_JOB = (
 def same_job(unit: Unit, new: NewJob) -> str | None:
     """Return the id of the job that `submit` would find: the newest that asks for the same.
 
-    None if it ended badly or expired.
+    None if it ended badly, expired, or its results are damaged.
 
     The digest covers the filled-in job without its label, the version the solver's sources.
     """

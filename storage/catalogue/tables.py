@@ -77,6 +77,7 @@ job = Table(
     Column("scene", String(200)),
     Column("steps", BigInteger),
     Column("removed", Float(53)),
+    Column("damaged", Text),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),

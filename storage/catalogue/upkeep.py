@@ -133,6 +133,12 @@ def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
     unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now))
 
 
+def mark_damaged(unit: Unit, job: str, damage: str | None) -> None:
+    """Remember which file of a finished job's results is damaged; none: they are whole again."""
+    finished = (_job.c.id == job) & _job.c.state.in_(TERMINAL)
+    unit.execute(update(_job).where(finished).values(damaged=damage))
+
+
 def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
     """Take or keep the lead of a task for `seconds`; false while another process has it."""
     leader = tables.leader

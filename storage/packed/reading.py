@@ -3,9 +3,20 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
+from zlib import crc32
 
-from jointplay.storage.errors import NotAStore
-from jointplay.storage.packed.writing import CENTRAL, COMMENT, END, END_64, LOCAL, LOCATOR, LONG
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.packed.writing import (
+    CENTRAL,
+    COMMENT,
+    END,
+    END_64,
+    LOCAL,
+    LOCATOR,
+    LONG,
+    comment,
+    local_header,
+)
 
 _TAIL = 2**16
 """Bytes read first: the whole directory of a store of some hundred arrays."""
@@ -57,45 +68,65 @@ class Ranges(Protocol):
 class Packed:
     """The files of one packed store, read by ranges.
 
+    Nothing is given out that is not what was packed: a checksum covers the directory, and every
+    file is compared with its own, whole, when it is first read.
+
     Raises
     ------
     NotAStore
         There is no such object, or another program packed it.
+    CorruptStore
+        It was cut off, its directory has other bytes than it had, or it is another owner's.
     """
 
     source: Ranges
+    owner: bytes = b""
+    """Whose it must be, for files that do not say so themselves; see `pack`."""
     entries: dict[str, Entry] = field(init=False)
+    _checked: set[str] = field(init=False, default_factory=set)
 
     def __post_init__(self) -> None:
         try:
             size = self.source.size()
             tail = self.source.read(max(size - _TAIL, 0), size)
         except FileNotFoundError as error:
-            raise NotAStore(f"{self.source} holds no results") from error
-        begin = len(tail) - END.size - len(COMMENT)
-        if not tail.endswith(COMMENT) or tail[begin : begin + 4] != b"PK\5\6":
-            raise NotAStore(f"{self.source} is not a file of results: it was cut off, or repacked")
+            raise NotAStore(f"{self.source} is not there") from error
+        begin = len(tail) - COMMENT.size - END.size
+        if begin < 0 or tail[begin : begin + 4] != b"PK\5\6":
+            raise CorruptStore(f"{self.source} is cut off: it has no directory at its end")
+        records = END.size + COMMENT.size
         *_, count, length, first, _ = END.unpack_from(tail, begin)
         locator = begin - LOCATOR.size
-        if locator >= 0 and tail[locator : locator + 4] == b"PK\6\7":
+        if locator >= END_64.size and tail[locator : locator + 4] == b"PK\6\7":
             *_, count, length, first = END_64.unpack_from(tail, locator - END_64.size)
+            records += END_64.size + LOCATOR.size
+        if first + length + records != size:  # before so many bytes are asked for
+            raise CorruptStore(f"the directory of {self.source} is not where it was")
         behind = size - first
-        directory = (
-            tail[len(tail) - behind :][:length]
-            if behind <= len(tail)
-            else self.source.read(first, first + length)
-        )
-        self.entries = dict(_entries(directory, count))
+        end = tail[-behind:] if behind <= len(tail) else self.source.read(first, size)
+        if comment(end[: -COMMENT.size], self.owner) != end[-COMMENT.size :]:
+            raise CorruptStore(f"the directory of {self.source} has other bytes than it had")
+        self.entries = dict(_entries(end[:length], count))
 
     def __iter__(self) -> Iterator[str]:
         """Yield all keys, in the order in which they were packed."""
         return iter(self.entries)
 
     def read(self, key: str, start: int = 0, stop: int | None = None) -> bytes:
-        """Return bytes [start, stop) of a file, to its end by default."""
+        """Return bytes [start, stop) of a file, to its end by default.
+
+        Raises
+        ------
+        FileNotFoundError
+            There is none of this key.
+        CorruptStore
+            It has other bytes than were packed.
+        """
         entry = self.entry(key)
         stop = entry.size if stop is None else min(stop, entry.size)
-        return self.source.read(entry.offset + start, entry.offset + stop)
+        if key not in self._checked:
+            return self._first(key, entry)[start:stop]
+        return self._bytes(entry.offset + start, entry.offset + stop)
 
     def entry(self, key: str) -> Entry:
         """Return where a file is; FileNotFoundError if there is none."""
@@ -103,6 +134,23 @@ class Packed:
             return self.entries[key]
         except KeyError:
             raise FileNotFoundError(f"{self.source} has no {key!r}") from None
+
+    def _first(self, key: str, entry: Entry) -> bytes:
+        """Read a file whole, with the header before it, and compare it with its checksum."""
+        header = local_header(key.encode(), entry.crc, entry.size)
+        found = self._bytes(entry.offset - len(header), entry.offset + entry.size)
+        content = found[len(header) :]
+        expected = entry.size, entry.crc
+        if not found.startswith(header) or (len(content), crc32(content)) != expected:
+            raise CorruptStore(f"{key} of {self.source} has other bytes than were stored")
+        self._checked.add(key)
+        return content
+
+    def _bytes(self, start: int, stop: int) -> bytes:
+        try:
+            return self.source.read(start, stop)
+        except FileNotFoundError as error:
+            raise LostObject(f"{self.source} was removed") from error
 
 
 def _entries(directory: bytes, count: int) -> Iterator[tuple[str, Entry]]:

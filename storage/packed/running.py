@@ -4,14 +4,15 @@
 all columns at one place, such as ``history-3.zip``, which is written once, when they are full.
 """
 
+import json
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Any, Final, TypeVar
 
 from jointplay.storage import durable
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.errors import LostObject, NotAStore
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject
@@ -34,14 +35,23 @@ class Running:
     sealed
         Where the store will be once it is sealed. The folder goes then; what is not found in it
         any more is read there, where every chunk has the same bytes.
+    owner
+        Digest of what is computed: rows of anything else are damage. By default that of the
+        documents.
     """
 
-    def __init__(self, folder: Path, sealed: StoredObject | None = None) -> None:
+    def __init__(
+        self, folder: Path, sealed: StoredObject | None = None, owner: str | None = None
+    ) -> None:
         self.folder = folder
         self._target = sealed
+        self._owner = owner
         self._packed: Packed | None = None
         self._synced = False
-        self._packs: dict[str, Packed] = {}
+        self._packs: dict[str, tuple[str, Packed]] = {}
+
+    def __str__(self) -> str:
+        return f"{self.folder.parent.name}/{self.folder.name}"
 
     def write_documents(self, entries: Iterable[tuple[str, bytes]]) -> None:
         """Replace the documents: readers see all of them or none, a power cut may take them."""
@@ -52,7 +62,7 @@ class Running:
     def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
         """Write the chunks that stand at one place, that of a key; durable on return."""
         self._sync_folders()
-        durable.write(self._path(key), pack(entries))
+        durable.write(self._path(key), pack(entries, self.owner))
 
     def adopt(self, lost: "Running", key: str) -> None:
         """Take over the chunks at one place from a lost attempt's store; durable on return.
@@ -61,7 +71,10 @@ class Running:
         ------
         FileNotFoundError
             They are not there.
+        CorruptStore
+            They have other bytes than were written.
         """
+        lost.check(key)
         self._sync_folders()
         source, path = lost._path(key), self._path(key)
         try:
@@ -75,11 +88,33 @@ class Running:
         return self._path(key).exists()
 
     def shards(self, pattern: str) -> int:
-        """Count the shards of an array that were written, whose keys are made by a pattern."""
+        """Count the shards of an array that were written, whose keys are made by a pattern.
+
+        Raises
+        ------
+        LostObject
+            One is gone: the one behind it is there.
+        """
         found = 0
         while self.has(pattern.format(found)):
             found += 1
+        lost = pattern.format(found)
+        if self.has(pattern.format(found + 1)) and not self.has(lost):
+            raise LostObject(f"{self.folder.name} lacks {lost}, which had been written")
         return found
+
+    def check(self, key: str) -> None:
+        """Compare the chunks at the place of a key with their checksums.
+
+        Raises
+        ------
+        FileNotFoundError
+            They are not there.
+        CorruptStore
+            They have other bytes than were written.
+        """
+        for _ in self.chunks(key):
+            pass
 
     def chunks(self, key: str) -> Iterator[tuple[str, bytes]]:
         """Yield key and content of all chunks at the place of a key."""
@@ -112,12 +147,22 @@ class Running:
         Raises
         ------
         NotAStore
-            There are none, or only a part of them.
+            There are none.
+        CorruptStore
+            They have other bytes than were written.
         """
         try:
-            return Packed(InMemory((self.folder / DOCUMENTS).read_bytes()))
+            return Packed(InMemory(DOCUMENTS, (self.folder / DOCUMENTS).read_bytes()))
         except FileNotFoundError as error:
             raise NotAStore(f"{self.folder} holds no results") from error
+
+    @cached_property
+    def owner(self) -> bytes:
+        """Begins the checksums of all files but the documents, which say whose they are."""
+        if self._owner is not None:
+            return self._owner.encode()
+        attributes = json.loads(self.documents.read("zarr.json"))["attributes"]
+        return owner_in(attributes).encode()
 
     def write_other(self, path: str, pieces: Iterable[bytes]) -> None:
         """Write a file that is no part of the sealed store; durable on return."""
@@ -130,7 +175,7 @@ class Running:
             return question(self.documents)
         try:
             return question(self._pack(key))
-        except FileNotFoundError:
+        except (FileNotFoundError, LostObject):
             sealed = self.sealed()
             if sealed is None:
                 raise
@@ -138,11 +183,17 @@ class Running:
 
     def _pack(self, key: str) -> Packed:
         name = _name(key)
-        if name not in self._packs:
-            if not self.has(key):
-                raise FileNotFoundError(f"{self.folder} has no {key!r}")
-            self._packs[name] = Packed(StoredObject(Folder(str(self.folder / ROWS)), name))
-        return self._packs[name]
+        found = StoredObject(Folder(str(self.folder)), f"{ROWS}/{name}")
+        version = found.version()
+        if version is None:
+            raise FileNotFoundError(f"{self.folder} has no {key!r}")
+        known = self._packs.get(name)
+        if known is None or known[0] != version:
+            try:
+                known = self._packs[name] = version, Packed(found, self.owner)
+            except NotAStore as error:  # removed meanwhile
+                raise FileNotFoundError(str(error)) from error
+        return known[1]
 
     def _sync_folders(self) -> None:
         """Make the names of the folders durable, before the first file is."""
@@ -156,10 +207,14 @@ class Running:
 
 
 class InMemory:
-    """Bytes to be read by ranges."""
+    """Bytes of a name to be read by ranges."""
 
-    def __init__(self, content: bytes) -> None:
+    def __init__(self, name: str, content: bytes) -> None:
+        self._name = name
         self._content = content
+
+    def __str__(self) -> str:
+        return self._name
 
     def size(self) -> int:
         """Return how many there are."""
@@ -168,6 +223,11 @@ class InMemory:
     def read(self, start: int, stop: int) -> bytes:
         """Return bytes [start, stop)."""
         return self._content[start:stop]
+
+
+def owner_in(attributes: Mapping[str, Any]) -> str:
+    """Return the digest of what is computed by a root's attributes; of a study, of its layout."""
+    return str(attributes.get("layout") or attributes.get("digest") or "")
 
 
 def _name(key: str) -> str:

@@ -10,9 +10,10 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 from zlib import crc32
 
-COMMENT: Final = b"jointplay results"
-"""At the end of a packed file: its entries begin right behind their local headers' names."""
-
+COMMENT: Final = struct.Struct("<17s4s")
+"""At the end of a packed file: `MARK`, CRC-32 of the owner and all from the directory on."""
+MARK: Final = b"jointplay results"
+"""Of files whose entries begin right behind their local headers' names, uncompressed."""
 LOCAL: Final = struct.Struct("<4s5H3I2H")
 CENTRAL: Final = struct.Struct("<4s6H3I5H2I")
 END: Final = struct.Struct("<4s4H2IH")
@@ -25,21 +26,25 @@ _SHORT: Final = 2**16 - 1
 LONG: Final = 2**32 - 1
 
 
-def pack(entries: Iterable[tuple[str, bytes]]) -> Iterator[bytes]:
+def pack(entries: Iterable[tuple[str, bytes]], owner: bytes = b"") -> Iterator[bytes]:
     """Give the bytes of a zip of entries, in their order; memory is bounded by the largest.
 
     Parameters
     ----------
     entries
         Key and content of each, less than 4 GiB; a key comes once.
+    owner
+        Whose they are: begins the checksum at the end, so that a file is not taken for another
+        owner's.
     """
     central: list[bytes] = []
     offset = 0
     for key, content in entries:
         name, crc, size = key.encode(), crc32(content), len(content)
-        about = (_UTF_8, 0, 0, _DATE, crc, size, size, len(name))
-        yield LOCAL.pack(b"PK\3\4", _VERSION, *about, 0) + name
+        header = local_header(name, crc, size)
+        yield header
         yield content
+        about = _about(name, crc, size)
         far = struct.pack("<2HQ", 1, 8, offset) if offset >= LONG else b""
         central.append(
             CENTRAL.pack(
@@ -48,14 +53,28 @@ def pack(entries: Iterable[tuple[str, bytes]]) -> Iterator[bytes]:
             + name
             + far
         )
-        offset += LOCAL.size + len(name) + size
-    directory = b"".join(central)
-    yield directory
-    count, length = len(central), len(directory)
+        offset += len(header) + size
+    end = b"".join(central)
+    count, length = len(central), len(end)
     if count >= _SHORT or length >= LONG or offset >= LONG:
         counts = count, count, length, offset
-        yield END_64.pack(b"PK\6\6", END_64.size - 12, _VERSION, _VERSION, 0, 0, *counts)
-        yield LOCATOR.pack(b"PK\6\7", 0, offset + length, 1)
+        end += END_64.pack(b"PK\6\6", END_64.size - 12, _VERSION, _VERSION, 0, 0, *counts)
+        end += LOCATOR.pack(b"PK\6\7", 0, offset + length, 1)
     few = min(count, _SHORT)
-    yield END.pack(b"PK\5\6", 0, 0, few, few, min(length, LONG), min(offset, LONG), len(COMMENT))
-    yield COMMENT
+    end += END.pack(b"PK\5\6", 0, 0, few, few, min(length, LONG), min(offset, LONG), COMMENT.size)
+    yield end
+    yield comment(end, owner)
+
+
+def local_header(name: bytes, crc: int, size: int) -> bytes:
+    """Return what stands before the content of an entry."""
+    return LOCAL.pack(b"PK\3\4", _VERSION, *_about(name, crc, size), 0) + name
+
+
+def comment(end: bytes, owner: bytes) -> bytes:
+    """Return the comment of a packed file whose directory and end records are these."""
+    return COMMENT.pack(MARK, crc32(end, crc32(owner)).to_bytes(4, "little"))
+
+
+def _about(name: bytes, crc: int, size: int) -> tuple[int, ...]:
+    return _UTF_8, 0, 0, _DATE, crc, size, size, len(name)

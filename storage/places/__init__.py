@@ -34,6 +34,10 @@ class Place(Protocol):
         """Return the bytes of an object; FileNotFoundError if there is none."""
         ...
 
+    def version(self, key: str) -> str | None:
+        """Return what changes whenever an object's bytes do; none if there is no object."""
+        ...
+
     def read(self, key: str, start: int, stop: int) -> bytes:
         """Return bytes [start, stop) of an object, fewer where it ends before.
 
@@ -99,13 +103,13 @@ class StoredObject:
         """See `Place.read`."""
         return self.place.read(self.key, start, stop)
 
+    def version(self) -> str | None:
+        """See `Place.version`."""
+        return self.place.version(self.key)
+
     def exists(self) -> bool:
         """Whether the object is there."""
-        try:
-            self.size()
-        except FileNotFoundError:
-            return False
-        return True
+        return self.version() is not None
 
     def __str__(self) -> str:
         return self.key

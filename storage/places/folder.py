@@ -40,6 +40,14 @@ class Folder:
         except NotADirectoryError as error:
             raise FileNotFoundError(str(error)) from error
 
+    def version(self, key: str) -> str | None:
+        """Look the file up; its times are those of its content and of its inode."""
+        try:
+            found = os.stat(f"{self.root}/{key}")
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        return f"{found.st_ino}-{found.st_size}-{found.st_mtime_ns}-{found.st_ctime_ns}"
+
     def read(self, key: str, start: int, stop: int) -> bytes:
         """Read with one open and, but for files on odd systems, one read."""
         descriptor = os.open(f"{self.root}/{key}", os.O_RDONLY)

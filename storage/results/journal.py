@@ -4,9 +4,10 @@ One file per generation below `parts`; a generation begins with all rows that wa
 first checkpoint and grows by what is appended between checkpoints; a written shard starts the
 next one. So no generation holds more than the buffers of the tables.
 
-A generation begins with a line of JSON: how many rows of each table are in shards, and how many
-bytes a row takes. Then follows, for each checkpoint and table, a frame: the number of new rows
-and their columns. `storage.results.waiting` reads it.
+A generation begins with a line: its CRC-32, then JSON with how many rows of each table are in
+shards, and how many bytes a row takes. Then follows, for each checkpoint and table, a frame: the
+number of new rows and their columns; behind the frames of a checkpoint stands the CRC-32 of all
+before. Checksums begin with the owner of the store. `storage.results.waiting` reads it.
 """
 
 import hashlib
@@ -16,14 +17,16 @@ import struct
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
+from zlib import crc32
 
 from jointplay.records.checkpoint import encode
 from jointplay.storage.durable import sync
-from jointplay.storage.packed.running import PARTS
+from jointplay.storage.packed.running import PARTS, Running
 from jointplay.storage.results.growing_table import GrowingTable
 
 _KEPT_GENERATIONS: Final = 3
 ROWS: Final = struct.Struct("<Q")
+CHECKSUM: Final = struct.Struct("<I")
 KIND: Final = "growing results"
 
 
@@ -32,17 +35,19 @@ class Journal:
 
     Parameters
     ----------
-    root
-        Folder of the store.
+    files
+        Of the store.
     layout_digest
         Goes into every checkpoint, to be compared when one is resumed.
     """
 
-    def __init__(self, root: Path, layout_digest: str) -> None:
-        self._folder = root / PARTS
+    def __init__(self, files: Running, layout_digest: str) -> None:
+        self._folder = files.folder / PARTS
+        self._files = files
         self._layout_digest = layout_digest
         self._generation = 0
         self._size = 0
+        self._checksum = 0
         self._hash = hashlib.sha256()
         self._durable: list[int] | None = None
         self._journalled: list[int] = []
@@ -57,8 +62,12 @@ class Journal:
             for table, first in zip(tables, self._journalled, strict=True)
             for part in _frame(table, first)
         )
+        checksum = self._checksum
         if self._size == 0:
-            frame = _header(tables) + frame
+            checksum = crc32(self._files.owner)
+            frame = _header(tables, checksum) + frame
+        checksum = crc32(frame, checksum)
+        frame += CHECKSUM.pack(checksum)
         path = self._path(self._generation)
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
         try:
@@ -75,6 +84,7 @@ class Journal:
             sync(self._folder)
             sync(self._folder.parent)
         self._size += len(frame)
+        self._checksum = checksum
         self._hash.update(frame)
         self._journalled = [table.rows for table in tables]
         token = {
@@ -88,6 +98,7 @@ class Journal:
     def _begin(self, durable: list[int]) -> None:
         self._generation += 1
         self._size = 0
+        self._checksum = 0
         self._hash = hashlib.sha256()
         self._durable = durable
         self._journalled = list(durable)
@@ -97,10 +108,11 @@ class Journal:
         return self._folder / f"{generation:08d}"
 
 
-def _header(tables: Sequence[GrowingTable]) -> bytes:
+def _header(tables: Sequence[GrowingTable], checksum: int) -> bytes:
     row_bytes = [sum(c.dtype.itemsize for c in table.table.columns) for table in tables]
     known = {"durable": [table.durable for table in tables], "row_bytes": row_bytes}
-    return json.dumps(known).encode() + b"\n"
+    line = json.dumps(known).encode()
+    return b"%08x %s\n" % (crc32(line, checksum), line)
 
 
 def _frame(table: GrowingTable, first: int) -> list[bytes]:

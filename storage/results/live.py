@@ -11,7 +11,7 @@ import numpy as np
 
 from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import SCHEMA_VERSION
@@ -39,7 +39,8 @@ class LiveStore:
         self.files = files
         root = root_of(files)
         self._members: dict[str, Document] = root["consolidated_metadata"]["metadata"]
-        self._columns = columns_of(root["attributes"])
+        self.attributes: dict[str, Any] = root["attributes"]
+        self._columns = columns_of(self.attributes)
         self._waiting = committed(files, samples, root)
         shown = {path: self._shown(path) for path in self._members}
         self._documents = documents(root["attributes"], shown)
@@ -48,6 +49,15 @@ class LiveStore:
         """Give a zarr.json, or None where there is no group or array."""
         found = self._documents.get(key)
         return None if found is None else serialise(found)
+
+    def in_file(self, key: str) -> bool:
+        """Whether a chunk is of rows that are in shards, so that its file must be there."""
+        path, _, place = key.rpartition("/c/")
+        table, _, name = path.rpartition("/")
+        if name not in self._columns.get(table, ()) or not place.isdecimal():
+            return False
+        shard_rows, _ = shape_of(self._members[path])
+        return int(place) < self._waiting[table].durable // shard_rows
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk that is not on the disk yet, or None if it has no row.
@@ -137,16 +147,36 @@ def rows_in_shards(files: Running, root: Document, table: str) -> int:
 def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting]:
     """Find how far each table was when that many samples were committed, by group.
 
-    Without the journal of that moment only whole shards count.
+    Once the journal of that moment was replaced by a later one, all whole shards count.
+
+    Raises
+    ------
+    CorruptStore
+        Rows that are committed are not there, or the journal has other bytes than were written.
     """
     columns = columns_of(root["attributes"])
     sampled = [DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
-    found = waiting_rows(files.folder, samples, dtypes)
-    if found is not None:
-        return dict(zip(columns, found, strict=True))
+    waiting = waiting_rows(files, samples, dtypes)
     in_shards = {table: rows_in_shards(files, root, table) for table in columns}
-    return {
-        table: Waiting(rows if table else min(rows, samples), ())
-        for table, rows in in_shards.items()
-    }
+    if waiting is None:
+        found = {
+            table: Waiting(rows if table else min(rows, samples), ())
+            for table, rows in in_shards.items()
+        }
+        needed = {"": samples + 1 if samples else 0}  # a later journal begins behind these
+    else:
+        found = dict(zip(columns, waiting, strict=True))
+        needed = {table: one.durable for table, one in found.items()}
+    for table, rows in needed.items():
+        if in_shards[table] < rows and files.sealed() is None:
+            raise CorruptStore(_lost(files, table, in_shards[table], samples))
+    return found
+
+
+def _lost(files: Running, table: str, rows: int, samples: int) -> str:
+    return (
+        f"of {samples} samples that are committed, {rows} rows of {table or 'the history'} are in"
+        f" the shards of {files.folder.name}: a shard is gone, or the journal has other bytes than"
+        " were written"
+    )

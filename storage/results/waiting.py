@@ -8,17 +8,17 @@ import json
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
+from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.checkpoint import ForeignCheckpoint, UnusableCheckpoint, decode
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
-from jointplay.storage.packed.running import PARTS
+from jointplay.storage.packed.running import PARTS, Running
 from jointplay.storage.results.growing_table import GrowingTable
-from jointplay.storage.results.journal import KIND, ROWS
+from jointplay.storage.results.journal import CHECKSUM, KIND, ROWS
 
 
 class Checkpoint:
@@ -42,8 +42,8 @@ class Checkpoint:
         self.durable: list[int] = token["durable"]
         self._token = token
 
-    def replay(self, root: Path, tables: Sequence[GrowingTable]) -> None:
-        """Append the rows that waited at the checkpoint, from the journal below `root`.
+    def replay(self, lost: Running, tables: Sequence[GrowingTable]) -> None:
+        """Append the rows that waited at the checkpoint, from the journal of a lost attempt.
 
         Raises
         ------
@@ -52,7 +52,7 @@ class Checkpoint:
         CorruptStore
             It is not the one that the checkpoint describes.
         """
-        path = root / PARTS / f"{self._token['generation']:08d}"
+        path = lost.folder / PARTS / f"{self._token['generation']:08d}"
         try:
             with path.open("rb") as file:
                 content = file.read(self._token["size"])
@@ -60,7 +60,7 @@ class Checkpoint:
             raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
         if hashlib.sha256(content).hexdigest() != self._token["sha256"]:
             raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
-        _, frames = _read(content)
+        _, frames = _read(content, lost.owner)
         for position, table in enumerate(tables):
             dtypes = [column.dtype for column in table.table.columns]
             table.append(_columns(content, [one[position] for one in frames], dtypes))
@@ -80,14 +80,14 @@ class Waiting:
 
 
 def waiting_rows(
-    root: Path, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
+    files: Running, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
 ) -> list[Waiting] | None:
     """Read what waited at the checkpoint with that many samples.
 
     Parameters
     ----------
-    root
-        Folder of the store.
+    files
+        Of the store.
     samples
         Rows of the first table at the checkpoint.
     dtypes
@@ -97,25 +97,25 @@ def waiting_rows(
     -------
     list
         One for each table of `dtypes`, or None if no journal has this checkpoint: it was
-        removed, or replaced by a later one.
+        removed, replaced by a later one, or has other bytes than were written.
     """
     try:
-        paths = sorted((root / PARTS).iterdir(), reverse=True)
+        paths = sorted((files.folder / PARTS).iterdir(), reverse=True)
     except FileNotFoundError:
         return None
     for path in paths:
         with suppress(FileNotFoundError):
-            found = _at(path.read_bytes(), samples, dtypes)
+            found = _at(path.read_bytes(), files.owner, samples, dtypes)
             if found is not None:
                 return found
     return None
 
 
 def _at(
-    content: bytes, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
+    content: bytes, owner: bytes, samples: int, dtypes: Sequence[Sequence[np.dtype[Any]]]
 ) -> list[Waiting] | None:
     """Find the last checkpoint of a generation that has this many samples."""
-    durable, frames = _read(content)
+    durable, frames = _read(content, owner)
     if not frames:
         return None
     rows = durable[0] + np.cumsum([frame[0].rows for frame in frames])
@@ -135,24 +135,36 @@ class _Frame(NamedTuple):
     rows: int
 
 
-def _read(content: bytes) -> tuple[list[int], list[list[_Frame]]]:
-    """Find rows in shards by table, and the frames, one a table, of every whole checkpoint."""
-    offset = content.find(b"\n") + 1
-    if not offset:
+def _read(content: bytes, owner: bytes) -> tuple[list[int], list[list[_Frame]]]:
+    """Find rows in shards by table, and the frames, one a table, of every whole checkpoint.
+
+    What follows a checkpoint that is being written, or has other bytes than were written, is none.
+    """
+    checksum = crc32(owner)
+    begin = content.find(b"\n") + 1
+    line = content[9 : begin - 1]
+    if not begin or content[:9] != b"%08x " % crc32(line, checksum):
         return [], []
-    known = json.loads(content[:offset])
+    known = json.loads(line)
+    checked = 0
     found: list[list[_Frame]] = []
     while True:
         frames: list[_Frame] = []
+        offset = begin
         for size in known["row_bytes"]:
-            begin = offset + ROWS.size
-            if begin > len(content):
+            if offset + ROWS.size > len(content):
                 return known["durable"], found
             (rows,) = ROWS.unpack_from(content, offset)
-            frames.append(_Frame(begin, rows))
-            offset = begin + rows * size
-        if offset > len(content):  # it is being written
+            offset += ROWS.size
+            frames.append(_Frame(offset, rows))
+            offset += rows * size
+        begin = offset + CHECKSUM.size
+        if begin > len(content):
             return known["durable"], found
+        checksum = crc32(memoryview(content)[checked:offset], checksum)
+        if content[offset:begin] != CHECKSUM.pack(checksum):
+            return known["durable"], found
+        checked = begin
         found.append(frames)
 
 

@@ -13,7 +13,7 @@ from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateRecord
 from jointplay.storage.errors import InvalidAppend, StoreExists, StoreSealed
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.packed.running import DOCUMENTS
+from jointplay.storage.packed.running import DOCUMENTS, owner_in
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import certificate_group, manifest, metadata
 from jointplay.storage.results.growing_table import GrowingTable
@@ -36,8 +36,8 @@ class ResultWriter:
 
     def __init__(self, path: Path, layout: ResultLayout) -> None:
         self._layout = layout
-        self._files = Running(path)
-        self._journal = Journal(path, layout.digest)
+        self._files = Running(path, owner=owner_in(layout.attributes))
+        self._journal = Journal(self._files, layout.digest)
         self._tables = [GrowingTable(table, self._files) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
         self._pyramid = Pyramid(layout, self._history, self._files)
@@ -80,7 +80,7 @@ class ResultWriter:
         path
             Folder of the new store, as for `create`.
         layout
-            That of the old store; attributes may differ.
+            That of the old store; attributes other than the digest may differ.
         checkpoint
             What `checkpoint` of the old store's writer returned.
         taken_over_from
@@ -93,16 +93,16 @@ class ResultWriter:
         CheckpointMismatch
             The checkpoint is of another layout, or the old folder lacks shards or journal.
         CorruptStore
-            The journal does not have the bytes that the checkpoint describes.
+            Shards or journal have other bytes than were written.
         """
         path = Path(path)
         taken_over_from = Path(taken_over_from)
         state = Checkpoint(checkpoint, layout.digest)
         writer = cls.create(path, layout)
-        lost = Running(taken_over_from)
+        lost = Running(taken_over_from, owner=owner_in(layout.attributes))
         for table, durable in zip(writer._growing, state.durable, strict=True):
             table.take_over(lost, durable)
-        state.replay(taken_over_from, writer._growing)
+        state.replay(lost, writer._growing)
         if writer._impacts.durable:
             writer._show()
         return writer

@@ -14,16 +14,14 @@ import numpy as np
 from jointplay.records.names import TIME
 from jointplay.records.point import Failure, PointEnd, PointStatus, SectionRows, StudySlice
 from jointplay.records.run import Floats
-from jointplay.storage.errors import CorruptStore, InvalidAppend, ResultsError
+from jointplay.storage.errors import InvalidAppend, LostObject, ResultsError
 from jointplay.storage.packed import Running
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results import shards
 from jointplay.storage.studies import part
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.part import Part
+from jointplay.storage.studies.part import ENDED, Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS
-
-_ENDED = (PointStatus.done, PointStatus.failed)
 
 
 class StudyBlock:
@@ -48,7 +46,7 @@ class StudyBlock:
         self._layout = layout
         self._first, self._count = layout.blocks[index]
         self._attempt = attempt
-        self._files = Running(folder)
+        self._files = Running(folder, owner=layout.digest)
         self._part = Part.empty(layout, index)
 
     @classmethod
@@ -83,7 +81,7 @@ class StudyBlock:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
             found = Part.read(folder / PARTS / part.final_name(index), layout.digest)
-            require_chunks(Running(folder), layout, found)
+            require_chunks(Running(folder, owner=layout.digest), layout, found)
         except (FileNotFoundError, ResultsError):
             return False
         return True
@@ -91,7 +89,7 @@ class StudyBlock:
     @property
     def watermark(self) -> int:
         """Points that have ended."""
-        return int(np.isin(self._part.status, _ENDED).sum())
+        return self._part.ended
 
     def take(self, piece: StudySlice) -> None:
         """Add what became known; chunks that are full go to the disk.
@@ -150,7 +148,7 @@ class StudyBlock:
                 f"point {rows.point} has {known} of {self._layout.record} sections; sections"
                 f" {rows.first} to {rows.first + count - 1} do not follow"
             )
-        if self._part.status[place] in _ENDED:
+        if self._part.status[place] in ENDED:
             raise InvalidAppend(f"point {rows.point} has ended and takes no more sections")
         points, sections = self._layout.chunk
         row, within = divmod(rows.point, points)
@@ -169,7 +167,7 @@ class StudyBlock:
 
     def _add_end(self, end: PointEnd) -> int:
         place = self._row(end.point)
-        if self._part.status[place] in _ENDED:
+        if self._part.status[place] in ENDED:
             raise InvalidAppend(f"point {end.point} ended before")
         if end.code:
             self._part.failures[end.point] = Failure(end.code, end.detail, float(end.time))
@@ -192,12 +190,12 @@ class StudyBlock:
         if begin < 0 or end > self._count:
             return
         members = slice(begin, end)
-        going = ~np.isin(self._part.status[members], _ENDED)
+        going = ~np.isin(self._part.status[members], ENDED)
         counts = self._part.counts[members][going]
         passed = int(counts.min()) // sections if going.any() else self._layout.record
         full = sorted(key for key in self._part.open if key[0] == row and key[1] < passed)
         for key in full:
-            self._files.write(chunk_files(self._layout, key, self._part.open[key]), _place(key))
+            self._files.write(chunk_files(self._layout, key, self._part.open[key]), place_of(key))
             del self._part.open[key]
 
     def _trimmed(self) -> dict[tuple[int, int], Floats]:
@@ -233,22 +231,33 @@ def chunk_files(
         yield path, shards.compress(values)
 
 
-def require_chunks(files: Running, layout: StudyLayout, found: Part) -> None:
-    """Raise `CorruptStore` if a chunk is missing that a part builds on."""
-    for key in found.written(layout):
-        if not files.has(_place(key)):
-            raise CorruptStore(
-                f"{files.folder} lacks {_place(key)}, though block {found.index} had written it"
-            )
-
-
 def written_chunks(files: Running, layout: StudyLayout, found: Part) -> Iterator[tuple[str, bytes]]:
-    """Give path and content of the chunks that a finished block wrote."""
+    """Give path and content of the chunks that a block wrote before a part.
+
+    Raises
+    ------
+    CorruptStore
+        A chunk is missing, or has other bytes than were written.
+    """
     for key in found.written(layout):
-        yield from files.chunks(_place(key))
+        try:
+            yield from files.chunks(place_of(key))
+        except FileNotFoundError as error:
+            raise lost(files, found.index, key) from error
 
 
-def _place(key: tuple[int, int]) -> str:
+def require_chunks(files: Running, layout: StudyLayout, found: Part) -> None:
+    """Raise `CorruptStore` if a chunk that a part builds on is missing, or has other bytes."""
+    for _ in written_chunks(files, layout, found):
+        pass
+
+
+def lost(files: Running, index: int, key: tuple[int, int]) -> LostObject:
+    """Return the error for a chunk that a block had written and that is gone."""
+    return LostObject(f"{files.folder.name} lacks {place_of(key)}, which block {index} had written")
+
+
+def place_of(key: tuple[int, int]) -> str:
     """Return the key of some array's chunk at a place of the grid."""
     return f"sections/{TIME}/c/{key[0]}/{key[1]}"
 

@@ -5,6 +5,7 @@ of all arrays, and the chunks of what is still in the parts of blocks.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,9 @@ from numpy.typing import NDArray
 
 from jointplay.records.channel import Channel
 from jointplay.records.names import TIME
-from jointplay.storage.packed import Files
 from jointplay.storage.results import shards
 from jointplay.storage.results.metadata import FILE, serialise
 from jointplay.storage.studies import documents
-from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.points import failure_codes, ordered
 from jointplay.storage.studies.reader import StudyReader
 
@@ -26,32 +25,23 @@ class LiveStudy:
 
     Parameters
     ----------
-    files
+    reader
         Of the store.
     outputs
         Units and long names of statistics and indicators that any study may have.
-
-    Raises
-    ------
-    NotAStore
-        There is no store of a study.
     """
 
-    def __init__(self, files: Files, outputs: Mapping[str, Channel]) -> None:
-        self.files = files
-        self._reader = reader = StudyReader(files)
-        self._layout = StudyLayout(
-            parameters=reader.parameters,
-            values=reader.values,
-            observables=reader.observables,
-            record=reader.record,
-            channels=reader.channels,
-            blocks=reader.blocks,
+    def __init__(self, reader: StudyReader, outputs: Mapping[str, Channel]) -> None:
+        self.files = reader.files
+        self._reader = reader
+        self._layout = replace(
+            reader.layout,
             outputs={
                 **outputs,
                 **{name: Channel(name, *output) for name, output in reader.own_outputs.items()},
             },
         )
+        self.attributes = reader.attributes
         codes = failure_codes(reader.failures)
         names = ordered(reader.known.numbers)
         self._scalars = reader.known.scalars(0, names, codes)
@@ -63,6 +53,12 @@ class LiveStudy:
         """Give a zarr.json, or None where there is no group or array."""
         found = self._documents.get(key)
         return None if found is None else serialise(found)
+
+    def in_file(self, key: str) -> bool:
+        """Whether a chunk was written, so that its file must be there."""
+        path, _, place = key.partition("/c/")
+        of_sections = path.startswith("sections/") and not self._reader.sealed
+        return of_sections and place in self._reader.written
 
     def chunk(self, key: str) -> bytes | None:
         """Make the file of a chunk, or None if no array has it."""

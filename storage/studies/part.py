@@ -10,17 +10,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, Self
 
+import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records import checkpoint
 from jointplay.records.checkpoint import packed
-from jointplay.records.point import Failure
+from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.points import Points, ordered, unknown
 
+ENDED: Final = (PointStatus.done, PointStatus.failed)
 _KIND: Final = "part of a study"
 
 
@@ -41,6 +43,11 @@ class Part(Points):
     def empty(cls, layout: StudyLayout, index: int) -> Self:
         """Begin a block of which nothing is known."""
         return cls(*unknown(layout.blocks[index][1], len(layout.channels)), index=index)
+
+    @property
+    def ended(self) -> int:
+        """Points that have ended."""
+        return int(np.isin(self.status, ENDED).sum())
 
     def encode(self, layout: StudyLayout) -> bytes:
         """Give the bytes of the file: the same for the same part."""
@@ -82,7 +89,7 @@ class Part(Points):
         FileNotFoundError
             It is not there (any more).
         CorruptStore
-            It is damaged.
+            It is damaged, or that of another block.
         CheckpointMismatch
             It belongs to another study.
         """
@@ -93,6 +100,8 @@ class Part(Points):
             raise CheckpointMismatch(f"{path} belongs to another study: {error}") from error
         except checkpoint.UnusableCheckpoint as error:
             raise CorruptStore(f"{path} cannot be read: {error}") from error
+        if facts["block"] != int(path.name.partition("-")[0]):
+            raise CorruptStore(f"{path} is the part of block {facts['block']}")
         part = cls(arrays["status"], arrays["counts"], arrays["peaks"], index=facts["block"])
         for name, array in arrays.items():
             group, _, member = name.partition("/")

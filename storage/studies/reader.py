@@ -16,12 +16,20 @@ from jointplay.records.names import TIME
 from jointplay.records.peak import PeakColumns
 from jointplay.records.point import Failure
 from jointplay.records.run import Floats
-from jointplay.storage.errors import NotAStore, UnknownChannel
+from jointplay.storage.errors import (
+    CheckpointMismatch,
+    CorruptStore,
+    LostObject,
+    NotAStore,
+    UnknownChannel,
+)
 from jointplay.storage.packed import Files, Running
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results.metadata import FILE
 from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.studies import part
-from jointplay.storage.studies.layout import STUDY_SCHEMA
+from jointplay.storage.studies.block import lost, place_of
+from jointplay.storage.studies.layout import STUDY_SCHEMA, StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
 from jointplay.storage.studies.store import FAILURES
@@ -226,12 +234,66 @@ class StudyReader(StoreReader):
                 }
             except FileNotFoundError:  # one was replaced by the last part of its block
                 continue
+            except CheckpointMismatch as error:
+                raise CorruptStore(str(error)) from error
+            missing = self._missing(self.files, found)
             sealed = self.files.sealed()
+            if sealed is None and missing is not None:
+                raise missing
             if sealed is None:
                 return found
             self.files = sealed
             self._open()
         raise NotAStore("the study changes faster than it can be read")
+
+    def _missing(self, files: Running, parts: Mapping[int, Part]) -> LostObject | None:
+        """Look for a chunk that a part builds on and that is not there."""
+        for index, one in parts.items():
+            for key in one.written(self.layout):
+                if not files.has(place_of(key)):
+                    return lost(files, index, key)
+        return None
+
+    @cached_property
+    def written(self) -> frozenset[str]:
+        """Places, such as ``3/0``, of the chunks of sections that are in files by now."""
+        return frozenset(
+            f"{row}/{column}"
+            for one in self._parts.values()
+            for row, column in one.written(self.layout)
+        )
+
+    @cached_property
+    def layout(self) -> StudyLayout:
+        """Layout of the store, as far as its arrays are concerned."""
+        return StudyLayout(
+            parameters=self.parameters,
+            values=self.values,
+            observables=self.observables,
+            record=self.record,
+            channels=self.channels,
+            blocks=self.blocks,
+        )
+
+    def require(self, ended: Mapping[int, int]) -> None:
+        """Compare a growing store with what its blocks were known to have computed.
+
+        Parameters
+        ----------
+        ended
+            Points that had ended, by block, before the store was opened.
+
+        Raises
+        ------
+        CorruptStore
+            The part of a block is gone, or of an earlier moment.
+        """
+        parts = self._parts
+        for index, count in ended.items() if not self.sealed else ():
+            found = parts.get(index)
+            if found is None or found.ended < count:
+                name = f"{PARTS}/{part.final_name(index)}"
+                raise LostObject(f"{name}, the part with {count} ended points of a block, is gone")
 
     @cached_property
     def known(self) -> Points:

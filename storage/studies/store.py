@@ -13,13 +13,19 @@ from numpy.typing import NDArray
 from jointplay.records.peak import PEAK
 from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
-from jointplay.storage.errors import IncompleteStudy, NotAStore, StoreExists
+from jointplay.storage.errors import (
+    CorruptStore,
+    IncompleteStudy,
+    LostObject,
+    NotAStore,
+    StoreExists,
+)
 from jointplay.storage.packed import Running, pack
 from jointplay.storage.packed.running import PARTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
-from jointplay.storage.studies.block import chunk_files, require_chunks, written_chunks
+from jointplay.storage.studies.block import chunk_files, written_chunks
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import Points, failure_codes, ordered, together
@@ -39,11 +45,11 @@ def create(folder: Path, layout: StudyLayout) -> None:
         The folder holds a store of something else, or of the same study computed by another
         version of the program.
     """
-    files = Running(folder)
+    files = Running(folder, owner=layout.digest)
     try:
         present = json.loads(files.read(metadata.FILE))["attributes"].get("layout")
-    except (NotAStore, FileNotFoundError, ValueError, KeyError, TypeError):
-        pass  # none, or cut off by a power failure
+    except (NotAStore, CorruptStore, FileNotFoundError, ValueError, KeyError, TypeError):
+        pass  # none, or cut off by a power failure, or damaged
     else:
         if present != layout.digest:
             raise StoreExists(
@@ -87,7 +93,7 @@ def seal(
         return
     try:
         target.put(pack(manifest.listed(_files(folder, layout, advanced))))
-    except (FileNotFoundError, FileExistsError, IncompleteStudy):
+    except (FileNotFoundError, LostObject, FileExistsError, IncompleteStudy):
         if not target.exists():
             raise
         # by another process in the meantime
@@ -108,8 +114,8 @@ def _files(
         advanced()
         return Part.read(finals[index], layout.digest)
 
-    files = Running(folder)
-    names, failures, ended = _survey(files, part_of, layout)
+    files = Running(folder, owner=layout.digest)
+    names, failures, ended = _survey(part_of, layout)
     codes = failure_codes(failures)
     yield from _values(layout)
     yield from _columns(part_of, layout, names, codes)
@@ -124,7 +130,7 @@ def _files(
 
 
 def _survey(
-    files: Running, part_of: Callable[[int], Part], layout: StudyLayout
+    part_of: Callable[[int], Part], layout: StudyLayout
 ) -> tuple[list[str], dict[int, Failure], dict[str, int]]:
     """Names of all numbers, failed points, and how many points are done and failed."""
     names: set[str] = set()
@@ -132,7 +138,6 @@ def _survey(
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
-        require_chunks(files, layout, found)
         names |= found.numbers.keys()
         failures |= found.failures
         done += int((found.status == PointStatus.done).sum())

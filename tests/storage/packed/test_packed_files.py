@@ -1,5 +1,6 @@
 """A packed store is an ordinary zip, and equal contents are equal bytes."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from zipfile import ZIP_STORED, ZipFile
 
@@ -7,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from jointplay.storage.errors import NotAStore
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.packed import Packed, files_at, pack
 from jointplay.storage.packed.running import InMemory
 
@@ -25,14 +26,14 @@ def test_the_standard_librarys_zipfile_reads_it(tmp_path_factory, files):
         assert {one.compress_type for one in archive.infolist()} <= {ZIP_STORED}
         for key, expected in files.items():
             assert archive.read(key) == expected
-    found = Packed(InMemory(content))
+    found = Packed(InMemory("store.zip", content))
     assert {key: found.read(key) for key in found} == files
     assert b"".join(pack(files.items())) == content
 
 
 def test_ranges_are_slices():
     files = {"a": bytes(range(200)), "b": b"", "c": b"xyz"}
-    found = Packed(InMemory(b"".join(pack(files.items()))))
+    found = Packed(InMemory("store.zip", b"".join(pack(files.items()))))
     assert found.read("a", 17, 30) == bytes(range(17, 30))
     assert found.read("a", 150) == bytes(range(150, 200))
     assert found.read("a", 190, 999) == bytes(range(190, 200))  # and not the next file's
@@ -50,7 +51,7 @@ def test_more_files_than_a_short_number_can_count(tmp_path, count):
     with ZipFile(path) as archive:
         assert len(archive.namelist()) == count
         assert archive.read(f"x/c/{count - 1}") == b"%d" % (count - 1)
-    found = Packed(InMemory(path.read_bytes()))
+    found = Packed(InMemory("store.zip", path.read_bytes()))
     assert len(found.entries) == count
     assert found.read("x/c/40000") == b"40000"
 
@@ -91,18 +92,68 @@ def test_memory_is_that_of_one_file():
 @pytest.mark.parametrize("cut", [1, 10, 100, 400])
 def test_a_file_that_was_cut_off_is_refused(cut):
     content = b"".join(pack({"a": bytes(200), "b": b"x"}.items()))
-    with pytest.raises(NotAStore, match="cut off, or repacked"):
-        Packed(InMemory(content[:-cut]))
+    with pytest.raises(CorruptStore, match=r"store\.zip is cut off"):
+        Packed(InMemory("store.zip", content[:-cut]))
 
 
 def test_a_zip_of_another_program_is_refused(tmp_path: Path):
     """Its files may begin elsewhere: their local headers may be longer than ours."""
     with ZipFile(tmp_path / "store.zip", "w") as archive:
         archive.writestr("zarr.json", "{}")
-    with pytest.raises(NotAStore, match="repacked"):
-        Packed(InMemory((tmp_path / "store.zip").read_bytes()))
+    with pytest.raises(CorruptStore, match="cut off"):
+        Packed(InMemory("store.zip", (tmp_path / "store.zip").read_bytes()))
 
 
 def test_a_missing_object_is_no_store(tmp_path):
-    with pytest.raises(NotAStore, match="holds no results"):
+    with pytest.raises(NotAStore, match=r"nothing\.zip is not there"):
         files_at(tmp_path / "nothing.zip")
+
+
+def flips(content: bytes) -> Iterator[tuple[int, bytes]]:
+    """Give the content with one bit flipped in each of its bytes."""
+    for at in range(len(content)):
+        flipped = bytearray(content)
+        flipped[at] ^= 1 << (at % 8)
+        yield at, bytes(flipped)
+
+
+def test_every_flipped_bit_is_found_before_anything_is_given_out():
+    """A bit belongs to the directory, or to one file; the other files can still be read."""
+    files = {"a": b"some bytes", "b/c/0": bytes(range(50)), "empty": b""}
+    content = b"".join(pack(files.items()))
+    for at, flipped in flips(content):
+        try:
+            found = Packed(InMemory("store.zip", flipped))
+        except CorruptStore:
+            continue
+        refused = {}
+        for key, expected in files.items():
+            try:
+                assert found.read(key) == expected, at
+            except CorruptStore as error:
+                refused[key] = str(error)
+        ((key, sentence),) = refused.items()
+        assert f"{key} of store.zip" in sentence
+
+
+@pytest.mark.parametrize("start", [0, 3, 40])
+def test_a_range_is_given_out_after_the_whole_file_was_checked(start):
+    content = bytearray(b"".join(pack({"a": bytes(50)}.items())))
+    content[content.index(bytes(50)) + 20] ^= 1
+    with pytest.raises(CorruptStore, match=r"a of store\.zip has other bytes"):
+        Packed(InMemory("store.zip", bytes(content))).read("a", start, start + 5)
+
+
+def test_another_owners_files_are_refused():
+    content = b"".join(pack({"a": b"x"}.items(), b"one job"))
+    assert Packed(InMemory("rows.zip", content), b"one job").read("a") == b"x"
+    with pytest.raises(CorruptStore, match=r"directory of rows\.zip"):
+        Packed(InMemory("rows.zip", content), b"another job")
+
+
+def test_a_file_that_is_removed_under_a_reader_is_damage_and_no_missing_key(tmp_path):
+    (tmp_path / "store.zip").write_bytes(b"".join(pack({"a": b"x"}.items())))
+    found = files_at(tmp_path / "store.zip")
+    (tmp_path / "store.zip").unlink()
+    with pytest.raises(LostObject, match=r"store\.zip was removed"):
+        found.read("a")

@@ -51,6 +51,15 @@ class PlaceContract(ABC):
         place.put(KEY, pieces())
         assert self.raw_get(place, KEY) == CONTENT
 
+    def test_a_version_is_that_of_the_bytes(self, place: Place) -> None:
+        assert place.version(KEY) is None
+        self.raw_set(place, KEY, CONTENT)
+        first = place.version(KEY)
+        assert first is not None
+        assert place.version(KEY) == first
+        self.raw_set(place, KEY, b"x" + CONTENT)
+        assert place.version(KEY) not in (None, first)
+
     @pytest.mark.parametrize("content", [b"", b"x", CONTENT])
     def test_what_is_there_is_read(self, place: Place, content: bytes) -> None:
         self.raw_set(place, KEY, content)

@@ -1,8 +1,11 @@
 """What a reader of a growing store sees of rows that wait for their shard."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from jointplay.storage.errors import CorruptStore
 from jointplay.storage.packed import Running
 from jointplay.storage.results.live import LiveStore
 from jointplay.storage.results.reader import ResultReader
@@ -55,15 +58,60 @@ def test_a_checkpoint_that_is_half_written_does_not_count(tmp_path, run):
     for size in range(len(whole), len(later)):
         journal.write_bytes(later[:size])
         assert shown(ResultReader(tmp_path / "store", committed))[0] == committed
-        assert ResultReader(tmp_path / "store", writer.samples).samples == 0
+        with pytest.raises(CorruptStore, match=f"of {writer.samples} samples that are committed"):
+            ResultReader(tmp_path / "store", writer.samples)
 
 
-def test_without_a_journal_only_whole_shards_count(tmp_path, run):
+def test_a_checkpoint_whose_journal_was_replaced_is_found_in_shards(tmp_path, run):
     writer = ResultWriter.create(tmp_path / "store", run.layout)
     run.append(writer, 0.0, 0.2)
     assert (writer.samples, writer.watermark) == (40, 36)
-    assert ResultReader(tmp_path / "store", 40).samples == 36
     assert ResultReader(tmp_path / "store", 30).samples == 30
+    with pytest.raises(CorruptStore, match="of 40 samples that are committed, 36 rows"):
+        ResultReader(tmp_path / "store", 40)
+
+
+@pytest.mark.parametrize("at", range(0, 900, 7))
+def test_a_flipped_bit_of_the_journal_takes_no_row_silently(tmp_path, run, at):
+    writer = ResultWriter.create(tmp_path / "store", run.layout)
+    run.append(writer, 0.0, 0.02)
+    writer.checkpoint()
+    (journal,) = (tmp_path / "store/parts").iterdir()
+    content = bytearray(journal.read_bytes())
+    content[at % len(content)] ^= 1 << at % 8
+    journal.write_bytes(content)
+    with pytest.raises(CorruptStore, match="committed"):
+        ResultReader(tmp_path / "store", writer.samples)
+
+
+def test_another_jobs_journal_is_refused(tmp_path, run):
+    journals = []
+    for name in ("one", "other"):
+        layout = replace(run.layout, attributes={"digest": name})
+        writer = ResultWriter.create(tmp_path / name, layout)
+        run.append(writer, 0.0, 0.02)
+        writer.checkpoint()
+        journals += (tmp_path / name / "parts").iterdir()
+    one, other = journals
+    assert ResultReader(tmp_path / "one", writer.samples).samples == writer.samples
+    one.write_bytes(other.read_bytes())
+    with pytest.raises(CorruptStore, match="committed"):
+        ResultReader(tmp_path / "one", writer.samples)
+
+
+def test_a_shard_that_is_gone_takes_no_row_silently(tmp_path, run):
+    writer = ResultWriter.create(tmp_path / "store", run.layout)
+    run.append(writer, 0.0, 0.5)
+    writer.checkpoint()
+    assert ResultReader(tmp_path / "store", writer.samples).samples == writer.samples
+    shards = sorted((tmp_path / "store/rows").glob("history-*"))
+    assert len(shards) > 1
+    for shard in shards:
+        content = shard.read_bytes()
+        shard.unlink()
+        with pytest.raises(CorruptStore, match=r"committed|lacks"):
+            ResultReader(tmp_path / "store", writer.samples)
+        shard.write_bytes(content)
 
 
 def test_documents_of_groups_and_arrays_agree(tmp_path, run):

@@ -49,7 +49,7 @@ def test_a_flipped_bit_is_found_and_the_file_named(store, key):
     content = bytearray(store.read_bytes())
     content[offset + size // 2] ^= 4
     store.write_bytes(content)
-    with pytest.raises(CorruptStore, match=f"{key} has other bytes"):
+    with pytest.raises(CorruptStore, match=f"{key} of .* has other bytes"):
         ResultReader(store).verify()
 
 

@@ -79,7 +79,7 @@ def test_a_part_without_the_chunks_it_builds_on_is_refused(tmp_path, record):
     missing = tmp_path / f"rows/sections-{first}-0.zip"
     content = missing.read_bytes()
     missing.unlink()
-    with pytest.raises(CorruptStore, match=f"lacks sections/time/c/{first}/0, though block 1"):
+    with pytest.raises(CorruptStore, match=f"lacks sections/time/c/{first}/0, which block 1"):
         StudyBlock.resume(tmp_path, study.layout, 1, 2, name)
     missing.write_bytes(content)
     StudyBlock.resume(tmp_path, study.layout, 1, 2, name)

@@ -226,7 +226,7 @@ def test_every_name_but_that_of_the_time_of_sections_is_free(tmp_path):
     layout = replace(plain, parameters=parameters, values=values, observables=observables)
     study = MadeUpStudy(layout)
     path = study.write(tmp_path / "store")
-    growing = LiveStudy(Running(tmp_path / "store"), {})
+    growing = LiveStudy(StudyReader(Running(tmp_path / "store")), {})
     assert_equal(StudyReader(path), study)
     assert_equal(StudyReader(tmp_path / "store"), study)
     root = zarr.open_group(ZipStore(path), mode="r")

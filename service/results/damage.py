@@ -1,0 +1,51 @@
+"""The answer where files of a job's results are not what was stored.
+
+Nothing of such a file is served. A finished job is marked as damaged: it is no longer the answer
+to identical submissions, so that submitting its document again computes it anew. A job that runs is
+left alone: its worker finds the same before the end, and computes again what was lost.
+"""
+
+import logging
+
+from fastapi import Request
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import Response
+
+from jointplay.service.dependencies import expired
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems.handlers import answer
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
+
+_log = logging.getLogger(__name__)
+
+
+async def answer_damage(request: Request, error: Exception) -> Response:
+    """Answer a request for results with the problem that names the damaged file."""
+    job, catalogue = request.path_params["job_id"], request.app.state.catalogue
+    return await answer(request, await run_in_threadpool(_refusal, job, catalogue, str(error)))
+
+
+def _refusal(job_id: str, catalogue: Catalogue, found: str) -> RequestRefused:
+    try:
+        job = catalogue.get(job_id)
+        if catalogue.expired(job):  # its files go while it is read
+            return expired(job)
+        if job.state.terminal:
+            catalogue.mark_damaged(job_id, found)
+    except Unavailable as fault:
+        _log.warning("job %s is not marked as damaged: %s", job_id, fault)
+        job = None
+    _log.warning("results of job %s are damaged: %s", job_id, found)
+    if job is not None and not job.state.terminal:
+        sentence = (
+            f"Results of job {job_id} so far are damaged: {found}. The job is {job.state}; what"
+            " was lost is computed again before it ends."
+        )
+        return RequestRefused(kinds.RESULTS_NOT_READY, sentence, headers={"Retry-After": "1"})
+    sentence = (
+        f"Results of job {job_id} are damaged: {found}. POST its document, the field `job` of"
+        f" /v1/jobs/{job_id}, to /v1/jobs: that computes it anew."
+    )
+    # a file that is restored is served again, so that nobody shall keep this answer
+    return RequestRefused(kinds.DAMAGED_RESULTS, sentence, headers={"Cache-Control": "no-store"})
