@@ -11,7 +11,7 @@ from jointplay.records import failure, strict_json
 from jointplay.service import processes
 from jointplay.service.processes.folder_lock import holding
 from jointplay.solver.scene import presets
-from jointplay.storage import results
+from jointplay.storage import errors
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
 TIMED = [*PRESS, "--duration", "2"]
@@ -158,6 +158,6 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
 
 def test_exit_codes_are_of_exceptions_that_there_are():
     """They are named and not imported: a name that nothing has would never be met."""
-    places = (builtins, client, failure, strict_json, processes, figures, results)
+    places = (builtins, client, failure, strict_json, processes, figures, errors)
     unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
     assert unknown == []
