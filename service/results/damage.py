@@ -31,12 +31,12 @@ def _refusal(job_id: str, catalogue: Catalogue, found: str) -> RequestRefused:
         job = catalogue.get(job_id)
         if catalogue.expired(job):  # its files go while it is read
             return expired(job)
-        if job.state.terminal:
+        if job.state.terminal and job.damaged != found:
+            _log.error("results of job %s are damaged: %s", job_id, found)
             catalogue.mark_damaged(job_id, found)
     except Unavailable as fault:
         _log.warning("job %s is not marked as damaged: %s", job_id, fault)
         job = None
-    _log.warning("results of job %s are damaged: %s", job_id, found)
     if job is not None and not job.state.terminal:
         sentence = (
             f"Results of job {job_id} so far are damaged: {found}. The job is {job.state}; what"

@@ -17,6 +17,7 @@ from jointplay.storage.catalogue.records import BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.identity import require_results_of
 from jointplay.storage.packed import Packed
+from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
@@ -71,6 +72,8 @@ class ResultsOfJob:
             They are damaged, or another job's.
         """
         version = self.sealed.version()
+        if version is None and self.job.state is JobState.succeeded:
+            raise LostObject(f"{self.sealed} is gone")
         if version is None:
             return None
         try:
@@ -117,8 +120,10 @@ class ResultsOfJob:
     def require_computed(self) -> None:
         """Raise `CorruptStore` if the job has computed something, of which there is nothing."""
         job = self.job
-        if job.state is JobState.succeeded or (job.state.terminal and job.progress_fraction):
+        if job.state.terminal and job.progress_fraction:
             raise LostObject(f"{self.sealed} is gone")
+        if any(block.watermark for block in self.catalogue.blocks(job.id)):
+            raise LostObject(f"{DOCUMENTS} of the growing results is gone")
 
     def _open(self, wanted: type[Reader], growing: Callable[[], Reader], when: str) -> Reader:
         for _ in range(2):  # it may be sealed between the two looks
@@ -136,9 +141,9 @@ class ResultsOfJob:
             if not self.sealed.exists():
                 require_results_of(self.job, reader.attributes, str(reader.files))
                 return reader
+        self.require_computed()
         if not self.job.state.terminal:
             raise self.not_ready(when)
-        self.require_computed()
         why = f" {self.job.error.detail}" if self.job.error else ""
         sentence = f"Job {self.job.id} is {self.job.state} and computed nothing.{why}"
         raise RequestRefused(kinds.NO_RESULTS, sentence)
