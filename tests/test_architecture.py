@@ -12,7 +12,8 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PACKAGES = ["records", "solver", "storage", "figures", "worker", "service", "paper", "jointplay"]
+PACKAGES = ["records", "solver", "storage", "figures", "worker", "service", "chaos", "paper"]
+PACKAGES += ["jointplay"]
 SOURCES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 EVERYTHING = SOURCES + sorted((ROOT / "tests").rglob("*.py"))
 

@@ -1,0 +1,38 @@
+"""A service under a seeded schedule of faults keeps its word: `jointplay chaos`."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from jointplay.chaos.faults import FAULTS
+
+
+def campaign(folder: Path, *options: str) -> dict[str, Any]:
+    command = [sys.executable, "-P", "-m", "jointplay", "chaos", "--json", *options]
+    done = subprocess.run(
+        [*command, "--output", str(folder)], stdout=subprocess.PIPE, text=True, check=False
+    )
+    report: dict[str, Any] = json.loads(done.stdout)
+    assert report["wrong"] == []
+    assert done.returncode == 0
+    return report
+
+
+def test_a_service_keeps_its_word_under_faults(tmp_path: Path) -> None:
+    report = campaign(tmp_path / "chaos", "--seed", "9", "--duration", "50")
+    assert len(report["struck"]) >= 2
+    assert all(one["recovery"] is not None for one in report["struck"])
+    assert report["jobs"]["succeeded"] >= 5
+
+
+@pytest.mark.long
+@pytest.mark.timeout(7200)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_service_keeps_its_word_under_all_faults_at_length(tmp_path: Path, seed: int) -> None:
+    report = campaign(tmp_path / "chaos", "--seed", str(seed), "--duration", "1500")
+    struck = {one["fault"] for one in report["struck"]}
+    assert struck | report["left_out"].keys() == FAULTS.keys()
