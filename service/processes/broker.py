@@ -13,7 +13,7 @@ from redis.exceptions import RedisError
 from jointplay.service.processes.child import Child, StartFailed
 
 _LONGEST_SOCKET_PATH = 100  # bytes; the kernel's limit is 107 on Linux and 103 on macOS
-_START_PATIENCE = 15.0  # seconds; reading back a large log takes some
+_START_PATIENCE = 15.0  # seconds
 _NO_SERVER = (
     "there is no Redis server to start: install valkey-server or redis-server, or set"
     " JOINTPLAY_REDIS_URL to one that runs, such as redis://localhost:6379/0"
@@ -57,12 +57,14 @@ def socket_path(folder: Path) -> Path:
 
 
 class Broker:
-    """A Redis of our own, reachable through its socket only, its queue logged to disk.
+    """A Redis of our own, reachable through its socket only.
+
+    It stores nothing: what it loses is sent again, and a full disk would have it refuse to work.
 
     Parameters
     ----------
     folder
-        Where it keeps its append-only log; made if missing.
+        Of its socket; made if missing.
     log
         File its messages go to.
     """
@@ -78,8 +80,7 @@ class Broker:
             "unixsocket": str(self._socket),
             "unixsocketperm": "700",
             "dir": str(folder),
-            "appendonly": "yes",
-            "appendfsync": "everysec",
+            "appendonly": "no",
             "save": "",
             "maxmemory-policy": "noeviction",
             "protected-mode": "yes",
@@ -96,7 +97,7 @@ class Broker:
         self.child.await_answer(lambda: answers(self.url), _START_PATIENCE, time.sleep)
 
     def stop(self, patience: float = 5.0) -> None:
-        """End the server, its queue kept on disk, and remove its socket."""
+        """End the server and remove its socket."""
         self.child.terminate()
         self.child.await_end(time.monotonic() + patience)
         self._socket.unlink(missing_ok=True)

@@ -19,7 +19,7 @@ from jointplay.storage.catalogue.submission import drop_blocks
 RECOVERED_QUEUE = "recovered"
 _PUT_OFF: Final = "put-off"
 _FIRST_PAUSE = 2.0  # s
-LONGEST_PAUSE: Final = 30.0
+LONGEST_PAUSE: Final = 10.0
 """Seconds after which a block that was put off is tried again at the latest."""
 _block = tables.block
 
