@@ -8,12 +8,13 @@ Chaos Solitons Fractals 5:1671 (jumps); Balcerzak et al. 2020, Mech. Syst. Signa
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.batch_means import mean_estimate
-from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
 
 ROUNDING = 8.0 * float(np.finfo(np.float64).eps)
 """Rounding of the logarithm of a norm, the least error of a growth: it may always be upwards."""
@@ -51,6 +52,23 @@ def exponent_from_growth(log_growth: Floats, block_time: float) -> Estimate:
     kept = growth[_aligned(growth) :]
     end_effect = max(_end_effect(kept) / len(kept), ROUNDING)
     return mean_estimate(kept / block_time, end_effect / block_time)
+
+
+def confirmed(found: Estimate, finer: Estimate) -> Estimate:
+    """Return an exponent whose error counts what it differs by from one in far smaller steps.
+
+    Of the difference, what the error of `finer` itself explains does not count.
+    """
+    apart = abs(found.value - finer.value)
+    if not math.isfinite(apart) or not math.isfinite(finer.error):
+        return found
+    return replace(found, error=max(found.error, apart - finer.error))
+
+
+def differs(found: Estimate, finer: Estimate) -> bool:
+    """Return whether two exponents of a motion are farther apart than chance makes them."""
+    apart = abs(found.value - finer.value)
+    return math.isfinite(apart) and apart > SIGNIFICANT * math.hypot(found.error, finer.error)
 
 
 def _aligned(growth: Floats) -> int:

@@ -43,13 +43,15 @@ def decide(
     zero_one: Estimate | None = None,
     period: int | None = None,
     rotation: Estimate | None = None,
+    otherwise: Estimate | None = None,
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
     lyapunov : largest exponent, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
-    number; None where the section is no closed curve. None: not known. A K with an error of 0.5 or
-    more (too few sections) is as good as none.
+    number; None where the section is no closed curve. otherwise : an exponent in far smaller steps
+    that contradicts it. None: not known. A K with an error of 0.5 or more (too few sections) is as
+    good as none.
 
     chaotic : the exponent exceeds zero by more than three errors, nothing recurs, and K > 0.9. An
         exponent that does not drift will do where there is no K.
@@ -57,12 +59,18 @@ def decide(
         zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
         number, and no recurrence.
-    undecided : anything else; the reason says what is missing or what contradicts what.
+    undecided : the exponent is another in smaller steps, or anything else; the reason says what is
+        missing or what contradicts what.
     """
     if lyapunov is not None and not math.isfinite(lyapunov.error):
         lyapunov = None
     if zero_one is not None and not zero_one.error < VAGUE:
         zero_one = None
+    if otherwise is not None:
+        return _undecided(
+            f"the exponent is {lyapunov}, but {otherwise} in far smaller steps: contact is too hard"
+            " and rare for a tangent at this tolerance; choose a smaller one"
+        )
     if period:
         return _recurrent(lyapunov, zero_one, period)
     if lyapunov is None:

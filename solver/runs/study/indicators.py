@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.nonlinear.estimate import UNKNOWN
-from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.lyapunov import confirmed, differs, exponent_from_growth
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import decide
@@ -27,6 +27,7 @@ def indicators_of(
     scales: Floats,
     angles: Flags,
     log_growth: Floats,
+    finer_growth: Floats,
     period: float,
 ) -> dict[str, float]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
@@ -35,15 +36,17 @@ def indicators_of(
     (sections, states) generalised coordinates and speeds. scales : (states,) what counts as one in
     each: the finest clearance, as length, turn, or rate of either. angles : (states,) which are
     angles, whose whole turns do not count. log_growth : (periods,) logarithm of the tangent
-    vector's growth in each period of the record. period : s.
+    vector's growth in each period of the record. finer_growth : the same behind the record, in far
+    smaller steps. period : s.
     """
     states = unwound(states[:MOST_SECTIONS], angles) / scales
     found: dict[str, float] = {}
-    lyapunov = zero_one = rotation = None
+    lyapunov = otherwise = zero_one = rotation = None
     recurrence: int | None = None
     if "lyapunov" in chosen and len(log_growth):
-        known = not (np.isnan(log_growth) | (log_growth == np.inf)).any()
-        lyapunov = exponent_from_growth(log_growth, period) if known else UNKNOWN
+        coarse, finer = (_exponent(growth, period) for growth in (log_growth, finer_growth))
+        lyapunov = confirmed(coarse, finer)
+        otherwise = finer if differs(coarse, finer) else None
         found |= {"lyapunov": lyapunov.value, "lyapunov_error": lyapunov.error}
     if len(states) and "zero_one" in chosen:
         zero_one = zero_one_test(states, resolution=RECURS)
@@ -62,8 +65,13 @@ def indicators_of(
         spectrum = power_spectrum(principal_plane(states)[:, 0], period)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
-    verdict = decide(lyapunov, zero_one, recurrence, rotation)
+    verdict = decide(lyapunov, zero_one, recurrence, rotation, otherwise)
     return found | {"verdict": float(verdict.code)}
+
+
+def _exponent(log_growth: Floats, period: float) -> Estimate:
+    known = not (np.isnan(log_growth) | (log_growth == np.inf)).any()
+    return exponent_from_growth(log_growth, period) if known else UNKNOWN
 
 
 def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:

@@ -1,7 +1,7 @@
 """The lanes that compute points of one structure, side by side."""
 
 from collections.abc import Iterator
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
+from jointplay.solver.runs.study.finer import go_on_finer
 from jointplay.solver.runs.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import (
@@ -95,20 +96,47 @@ class LaneGroup:
         for lane, run in enumerate(self.lanes):
             if run is None:
                 continue
-            if run.settled >= 0:
-                run.growth.append(self.bundle.growth(lane))
-            sections += self._rows(lane, run)
-            if run.tallies:
-                self._tally(lane, run)
             status = self.bundle.lane(lane).status
-            if status == Status.DONE and self._goes_on(lane, run):
-                continue
+            if run.ended is None:
+                sections += self._recorded(lane, run)
+                if status == Status.DONE and self._goes_on(lane, run):
+                    continue
+                if status != Status.RUNNING:
+                    run.ended = self._end(lane, run, status)
+                    following += self._following(lane, run, run.ended)
+                    if self._looks_again(lane, run):
+                        continue
+            else:
+                run.finer.append(self.bundle.growth(lane))
             if status != Status.RUNNING:
-                end = self._end(lane, run, status)
-                ended.append(end)
-                following += self._following(lane, run, end)
+                ended.append(self._judged(run))
                 self.lanes[lane] = None
         return sections, ended, following
+
+    def _recorded(self, lane: int, run: PointRun) -> list[SectionRows]:
+        """Take what a lane has handed out; return new sections, if they are to be recorded."""
+        if run.settled >= 0:
+            run.growth.append(self.bundle.growth(lane))
+        sections = self._rows(lane, run)
+        if run.tallies:
+            self._tally(lane, run)
+        return sections
+
+    def _looks_again(self, lane: int, run: PointRun) -> bool:
+        """Let a point whose exponent is wanted go on in smaller steps; whether it does."""
+        study = self.study
+        if run.ended is None or run.ended.code or "lyapunov" not in study.indicators:
+            return False
+        period = float(study.period[run.point])
+        run.finer_from = go_on_finer(self.bundle, lane, study.tolerance, period, study.record)
+        return True
+
+    def _judged(self, run: PointRun) -> PointEnd:
+        """Return a point's end with its indicators, for which now all is there."""
+        assert run.ended is not None  # noqa: S101  (narrows the type)
+        if run.ended.code or not self.study.indicators:
+            return run.ended
+        return replace(run.ended, indicators=self._indicators(run))
 
     def _rows(self, lane: int, run: PointRun) -> list[SectionRows]:
         """Return a lane's new sections, if they are to be recorded."""
@@ -174,7 +202,7 @@ class LaneGroup:
             bundle.lane(lane).time,
             np.array([astuple(peak) for peak in peaks]).reshape(-1, 4),
             self._statistics(lane, run, whole=failure is None),
-            {} if failure or not study.indicators else self._indicators(run),
+            {},
         )
 
     def _following(self, lane: int, run: PointRun, end: PointEnd) -> Iterator[PointRun]:
@@ -189,9 +217,11 @@ class LaneGroup:
         states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
         scales, angles = scales_of(study, kernel, run.point)
         period = float(study.period[run.point])
-        growth = np.concatenate([np.zeros((0, 2)), *run.growth])
-        by_period = growth_by_period(growth, period, run.settled)
-        return indicators_of(study.indicators, states, scales, angles, by_period, period)
+        growth, finer = (
+            growth_by_period(np.concatenate([np.zeros((0, 2)), *rows]), period, since)
+            for rows, since in ((run.growth, run.settled), (run.finer, run.finer_from))
+        )
+        return indicators_of(study.indicators, states, scales, angles, growth, finer, period)
 
     def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
         """Return what every point has; those of channels and contacts too if it ran to its end."""

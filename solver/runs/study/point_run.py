@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Flags, Floats
+from jointplay.records.point import PointEnd
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.nonlinear.settling import SETTLINGS, Settling
 from jointplay.solver.runs.study.indicators import RECURS, unwound
@@ -34,6 +35,12 @@ class PointRun:
     """States at sections, (sections, states) each, that settling or indicators still need."""
     growth: list[Floats] = field(default_factory=list)
     """Logarithms of the tangent's growth in each recorded period."""
+    finer: list[Floats] = field(default_factory=list)
+    """The same behind the record, at the finer tolerance."""
+    finer_from: int = 0
+    """Periods after which that counts."""
+    ended: PointEnd | None = None
+    """What is known of it at the end of its record, but for the indicators."""
     tallies: list[Floats] = field(default_factory=list)
     """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0

@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.checkpoint import decode, encode
-from jointplay.records.point import StudySlice
+from jointplay.records.point import PointEnd, StudySlice
 from jointplay.solver.kernels.loop.problem import LaneStart
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.study.lane_group import LaneGroup
@@ -22,7 +23,7 @@ from jointplay.solver.runs.study.point_run import PointRun
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "block of a study"
-SERIES = ("seen", "growth", "tallies")
+SERIES = ("seen", "growth", "finer", "tallies")
 """Lists of arrays of a point's run that a restart point needs."""
 
 
@@ -128,18 +129,22 @@ class StudyRun:
 
 
 def _facts(run: PointRun) -> dict[str, Any]:
-    names = ("point", "chain", "position", "settled", "reached", "taken", "sampled")
+    names = ("point", "chain", "position", "settled", "reached", "taken", "sampled", "finer_from")
     facts = {name: getattr(run, name) for name in names}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
-    return facts | {"starts": run.start is not None}
+    ended = run.ended and {**asdict(run.ended), "peaks": run.ended.peaks.tolist()}
+    return facts | {"starts": run.start is not None, "ended": ended}
 
 
 def _run(facts: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> PointRun:
-    starts = facts.pop("starts")
+    starts, ended = facts.pop("starts"), facts.pop("ended")
     counts = {name: facts.pop(name) for name in SERIES}
     run = PointRun(**facts)
     for name, count in counts.items():
         setattr(run, name, [arrays[f"{name}{run.point}-{i}"] for i in range(count)])
+    if ended:
+        peaks = np.array(ended.pop("peaks")).reshape(-1, 4)
+        run.ended = PointEnd(**ended, peaks=peaks)
     if starts:
         names = ("state", "contact", "impact_rate")
         run.start = LaneStart(*(arrays.get(f"start{run.point}-{name}") for name in names))  # type: ignore[arg-type]

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from jointplay.solver.nonlinear.lyapunov import exponent_from_growth
+from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
+from jointplay.solver.nonlinear.lyapunov import confirmed, differs, exponent_from_growth
 from tests.solver.nonlinear.exponents import (
     agrees,
     companion_exponent,
@@ -176,3 +177,22 @@ def test_the_metric_of_a_companion_does_not_matter() -> None:
     assert other.value == pytest.approx(
         one.value, abs=2.0 * math.log(30.0) / (36 * UEDA.block_time)
     )
+
+
+@pytest.mark.parametrize(
+    ("found", "finer", "error", "other"),
+    [
+        (Estimate(14.6, 1e-5), Estimate(-3.3, 4.9), 13.0, True),
+        (Estimate(6.4, 0.6), Estimate(6.7, 1.2), 0.6, False),
+        (Estimate(40.0, 3.0), Estimate(28.0, 4.0), 8.0, False),  # no chance to tell them apart
+        (Estimate(40.0, 1.0), Estimate(28.0, 1.0), 11.0, True),
+        (Estimate(1.0, 0.1), UNKNOWN, 0.1, False),
+        (Estimate(-math.inf, 0.0), Estimate(-2.0, 0.1), 0.0, False),
+    ],
+)
+def test_an_exponent_is_no_better_than_what_smaller_steps_leave_of_it(
+    found: Estimate, finer: Estimate, error: float, other: bool
+) -> None:
+    assert confirmed(found, finer).value == found.value
+    assert confirmed(found, finer).error == pytest.approx(error)
+    assert differs(found, finer) == other

@@ -117,6 +117,14 @@ def test_no_verdict_goes_beyond_its_evidence(
         assert not period
 
 
+@pytest.mark.parametrize("period", [0, 1])
+def test_an_exponent_that_smaller_steps_contradict_decides_nothing(period: int) -> None:
+    verdict = decide(POSITIVE, IRREGULAR, period, None, NEGATIVE)
+    assert verdict.code == UNDECIDED
+    assert "in far smaller steps" in verdict.reason
+    assert str(NEGATIVE) in verdict.reason
+
+
 def test_verdicts_have_names() -> None:
     assert Verdict(PERIODIC, 3, "").name == "period-3"
     assert [Verdict(code, 0, "").name for code in (0, 2, 3)] == [

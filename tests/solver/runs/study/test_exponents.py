@@ -1,10 +1,16 @@
 """Exponents of a study's points: what tangent vectors give, and what they leave alone."""
 
 import math
+from collections import defaultdict
 from typing import Any
 
 import numpy as np
+import pytest
 
+from benchmarks.lies.named.exponents import LIES, Lie, bouncing_ball, job
+from jointplay.solver.nonlinear.verdict import UNDECIDED
+from jointplay.solver.runs import budget
+from jointplay.solver.runs.study.run import StudyRun
 from tests.solver.completed_runs import CASE_3
 from tests.solver.runs.study.test_run import Computed
 
@@ -44,3 +50,37 @@ def test_a_fast_press_is_chaotic_by_its_exponent() -> None:
     # 7.1 with errors of 0.45 to 0.75, at tolerances from 1e-6 to 1e-9
     assert abs(end.indicators["lyapunov"] - 6.9) < 1.5
     assert 0.2 < end.indicators["lyapunov_error"] < 1.0
+
+
+def test_an_exponent_that_its_steps_made_gives_no_verdict() -> None:
+    found = Computed(job(bouncing_ball(), 200, 100)).ends[0].indicators
+    # hit once a turn, the same way each time: what grows by 15 a second does so in the tangent's
+    # steps through an impact alone, a few for a five-hundredth of the flight
+    assert found["period"] == 1.0
+    assert found["lyapunov"] > 5.0
+    assert found["lyapunov"] <= 3.0 * found["lyapunov_error"]
+    assert found["verdict"] == UNDECIDED
+
+
+@pytest.mark.parametrize("lie", [pytest.param(lie, id=lie.name) for lie in LIES])
+def test_the_true_exponent_is_within_three_errors(lie: Lie) -> None:
+    found = lie.judge()
+    assert found.true, found.said
+
+
+def test_an_exponent_interrupted_anywhere_has_the_same_bits(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = Computed({**DIAGRAM, "indicators": ["lyapunov"], "record": 2})
+    monkeypatch.setattr(budget, "FIRST", 311)
+    monkeypatch.setattr(budget, "LARGEST", 977)
+    disturbed = Computed.__new__(Computed)
+    disturbed.study = whole.study
+    disturbed.ends, disturbed.rows, disturbed.times = {}, defaultdict(list), defaultdict(list)
+    checkpoint: bytes | None = None
+    interrupted = 0
+    while len(disturbed.ends) < 2:
+        checkpoint = disturbed.take(StudyRun(whole.study, 0, checkpoint), 3)
+        interrupted += 1
+    assert interrupted > 3  # in the record, and behind it
+    assert disturbed.bytes() == whole.bytes()
