@@ -23,7 +23,7 @@ class OnsetSection(Strict):
 
 
 class ChannelSection(Strict):
-    """Each time that a channel crosses a value in one direction."""
+    """Each time that a channel crosses a value in one direction; an angle, once a turn."""
 
     channel: Annotated[str, Field(min_length=1, max_length=80)]
     value: Annotated[float, Field(json_schema_extra={"unit": "the channel's unit"})]

@@ -1,5 +1,6 @@
 """Sections of a study that would never be taken are refused before anything is queued."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -137,17 +138,22 @@ def _motion(seen: _Seen, body: str, quantity: str, checked: PlacedPoints) -> Ite
         name = seen.channel.name
         place, sentence = "/section/channel", ""
         if reach.turns:
-            sentence = (
-                f"The angle '{name}' gains whole turns, so it crosses a value once and not once a"
-                " turn; take a section at a crank angle."
-            )
-        elif reach.low == reach.high:
+            continue
+        if reach.low == reach.high:
             sentence = f"'{name}' does not change in this mechanism; take another channel."
-        elif not reach.low <= seen.at_source <= reach.high:
+        elif not reach.low <= _nearest(seen, quantity, reach.low) <= reach.high:
             place, sentence = PLACE, seen.refused(reach.low, reach.high)
         if sentence:
             yield Problem(place, checked.beginning(point) + sentence)
             return
+
+
+def _nearest(seen: _Seen, quantity: str, low: float) -> float:
+    """Return the section's value at the source; an angle's, whole turns on, not below `low`."""
+    if quantity != "theta":
+        return seen.at_source
+    turn = 2.0 * math.pi
+    return seen.at_source + turn * math.ceil((low - seen.at_source) / turn)
 
 
 def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iterator[Problem]:

@@ -14,12 +14,13 @@ not limit, geometry must. Two rules make a step's inside known from its ends:
    length r is worth 203 r turn^6, for 203 is the number of partitions of six.
 """
 
+import math
 from collections.abc import Callable, Iterable
 
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION
 from jointplay.solver.kernels.record.recorder import Expression
-from jointplay.solver.quantities.scalars import maximum
+from jointplay.solver.quantities.scalars import maximum, sqrt
 
 TURN = 0.5
 """Largest angle by which a body may turn in a step, rad."""
@@ -28,6 +29,10 @@ SKIN = 1e-3
 """Share of the clearance that an enclosure keeps from the wall, for what forces do to the sixth
 derivative: a hundred times the local error of a step at the largest tolerance."""
 SLIGHT = 1e-300
+WHIP = 0.5
+"""Angle of a normal in a step, rad, beyond which channels that follow it are looked at closely."""
+COSINE = math.cos(WHIP)
+PATHS = ("eccentricity_start", "eccentricity")
 
 
 def allocate(layout: Layout, joints: int) -> None:
@@ -38,7 +43,7 @@ def allocate(layout: Layout, joints: int) -> None:
     """
     layout.add("lever", "driven_speed")
     layout.add_block("inner", joints)
-    for name in ("eccentricity", "eccentricity_start"):
+    for name in PATHS:
         layout.add_block(name, len(MOTION) * joints)
 
 
@@ -87,7 +92,7 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expressi
     points: list[list[Expression]] = []
     for axis in range(2):
         between = []
-        for block, sense in (("eccentricity_start", 1.0), ("eccentricity", -1.0)):
+        for block, sense in zip(PATHS, (1.0, -1.0), strict=True):
             place, rate, bend = (v(f"{block}{len(MOTION) * j + axis + 2 * k}") for k in range(3))
             fifth = 0.2 * sense * step * rate
             between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
@@ -98,3 +103,12 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expressi
     inner = maximum(v(f"inner{j}") - away, 0.0)
     distance: Expression = square - inner * inner
     return distance
+
+
+def whips_round(v: Callable[[str], Expression], j: int) -> Expression:
+    """Return a number that is positive where joint j's normal turns by more than `WHIP`."""
+    start, end = ([v(f"{block}{len(MOTION) * j + axis}") for axis in range(2)] for block in PATHS)
+    together = start[0] * end[0] + start[1] * end[1]
+    first, last = (x * x + y * y for x, y in (start, end))
+    turned: Expression = COSINE * sqrt(first * last) - together
+    return turned

@@ -8,19 +8,23 @@ from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
 from jointplay.solver.kernels.emit.stepping import before
-from jointplay.solver.kernels.layout import INSTANTS, Layout
+from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
-
-QUARTERS = [i / (INSTANTS // 2) for i in range(INSTANTS // 2)]
 
 
 def source(
-    equations: Equations, dense: Outputs, observed: Outputs, layout: Layout, fixed: FixedNodes
+    equations: Equations,
+    dense: Outputs,
+    scanned: Outputs,
+    rest: Outputs,
+    layout: Layout,
+    fixed: FixedNodes,
 ) -> str:
     """Return the source of what looks inside a step.
 
-    `dense` : time, state, modes and impact rates at `theta` of the step; `observed` : channels, of
-    the state, its time and its accelerations.
+    `dense` : time, state, modes and impact rates at `theta` of the step. `scanned`, `rest` :
+    channels, of the state, its time and its accelerations: those whose extremes are sought, and
+    others, at which sections may be taken.
     """
     within, around = _within(layout), _around(layout)
     count = len(equations.coordinates)
@@ -39,12 +43,12 @@ def source(
     channels = Tape(layout, fixed, fetch=within)
     channels.carry(dense)
     channels.carry(accelerations)
-    channels.store(observed)
+    channels.store([*scanned, *rest])
     channels.keep(name for name, _ in dense)
     surroundings = Tape(layout, fixed, fetch=around)
     surroundings.carry(dense)
     surroundings.carry(accelerations)
-    surroundings.store(observed)
+    surroundings.store(scanned)
     surroundings.keep(["stage_time"])
     return "\n\n".join(
         [
@@ -62,11 +66,11 @@ def _within(layout: Layout) -> Callable[[str], str]:
 
 
 def _around(layout: Layout) -> Callable[[str], str]:
-    """Read quarters of the step before at the first four instants, of this one at the others."""
+    """Read the step before at the first four instants, this one at the others; S gives them."""
 
     def fetch(name: str) -> str:
         if name == "theta":
-            return " ".join(["instants", *map(repr, QUARTERS * 2)])
+            return f"given {layout[name]}"
         if before(name) in layout:
             return f"spread {layout[before(name)]} {layout[name]}"
         return f"spread {layout[name]}"

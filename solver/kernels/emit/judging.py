@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from jointplay.solver.kernels.emit.enclosure import beyond
+from jointplay.solver.kernels.emit.enclosure import beyond, whips_round
 from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
@@ -16,7 +16,7 @@ LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 LANDED = 1e-13
 """Largest penetration, m, at which an onset counts as located."""
 
-REJECTED, DUE, ONSET, RELEASE, PACE = 1, 2, 4, 8, 16
+REJECTED, DUE, ONSET, RELEASE, PACE, PASSING = 1, 2, 4, 8, 16, 32
 """Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
 
 
@@ -39,12 +39,13 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
 
 def contact_flags(
     v: Callable[[str], Expression], j: int, away: Expression, *, shortened: bool
-) -> tuple[Expression, Expression]:
-    """Flag a gap that closed, or perhaps did, inside the step; and one in contact that opened.
+) -> tuple[Expression, ...]:
+    """Flag a gap that closed, or perhaps did; one in contact that opened; passages.
 
     Either may be over at the step's end, so both look at what is in between; but not where steps
     are fixed, not `shortened`: there contacts change where a step ends. A gap whose journal stays
-    in an enclosure off the wall did not close (`solver.kernels.emit.enclosure`, also of `away`).
+    in an enclosure off the wall did not close (`solver.kernels.emit.enclosure`, also of `away`). A
+    journal that passes the centre of its bearing is flagged where its normal turns much.
     """
     gap, rate = v(f"gap{j}"), v(f"gap_rate{j}")
     start, start_rate = v(f"gap_start{j}"), v(f"gap_rate_start{j}")
@@ -65,8 +66,13 @@ def contact_flags(
     onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
+    passing = _where(PASSING, whips_round(v, j), rate, -start_rate)
     touching = v(f"mode{j}")
-    return select_positive(touching, 0.0, onset), _where(release, touching)
+    return (
+        select_positive(touching, 0.0, onset),
+        _where(release, touching),
+        select_positive(touching, 0.0, passing),
+    )
 
 
 def _where(value: Expression | float, *positive: Expression) -> Expression:

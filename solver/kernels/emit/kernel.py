@@ -95,6 +95,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
+    layout.add_block("slip_row", joints)
+    layout.add_block("penetration_row", joints)
     layout.add_block("driver_start", drivers)
     layout.add_block("driver_travel", drivers)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
@@ -123,7 +125,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             lane_function("weigh", energies, layout, fixed, known),
             steps.source(energies, fixed),
             scanning.source(layout, rows.scanned),
-            inside.source(equations, steps.dense(), scanned, layout, fixed),
+            inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
         ]
     )
     row = DenseRow.of(drivers, states, joints)

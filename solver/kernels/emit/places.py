@@ -55,6 +55,8 @@ COUNTS = ("states", "ledger", "joints", "drivers", "rows")
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
+eccentricity eccentricity_start before_step change inner slip_row
+penetration_row
 driver_start driver_travel channel previous highest lowest highest_time lowest_time impact_floor
 restart onset_time approach onset_total opened weight steps pace_at stored stored_start
 """

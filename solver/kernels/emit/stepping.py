@@ -5,6 +5,7 @@ flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want att
 """
 
 from collections.abc import Iterable
+from functools import reduce
 from itertools import count
 
 from jointplay.solver.integrators import Method
@@ -173,13 +174,14 @@ class StepRecorder:
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
         flag = REJECTED * (1.0 - good) + due + pace
-        onset: Expression = number(0.0)
-        release: Expression = number(0.0)
         away = self._away()
-        for j in range(self.joints):
-            begins, ends = contact_flags(v, j, away, shortened=bool(self.tableau.error))
-            onset, release = maximum(onset, begins), maximum(release, ends)
-        flag = select_positive(v("active"), flag + onset + release, number(0.0))
+        joints = [
+            contact_flags(v, j, away, shortened=bool(self.tableau.error))
+            for j in range(self.joints)
+        ]
+        for kind in zip(*joints, strict=True):
+            flag = flag + reduce(maximum, kind)
+        flag = select_positive(v("active"), flag, number(0.0))
         outputs = [
             ("accept", good * v("active")),
             ("flag", flag),

@@ -6,7 +6,6 @@ A tape has one statement a line::
     v0 = spread 12          slot 12 of W in one lane, the same at all instants
     v0 = spread 12 45       the same; slot 45 at the last four instants
     v0 = given 12           slot 12 of S
-    v0 = instants 0.0 0.25 … eight numbers
     v3 = mul v1 0.5         arithmetic: see `solver.kernels.record.operations`
     store 14 v3             into slot 14 of S, or of W where there is no S
     return v3               the largest of its lanes
@@ -31,7 +30,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from llvmlite import ir
 from numba import float64, int64, types
 from numba.core import cgutils
 from numba.extending import intrinsic
@@ -112,8 +110,6 @@ def _run(tape: str, state: _Tape) -> Any:
                 state.values[name] = state.load(state.target, slot)
             case [name, "spread", *slots]:
                 state.values[name] = state.spread(*slots)
-            case [name, "instants", *numbers]:
-                state.values[name] = state.instants(*map(float, numbers))
             case [name, operation, *operands]:
                 values = map(state.value, operands)
                 state.values[name] = OPERATIONS[operation].on_lanes(state.lanes, *values)
@@ -154,12 +150,6 @@ class _Tape:
         if self.part is None:
             return lower_and_upper(builder, early, late)
         return builder.select(self._is_early(), early, late)
-
-    def instants(self, *numbers: float) -> Any:
-        if self.part is None:
-            return ir.Constant(NUMBERS, numbers)
-        early, late = (ir.Constant(NUMBERS, half) for half in (numbers[:LANES], numbers[LANES:]))
-        return self.builder.select(self._is_early(), early, late)
 
     def _is_early(self) -> Any:
         return self.builder.icmp_unsigned("==", self.part, WORD(0))

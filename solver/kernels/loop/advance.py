@@ -16,7 +16,7 @@ from jointplay.solver.kernels.emit.functions import (
     WORK,
     functions_at,
 )
-from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, REJECTED, RELEASE
+from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, PASSING, REJECTED, RELEASE
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
 from jointplay.solver.kernels.lanes import LANES
@@ -30,11 +30,12 @@ from jointplay.solver.kernels.loop.contacts import (
 from jointplay.solver.kernels.loop.dense_rows import hand_out
 from jointplay.solver.kernels.loop.events import (
     any_crossing,
-    crosses,
     has_all_events,
-    locate_crossing,
+    may_cross,
+    record_crossings,
     record_event,
 )
+from jointplay.solver.kernels.loop.inner_peaks import look_at_last_step, look_at_passages
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.peaks import end_peaks, refine_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
@@ -175,6 +176,24 @@ def still_landing(runs: np.ndarray) -> bool:
     return landing > 0
 
 
+@kernel()
+def look_closer(
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    runs: np.ndarray,
+    table: np.ndarray,
+    channels_within: LaneFunction,
+    channels_around: LaneFunction,
+) -> None:
+    """Seek extremes where a journal passes the centre of its bearing, and where a run ends."""
+    for lane in range(LANES):
+        flag, run = int(work[at.flag, lane]), runs[lane]
+        if work[at.accept, lane] > 0.0 and flag & (PASSING | DUE):
+            look_at_passages(lane, run, at, work, spare, table, channels_within, channels_around)
+            look_at_last_step(lane, run, at, work, spare, table, channels_within, channels_around)
+
+
 @deferred(int64(ADDRESSES, PLACES, WORK, WORK, RUNS, BUFFERS, int64, int64))
 def advance(
     addresses: np.ndarray,
@@ -238,10 +257,11 @@ def advance(
         if crossing:
             for lane in range(LANES):
                 run = runs[lane]
-                if work[at.accept, lane] > 0.0 and crosses(lane, run, at, work):
+                if work[at.accept, lane] > 0.0 and may_cross(lane, run, at, work):
                     quiet = False
-                    found = locate_crossing(lane, run, at, work, spare, call.channels_within)
-                    full |= record_event(found, lane, run, at, work, spare, rows)
+                    full |= record_crossings(lane, run, at, work, spare, rows, call.channels_within)
+        if watch and not quiet:
+            look_closer(at, work, spare, runs, table, call.channels_within, call.channels_around)
         if watch:
             candidates = call.scan(work) if quiet else call.scan_some(work)
             for lane in range(LANES if candidates > 0 else 0):

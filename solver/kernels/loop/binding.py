@@ -114,8 +114,10 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         if isinstance(scene.joints[driver.joint], Revolute)
     ]
     lane["driven_speed"] = sum(turning)
-    for j, fit in enumerate(clearances(scene).values()):
+    for j, (name, fit) in enumerate(clearances(scene).items()):
         lane["inner"][j] = (1.0 - SKIN) * fit.radial_clearance
+        for quantity, slot in (("slip_velocity", "slip_row"), ("penetration", "penetration_row")):
+            lane[slot][j] = lane.kernel.rows.index(f"{name}.{quantity}")
 
 
 def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> None:
@@ -147,5 +149,6 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run["stop"] = problem.samples, problem.sections
     run["section_kind"], run["section_place"] = event.kind, event.place
     run["section_value"], run["section_sense"] = event.value, event.sense
+    run["section_turn"] = event.turn
     run["section_from"], run["section_offset"] = event.not_before, problem.section_offset
     set_clock(lane.index, run, lane.places[0], lane.work)

@@ -1,15 +1,34 @@
-"""Poincare sections at events: the onset of a contact, or a channel that crosses a value."""
+"""Poincare sections at events: the onset of a contact, or a channel that crosses a value.
+
+An angle crosses a value once a turn: its levels are a whole turn apart. Whether a channel may cross
+within a step is judged by its changes in this step and the one before. Where it may, it is looked
+at in eight places and about each passage of a journal by the centre of its bearing, and more
+closely where it turns near a level.
+"""
+
+import math
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
+from jointplay.solver.kernels.loop.passages import closest_approach, passes, place_about
 from jointplay.solver.kernels.loop.runs import SECTIONS, Run, SectionKind
 
 LEVELS = 14
 """Each narrows the interval of a crossing to an eighth: 2e-13 of the step at the end."""
+REACH = 2.0
+"""Changes of a channel in this step and the last one, by which it may be away in between."""
+ROUNDS = 4
+"""Each adds three places to either side of one where a channel turns near a level."""
+MOST_PLACES = 128
+MOST_IN_A_STEP = 64
+"""Sections in a step: as much room is left in a buffer."""
+SAME = 1e-12
+"""Share of a step: places closer than that are one."""
 
 
 @kernel()
@@ -44,22 +63,174 @@ def record_event(
     write_row(rows[SECTIONS, lane, run.filled[SECTIONS]], i, lane, run, at, work, source)
     run.filled[SECTIONS] += 1
     run.next[SECTIONS] += 1
-    return run.filled[SECTIONS] >= rows.shape[2]
+    return run.filled[SECTIONS] >= rows.shape[2] - MOST_IN_A_STEP
 
 
 @kernel()
-def crosses(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
-    """Whether a lane's channel crosses its value within the step, in the sense that counts."""
+def height(value: float, run: Run) -> float:
+    """Return how far a channel's value is beyond a section's, in the sense that counts."""
+    return float(run.section_sense * (value - run.section_value))
+
+
+@kernel()
+def level(height: float, run: Run) -> float:
+    """Return the number of levels at or below a height: a section is taken where it grows."""
+    if run.section_turn > 0.0:
+        return math.floor(height / run.section_turn)
+    return 0.0 if height >= 0.0 else -1.0
+
+
+@kernel()
+def above(height: float, run: Run) -> float:
+    """Return how far the next level above a height is; infinite if there is none."""
+    if run.section_turn > 0.0:
+        return run.section_turn * (math.floor(height / run.section_turn) + 1.0) - height
+    return -height if height < 0.0 else math.inf
+
+
+@kernel()
+def below(height: float, run: Run) -> float:
+    """Return how far the next level at or below a height is; infinite if there is none."""
+    if run.section_turn > 0.0:
+        return height - run.section_turn * math.floor(height / run.section_turn)
+    return height if height >= 0.0 else math.inf
+
+
+@kernel()
+def may_cross(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
+    """Whether a lane's channel may come to a level of its section within the step.
+
+    A channel that time alone gives is not followed from step to step: it may always.
+    """
     if run.section_kind != SectionKind.CROSSING:
         return False
-    before = work[at.previous + run.section_place, lane]
-    now = work[at.channel + run.section_place, lane]
-    value, sense = run.section_value, run.section_sense
-    return sense * (before - value) < 0.0 <= sense * (now - value)
+    place = run.section_place
+    if place >= at.rows or int(work[at.flag, lane]) & PASSING:
+        return True
+    before = height(work[at.previous + place, lane], run)
+    now = height(work[at.channel + place, lane], run)
+    if level(before, run) != level(now, run):
+        return True
+    reach = REACH * (abs(now - before) + abs(work[at.change + place, lane]))
+    nearest = min(
+        min(above(before, run), below(before, run)), min(above(now, run), below(now, run))
+    )
+    return not nearest > reach  # before the first step there is no change: it is NaN
 
 
 @kernel()
-def locate_crossing(
+def record_crossings(
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    rows: np.ndarray,
+    channels_within: LaneFunction,
+) -> bool:
+    """Write a section for each crossing inside the step; whether the buffer is full now."""
+    shares, heights = np.empty(MOST_PLACES), np.empty(MOST_PLACES)
+    count = places_to_look_at(lane, at, work, spare, shares)
+    look_at(shares, count, heights, lane, run, at, work, spare, channels_within)
+    for _ in range(ROUNDS):
+        more = refined(shares, heights, count, run)
+        if more == count:
+            break
+        count = more
+        look_at(shares, count, heights, lane, run, at, work, spare, channels_within)
+    full = False
+    taken = 0
+    for i in range(1, count):
+        if level(heights[i], run) > level(heights[i - 1], run) and taken < MOST_IN_A_STEP:
+            wanted = level(heights[i], run)
+            low, high = shares[i - 1], shares[i]
+            found = locate(wanted, low, high, lane, run, at, work, spare, channels_within)
+            full |= record_event(found, lane, run, at, work, spare, rows)
+            taken += 1
+    return full
+
+
+@kernel()
+def places_to_look_at(
+    lane: int, at: Places, work: np.ndarray, spare: np.ndarray, shares: np.ndarray
+) -> int:
+    """Set the shares of the step at which to look first, in their order; how many there are."""
+    for i in range(INSTANTS):
+        shares[i] = i / (INSTANTS - 1)
+    count = INSTANTS
+    for j in range(at.joints):
+        if passes(j, lane, at, work) and count + INSTANTS <= MOST_PLACES // 4:
+            share, width = closest_approach(j, lane, at, work)
+            place_about(share, width, at, spare)
+            for i in range(INSTANTS):
+                shares[count + i] = spare[at.theta, i]
+            count += INSTANTS
+    return ordered(shares, count)
+
+
+@kernel()
+def ordered(shares: np.ndarray, count: int) -> int:
+    """Sort shares and leave out those that are there already; how many are left."""
+    shares[:count].sort()
+    kept = 1
+    for i in range(1, count):
+        if shares[i] - shares[kept - 1] > SAME:
+            shares[kept] = shares[i]
+            kept += 1
+    shares[kept - 1] = 1.0
+    return kept
+
+
+@kernel()
+def look_at(
+    shares: np.ndarray,
+    count: int,
+    heights: np.ndarray,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    channels_within: LaneFunction,
+) -> None:
+    """Evaluate a section's channel at shares of the step; its ends are those of other steps."""
+    place = run.section_place
+    for first in range(0, count, INSTANTS):
+        many = min(INSTANTS, count - first)
+        for i in range(INSTANTS):
+            spare[at.theta, i] = shares[first + min(i, many - 1)]
+        channels_within(work, spare, lane)
+        for i in range(many):
+            heights[first + i] = height(spare[at.channel + place, i], run)
+    if place < at.rows:
+        heights[0] = height(work[at.previous + place, lane], run)
+        heights[count - 1] = height(work[at.channel + place, lane], run)
+
+
+@kernel()
+def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> int:
+    """Add places next to those where a channel may turn at a level; how many there are now."""
+    total = count
+    for i in range(count):
+        left, right = max(i - 1, 0), min(i + 1, count - 1)
+        rise, fall = heights[i] - heights[left], heights[i] - heights[right]
+        near = abs(rise) + abs(fall)
+        top = rise >= 0.0 and fall >= 0.0 and above(heights[i], run) < near
+        bottom = rise <= 0.0 and fall <= 0.0 and below(heights[i], run) < near
+        same = level(heights[left], run) == level(heights[i], run) == level(heights[right], run)
+        if (top or bottom) and same and total + 6 <= MOST_PLACES:
+            for k in range(1, 4):
+                shares[total] = shares[left] + 0.25 * k * (shares[i] - shares[left])
+                shares[total + 1] = shares[i] + 0.25 * k * (shares[right] - shares[i])
+                total += 2
+    return ordered(shares, total) if total > count else count
+
+
+@kernel()
+def locate(
+    wanted: float,
+    low: float,
+    high: float,
     lane: int,
     run: Run,
     at: Places,
@@ -67,9 +238,10 @@ def locate_crossing(
     spare: np.ndarray,
     channels_within: LaneFunction,
 ) -> int:
-    """Return the column of `spare` that holds the state at the first crossing inside the step."""
-    value, sense = run.section_value, run.section_sense
-    low, high = 0.0, 1.0
+    """Return the column of `spare` that holds the state where a channel comes to a level.
+
+    wanted : the number of that level, at which the channel is at the share `high` of the step.
+    """
     found = INSTANTS - 1
     for _ in range(LEVELS):
         width = (high - low) / INSTANTS
@@ -78,7 +250,7 @@ def locate_crossing(
         channels_within(work, spare, lane)
         found = INSTANTS - 1
         for i in range(INSTANTS):
-            if sense * (spare[at.channel + run.section_place, i] - value) >= 0.0:
+            if level(height(spare[at.channel + run.section_place, i], run), run) >= wanted:
                 found = i
                 break
         low, high = low + width * found, low + width * (found + 1)

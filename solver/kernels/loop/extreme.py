@@ -13,12 +13,18 @@ POINTS = INSTANTS + 1
 """Quarters of the step before and of this one, and its end."""
 ORDER = 4
 """Order of the polynomial that gives an extreme's value."""
+TINY = 1e-300
+LEAST_SHRINKING = 0.1
 STRIDE = 16
 """From a row of a table to the next."""
 TIMES, INVERSES, VALUES = 0, 0, (ORDER + 1) * STRIDE
 """Where rows begin. Order k of the inverses is k rows behind INVERSES, of the divided differences
 k rows behind VALUES; each belongs to the points from its place on."""
-SIZE = 2 * (ORDER + 1) * STRIDE
+SHARES = 2 * (ORDER + 1) * STRIDE
+"""Row for the places of the points, in shares of steps."""
+WAITING, MOST_WAITING = SHARES + STRIDE, 32
+"""Rows for values of channels whose extremes are to be zoomed in on; behind them the channel."""
+SIZE = WAITING + MOST_WAITING * STRIDE
 
 
 @kernel()
@@ -39,11 +45,12 @@ def compare_values(table: np.ndarray) -> None:
 
 
 @kernel()
-def extreme(table: np.ndarray, sense: float) -> tuple[float, float]:
-    """Time and value of the largest (sense 1) or smallest (sense -1) value near the samples.
+def extreme(table: np.ndarray, sense: float) -> tuple[float, float, float, int]:
+    """Return the largest (sense 1) or smallest (sense -1) value near the samples: when, how much.
 
     A parabola through the best of them tells when, a quartic how much: the extreme is flat, so the
-    parabola's error in time does not show.
+    parabola's error in time does not show. Then an estimate of the value's error, and the number of
+    the best sample: the extreme is between its neighbours.
     """
     last = POINTS - 1
     best = 0
@@ -52,7 +59,7 @@ def extreme(table: np.ndarray, sense: float) -> tuple[float, float]:
             best = i
     time, value = table[TIMES + best], table[VALUES + best]
     if best == 0 or best == last:
-        return time, value
+        return time, value, 0.0, best
     bend = VALUES + 2 * STRIDE
     here = table[bend + best - 1]
     left = table[bend + max(best - 2, 0)]
@@ -64,22 +71,30 @@ def extreme(table: np.ndarray, sense: float) -> tuple[float, float]:
     slope = table[VALUES + STRIDE + best] - here * after
     vertex = time - 0.5 * slope / here
     if not table[TIMES + best - 1] <= vertex <= table[TIMES + best + 1]:
-        return time, value
+        return time, value, abs(here) * after * after, best
     first = min(max(best - ORDER // 2, 0), last - ORDER)
-    total = table[VALUES + STRIDE * ORDER + first]
-    for k in range(ORDER - 1, -1, -1):
-        total = table[VALUES + STRIDE * k + first] + (vertex - table[TIMES + first + k]) * total
-    return vertex, total
+    total = table[VALUES + first]
+    factor, term, before = 1.0, 0.0, 0.0
+    for k in range(1, ORDER + 1):
+        factor *= vertex - table[TIMES + first + k - 1]
+        before, term = term, factor * table[VALUES + STRIDE * k + first]
+        total += term
+    # terms left out shrink as the last ones did, but one may be small by chance
+    shrinking = min(max(abs(term) / (abs(before) + TINY), LEAST_SHRINKING), 1.0)
+    return vertex, total, shrinking * abs(term), best
 
 
 @kernel()
-def corner(table: np.ndarray, best: int, sense: float) -> tuple[float, float]:
-    """Time and value where two smooth pieces meet next to the best sample, or that sample itself.
+def corner(table: np.ndarray, best: int, sense: float) -> tuple[float, float, float, int]:
+    """Return as `extreme` where two smooth pieces meet next to the best sample, or that sample.
 
     Each piece is continued by the parabola through its three samples nearest to the gap between
-    two samples in which they meet.
+    two samples in which they meet. The error is what the parabolas are bent there.
     """
     time, value = table[TIMES + best], table[VALUES + best]
+    if value == table[VALUES + best + 1]:  # it rests there
+        return time, value, 0.0, best
+    error = max(abs(value - table[VALUES + best - 1]), abs(value - table[VALUES + best + 1]))
     for left in range(max(best - 1, 2), min(best, POINTS - 4) + 1):
         low, high = table[TIMES + left], table[TIMES + left + 1]
         rise = from_left(table, left, high) - table[VALUES + left + 1]
@@ -91,7 +106,10 @@ def corner(table: np.ndarray, best: int, sense: float) -> tuple[float, float]:
         met = min(before, after) if sense > 0.0 else max(before, after)
         if sense * met > sense * value:
             time, value = at, met
-    return time, value
+            bends = abs(table[VALUES + 2 * STRIDE + left - 2])
+            bends += abs(table[VALUES + 2 * STRIDE + left + 1])
+            error = abs(before - after) + bends * (high - low) * (high - low)
+    return time, value, error, best
 
 
 @kernel()

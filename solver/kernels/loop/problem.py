@@ -24,6 +24,8 @@ class Event:
     value: float = 0.0
     sense: float = 1.0
     """1: the channel comes from below; -1: from above."""
+    turn: float = 0.0
+    """After how much the channel, an angle, is back; 0: never."""
     not_before: float = 0.0
     """Time from which events count, s."""
 

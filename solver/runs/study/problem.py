@@ -1,5 +1,6 @@
 """The problem that a lane gets of a point: all of it, or the time until the point settles."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -103,7 +104,8 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
         name, factor, offset = kernel.rows.multiples[name]
         value, sense = (value - offset) / factor, sense if factor > 0.0 else -sense
     row = kernel.rows.index(name)
-    return Event(SectionKind.CROSSING, row, value, sense, not_before)
+    turn = 2.0 * math.pi if name.endswith(".theta") else 0.0
+    return Event(SectionKind.CROSSING, row, value, sense, turn, not_before)
 
 
 def _perturbed(study: Study, kernel: Kernel, point: int, perturbation: Perturbation) -> LaneStart:

@@ -19,7 +19,7 @@ def extreme(
     table[nine.VALUES : nine.VALUES + POINTS] = values
     nine.compare_times(table)
     nine.compare_values(table)
-    time, value = nine.extreme(table, sense)
+    time, value, *_ = nine.extreme(table, sense)
     return time, value
 
 

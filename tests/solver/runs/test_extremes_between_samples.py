@@ -1,0 +1,84 @@
+"""Reported extremes are those of a fine sampling of the same run, wherever they fall."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.solver.completed_runs import run
+
+CLOSE = 1e-6
+"""Share of a channel's range; where nothing sticks and steps are as long as at tolerance 1e-6."""
+NOISE = 1e-9
+"""A range that is a smaller share of that of another channel of the same kind is rounding."""
+ACCURACIES: tuple[dict[str, Any], ...] = (
+    {"tolerance": 1e-6},
+    {"tolerance": 1e-8},
+    {"method": "dormand-prince-853", "tolerance": 1e-6},
+)
+
+
+def check(scene: str, duration: float, parameters: dict[str, float], **job: Any) -> None:
+    """Compare the extremes of all channels with those of 100 000 samples."""
+    found = run(scene, duration, parameters=parameters, output_step=duration / 1e5, **job)
+    ranges = {name: np.ptp(samples) for name, samples in found.samples.items()}
+    for name, samples in found.samples.items():
+        kind = name.split(".")[-1].split("_")[0]
+        largest = max(r for other, r in ranges.items() if f".{kind}" in other or other == name)
+        if ranges[name] <= NOISE * largest:
+            continue
+        peak, slack = found.peaks[name], CLOSE * ranges[name]
+        assert samples.max() - peak.maximum <= slack, (name, job, parameters)
+        assert peak.minimum - samples.min() <= slack, (name, job, parameters)
+
+
+def test_a_pendulum_that_spins_stays_on_its_circle() -> None:
+    parameters = {"gravity_y": 0.0, "angular_velocity": 1000.0}
+    found = run("pendulum", 0.05, parameters=parameters)
+    for name, radius in (("rod.x", 0.5), ("rod.y", 0.5), ("pivot.force_x", 5e5)):
+        peak = found.peaks[name]
+        assert peak.maximum == pytest.approx(radius, rel=1e-6)
+        assert peak.minimum == pytest.approx(-radius, rel=1e-6)
+
+
+def test_a_journal_that_passes_the_centre_slips_fastest_there() -> None:
+    # on a straight line, 10 um from the centre: the slip there is the speed, the way from the wall
+    # what is left of the clearance of 1 mm; a step takes a hundred times as long as the passage
+    parameters = {"gravity_y": 0.0, "velocity_x": 0.2, "position_x": -9e-4, "position_y": 1e-5}
+    found = run("bouncing-journal", 0.008, parameters=parameters)
+    assert found.peaks["bearing.slip_velocity"].minimum == pytest.approx(-0.2, rel=1e-9)
+    assert found.peaks["bearing.slip_velocity"].minimum_time == pytest.approx(4.5e-3, abs=1e-8)
+    assert found.peaks["bearing.penetration"].minimum == pytest.approx(-9.9e-4, rel=1e-9)
+
+
+def random_journal(rng: np.random.Generator) -> tuple[float, dict[str, float]]:
+    """Return a duration and the parameters of a journal that bounces a few times in it."""
+    clearance = float(10.0 ** rng.uniform(-4.0, -2.5))
+    speed = float(10.0 ** rng.uniform(-1.5, 0.0))
+    along, away = rng.uniform(0.0, 2.0 * np.pi, 2)
+    distance = clearance * rng.uniform(0.0, 0.95)
+    parameters = {
+        "clearance": clearance,
+        "position_x": float(distance * np.cos(away)),
+        "position_y": float(distance * np.sin(away)),
+        "velocity_x": float(speed * np.cos(along)),
+        "velocity_y": float(speed * np.sin(along)),
+        "spin": float(20.0 * rng.normal()),
+        "gravity_y": float(rng.choice([0.0, -9.81])),
+        "friction": 0.0,
+        "restitution": float(rng.uniform(0.3, 0.95)),
+    }
+    return float(rng.uniform(1.0, 8.0)) * clearance / speed, parameters
+
+
+@pytest.mark.parametrize(("seed", "count"), [(3, 12), pytest.param(4, 300, marks=pytest.mark.long)])
+def test_no_sample_of_a_journal_is_beyond_its_extremes(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    for i in range(count):
+        duration, parameters = random_journal(rng)
+        check("bouncing-journal", duration, parameters, **ACCURACIES[i % len(ACCURACIES)])
+
+
+@pytest.mark.parametrize("accuracy", ACCURACIES[:2])
+def test_no_sample_of_the_press_is_beyond_its_extremes(accuracy: dict[str, Any]) -> None:
+    check("seven-bar-press", 0.04, {"friction": 0.1}, **accuracy)
