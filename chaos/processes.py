@@ -12,12 +12,16 @@ from typing import Final
 from jointplay.chaos.inside import FOLDER_VARIABLE
 
 ROLES: Final = ("computing", "worker", "api", "relay", "broker", "supervisor")
-"""What processes do; "computing" are the children of the worker."""
+"""What processes do that faults choose from; "computing" are the children of the worker.
+
+Beside them there are those that compile, which end with those who wait for them.
+"""
 _MODULES: Final = {
     "jointplay.service.processes.api": "api",
     "jointplay.worker.relay": "relay",
     "jointplay.worker": "worker",
     "jointplay.service.processes": "supervisor",
+    "jointplay.solver.kernels.compile_file": "compiling",
 }
 _PATIENCE = 30.0  # s, until a killed process is gone
 
@@ -56,7 +60,7 @@ def running(folder: Path, *roles: str) -> list[Process]:
         role = "computing" if is_child else known
         if role is not None and (not roles or role in roles):
             processes.append(Process(pid, role))
-    return sorted(processes, key=lambda process: (ROLES.index(process.role), process.pid))
+    return sorted(processes, key=lambda process: process.pid)
 
 
 def _role(command: list[str]) -> str | None:

@@ -183,7 +183,10 @@ def _begin(
     if resume_from is not None:
         name, fraction = resume_from
         try:
-            return *StudyBlock.resume(folder, layout, index, attempt, name), fraction
+            block, carried = StudyBlock.resume(folder, layout, index, attempt, name)
+            if carried:
+                return block, carried, fraction
+            _log.warning("block %s had ended, which nobody was told: it begins anew", index)
         except (FileNotFoundError, ResultsError) as error:
             _log.warning("block %s begins anew: %s", index, error)
     return StudyBlock(folder, layout, index, attempt), None, 0.0

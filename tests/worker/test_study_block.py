@@ -133,6 +133,23 @@ def test_however_often_a_block_is_left_and_resumed_the_bytes_are_the_same(
     assert packed(folder).read_bytes() == undisturbed.read_bytes()
 
 
+def test_a_worker_lost_between_a_cancelled_block_and_the_word_of_it_costs_nothing_else(
+    study: Study, tmp_path: Path
+) -> None:
+    names: list[str] = []
+    ended = run_block(study, 0, tmp_path / "store", report=after(1, Answer.cancel, names))
+    assert ended.state == "cancelled"
+    again = run_block(
+        study,
+        0,
+        tmp_path / "store",
+        report=after(0, Answer.cancel, []),
+        attempt=2,
+        resume_from=(names[-1], ended.fraction),
+    )
+    assert again.state == "cancelled"
+
+
 def test_a_restart_point_that_is_no_good_costs_time_only(
     study: Study, undisturbed: Path, tmp_path: Path
 ) -> None:
