@@ -62,15 +62,17 @@ class Equations:
         return tuple(enumerate(rates, start=len(self.coordinates)))
 
 
-def record(scene: Scene, tree: Tree, formulation: str) -> Equations:
-    """Run the mechanics on recorded expressions.
+def record(
+    scene: Scene, tree: Tree, formulation: str, recorder: Recorder | None = None
+) -> Equations:
+    """Run the mechanics on expressions of a recorder, by default a new one.
 
     Raises
     ------
     LimitExceeded
         The scene's equations are too long to compile.
     """
-    recorder = Recorder()
+    recorder = recorder or Recorder()
     numbers = view(scene, recorder.number)
     lagrange = formulation == "lagrange"
     coordinates = (
@@ -203,7 +205,8 @@ def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
     """Refuse (LimitExceeded) a scene whose equations have more statements than can be compiled."""
     if len(scene.bodies) <= SURELY_SHORT:
         return
-    equations = record(scene, tree, formulation)
+    # a third of what is recorded may never be used
+    equations = record(scene, tree, formulation, Recorder(2 * MOST_STATEMENTS))
     for expressions in ([e for _, e in slopes(equations)], equations.channels.values()):
         count = len(reachable(expressions))
         if count > MOST_STATEMENTS:

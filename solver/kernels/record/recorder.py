@@ -26,9 +26,10 @@ COMMUTING = frozenset({"add", "mul"})
 
 
 class Recorder:
-    """Owns the nodes of one recording."""
+    """Owns the nodes of one recording, `most` of them; derivatives need more than equations."""
 
-    def __init__(self) -> None:
+    def __init__(self, most: int = 16 * MOST_STATEMENTS) -> None:
+        self._most = most
         self._nodes: dict[tuple[object, ...], Expression] = {}
         self.numbers: dict[str, float] = {}
         self.functions: dict[int, Function] = {}
@@ -73,7 +74,7 @@ class Recorder:
         key = (operation, *(e.index for e in ordered), data)
         found = self._nodes.get(key)
         if found is None:
-            if len(self._nodes) >= 2 * MOST_STATEMENTS:  # of which a third may never be used
+            if len(self._nodes) >= self._most:
                 raise too_many(len(self._nodes))
             found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
             self._nodes[key] = found
