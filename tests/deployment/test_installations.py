@@ -161,7 +161,7 @@ ASKING = [
     "cancel JOB",
     "delete JOB",
 ]
-ELSEWHERE = {"demo", "reproduce"}
+ELSEWHERE = {"demo", "reproduce", "chaos"}
 """Start what the others start too, services and processes, but for minutes: see their own tests."""
 
 

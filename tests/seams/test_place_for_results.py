@@ -3,6 +3,7 @@
 import sqlite3
 from collections.abc import Iterable, Iterator
 from contextlib import closing
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,12 @@ class OneDatabase:
     def size(self, key: str) -> int:
         return len(self._content(key))
 
+    def version(self, key: str) -> str | None:
+        try:
+            return sha256(self._content(key)).hexdigest()
+        except FileNotFoundError:
+            return None
+
     def read(self, key: str, start: int, stop: int) -> bytes:
         return self._content(key)[start:stop]
 
@@ -86,7 +93,7 @@ class TestOneDatabase(PlaceContract):
 
     def raw_set(self, place: Place, key: str, content: bytes) -> None:
         assert isinstance(place, OneDatabase)
-        place.ask("INSERT INTO objects VALUES (?, ?)", key, content)
+        place.ask("INSERT OR REPLACE INTO objects VALUES (?, ?)", key, content)
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,10 @@
 """Recorded expressions are the mechanics: they evaluate to what the same code gives on floats."""
 
+import math
 import re
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from jointplay.records.failure import LimitExceeded
@@ -128,6 +129,8 @@ def test_recorded_mechanics_equal_the_mechanics_on_floats(
     given_values = {**equations.recorder.numbers, **variables(instant, formulation)}
     found: dict[int, float] = {}
     motion = getattr(instant, formulation)()
+    # the direction of a concentric journal is a matter of rounding
+    assume(all(math.hypot(*c.eccentricity) > 1e-12 for c in motion.contacts.values()))
     if formulation == "reduced":
         count = len(equations.coordinates)
         for i, acceleration in enumerate(motion.accelerations):
