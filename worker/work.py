@@ -14,7 +14,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
-from jointplay.storage.studies.store import seal
+from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
 from jointplay.worker.study_block import layout_of, run_block
 
@@ -114,10 +114,13 @@ class StudyWork:
         """Compute the block's points."""
         block = self._block
         name = block.checkpoint
+        folder = self._settings.running_study(block.job).folder
+        if discard_others(folder, self._layout):
+            _log.warning("%s held another job's documents; they are made anew", folder)
         return run_block(
             self._study,
             block.index,
-            self._settings.running_study(block.job).folder,
+            folder,
             report=report,
             attempt=block.attempt,
             resume_from=None if name is None else (name, block.progress_fraction),
@@ -148,6 +151,7 @@ class SealWork:
             seal(self._folder, self._layout, self._target, advanced)
         except (CorruptStore, CheckpointMismatch, IncompleteStudy) as damage:
             _log.warning("blocks of %s are computed again: %s", self._folder, damage)
+            discard_others(self._folder, self._layout)
             for index in range(len(self._study.blocks)):
                 outcome = run_block(
                     self._study, index, self._folder, report=report, layout=self._layout

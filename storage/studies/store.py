@@ -21,7 +21,7 @@ from jointplay.storage.errors import (
     StoreExists,
 )
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.packed.running import PARTS
+from jointplay.storage.packed.running import DOCUMENTS, PARTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
@@ -45,21 +45,39 @@ def create(folder: Path, layout: StudyLayout) -> None:
         The folder holds a store of something else, or of the same study computed by another
         version of the program.
     """
-    files = Running(folder, owner=layout.digest)
-    try:
-        present = json.loads(files.read(metadata.FILE))["attributes"].get("layout")
-    except (NotAStore, CorruptStore, FileNotFoundError, ValueError, KeyError, TypeError):
-        pass  # none, or cut off by a power failure, or damaged
-    else:
-        if present != layout.digest:
-            raise StoreExists(
-                f"{folder} holds other results, or some of this study from another version of"
-                " the program; choose another folder, or submit the study again"
-            )
+    present = _attributes(folder)
+    if present is not None and present.get("layout") == layout.digest:
         return
+    if present is not None:
+        raise StoreExists(
+            f"{folder} holds other results, or some of this study from another version of"
+            " the program; choose another folder, or submit the study again"
+        )
     running = documents.running(layout).items()
     shown = ((key, metadata.serialise(document)) for key, document in running)
+    files = Running(folder, owner=layout.digest)
     files.write_documents(chain(_values(layout), shown))
+
+
+def discard_others(folder: Path, layout: StudyLayout) -> bool:
+    """Remove another study's documents from a folder that is one job's own, where they are damage.
+
+    Those of the same job by another version of the program stay. Returns whether any were removed.
+    """
+    present = _attributes(folder)
+    if present is None or present.get("job") == layout.attributes.get("job"):
+        return False
+    (folder / DOCUMENTS).unlink(missing_ok=True)
+    return True
+
+
+def _attributes(folder: Path) -> dict[str, Any] | None:
+    """Return what the store in a folder says of itself; None: there is none, or it is damaged."""
+    try:
+        found: dict[str, Any] = json.loads(Running(folder).read(metadata.FILE))["attributes"]
+    except (NotAStore, CorruptStore, FileNotFoundError, ValueError, KeyError, TypeError):
+        return None
+    return found
 
 
 def seal(

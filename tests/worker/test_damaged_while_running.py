@@ -1,5 +1,6 @@
 """Files that are damaged while a job runs: its worker computes again what was lost."""
 
+import shutil
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -11,7 +12,8 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import JobState, NewJob
 from jointplay.storage.settings import Settings
-from jointplay.storage.studies.store import seal
+from jointplay.storage.studies.block import StudyBlock
+from jointplay.storage.studies.store import create, seal
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.execute import execute
 from jointplay.worker.study_block import layout_of, run_block
@@ -115,6 +117,13 @@ def undisturbed(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[
     return files_of(target(folder))
 
 
+def submitted(catalogue: Catalogue, study: Study) -> str:
+    new = NewJob(
+        study.job["kind"], study.job, study.digest, SOLVER_VERSION, blocks=study.blocks, seal=True
+    )
+    return catalogue.submit(new).job.id
+
+
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("file", ["parts/00000", "documents.zip"])
 def test_what_a_block_left_and_is_damaged_is_computed_again(
@@ -125,12 +134,32 @@ def test_what_a_block_left_and_is_damaged_is_computed_again(
     file: str,
     damage: Callable[[Path], None],
 ) -> None:
-    new = NewJob(
-        study.job["kind"], study.job, study.digest, SOLVER_VERSION, blocks=study.blocks, seal=True
-    )
-    job = catalogue.submit(new).job.id
+    job = submitted(catalogue, study)
     for index in range(len(study.blocks)):
         run(catalogue, settings, f"{job}-{index}")
     damage(settings.running_study(job).folder / file)
     assert run(catalogue, settings, f"{job}-{len(study.blocks)}") is JobState.succeeded
+    assert files_of(settings.sealed_study(job)) == undisturbed
+
+
+@pytest.mark.parametrize("file", ["parts/00000", "documents.zip"])
+def test_what_is_exchanged_with_another_jobs_is_computed_again(
+    catalogue: Catalogue,
+    settings: Settings,
+    study: Study,
+    undisturbed: dict[str, bytes],
+    tmp_path: Path,
+    file: str,
+) -> None:
+    other = admit(STUDY | {"periods": 2})
+    assert isinstance(other, Study)
+    create(tmp_path, layout_of(other))
+    part = StudyBlock(tmp_path, layout_of(other), 0).flush(b"")
+    (tmp_path / "parts" / part).rename(tmp_path / "parts/00000")
+    job = submitted(catalogue, study)
+    run(catalogue, settings, f"{job}-0")
+    shutil.copy(tmp_path / file, settings.running_study(job).folder / file)
+    for index in range(1, len(study.blocks) + 1):
+        run(catalogue, settings, f"{job}-{index}")
+    assert catalogue.get(job).state is JobState.succeeded
     assert files_of(settings.sealed_study(job)) == undisturbed
