@@ -1,7 +1,6 @@
 """Checks of what a stopped service has left: sentences on what is wrong, none if all is well."""
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Final
 
 from jointplay.chaos.history import History, Submission
@@ -10,23 +9,11 @@ from jointplay.chaos.undisturbed import files_of
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError
 from jointplay.storage.catalogue.records import Job, JobState
-from jointplay.storage.durable import PARTIAL
-from jointplay.storage.errors import ResultsError
-from jointplay.storage.packed import Packed
-from jointplay.storage.places import StoredObject
-from jointplay.storage.results.manifest import verify
+from jointplay.storage.reconciliation.leftovers import left_after
+from jointplay.storage.reconciliation.results import damage_of, sealed_results
+from jointplay.storage.reconciliation.rows import contradictions
+from jointplay.storage.settings import Settings
 
-_DATA: Final = {
-    "broker",
-    "catalogue.sqlite",
-    "catalogue.sqlite-shm",
-    "catalogue.sqlite-wal",
-    "logs",
-    "results",
-    "running",
-    "serve.lock",
-}
-"""Everything that a data folder may hold."""
 _TERMINAL: Final = {state.value for state in JobState if state.terminal}
 
 
@@ -65,9 +52,10 @@ def wrongs(
                 files = expected[submission.template]
                 found += _bytes(installation, jobs[submission.job], files)
         found += _strangers(catalogue, jobs)
+        found += _leftovers(installation.settings, catalogue)
     finally:
         catalogue.close()
-    return found + list(_leftovers(installation, jobs))
+    return found
 
 
 def _how_it_ended(catalogue: Catalogue, submission: Submission, job: Job) -> Iterator[str]:
@@ -97,20 +85,13 @@ def _how_it_ended(catalogue: Catalogue, submission: Submission, job: Job) -> Ite
             yield f"block {block.id} of a job that succeeded was not done once"
 
 
-def _sealed(installation: Installation, job: Job) -> StoredObject:
-    if job.kind == "simulate":
-        return installation.settings.sealed_run(job.id, job.attempt)
-    return installation.settings.sealed_study(job.id)
-
-
 def _bytes(installation: Installation, job: Job, expected: Mapping[str, bytes]) -> Iterator[str]:
-    sealed = _sealed(installation, job)
-    try:
-        verify(Packed(sealed))
-        stored = files_of(sealed)
-    except (ResultsError, OSError) as error:
-        yield f"the results of job {job.id} cannot be read: {error}"
+    settings = installation.settings
+    damage, sealed = damage_of(settings, job), sealed_results(settings, job)
+    if damage is not None or sealed is None:
+        yield f"the results of job {job.id} cannot be read: {damage}"
         return
+    stored = files_of(sealed)
     for key in sorted(stored.keys() ^ expected.keys()):
         yield f"{key} of job {job.id} is only in one of the disturbed and undisturbed results"
     for key in sorted(stored.keys() & expected.keys()):
@@ -119,33 +100,15 @@ def _bytes(installation: Installation, job: Job, expected: Mapping[str, bytes]) 
 
 
 def _strangers(catalogue: Catalogue, known: Mapping[str, Job]) -> Iterator[str]:
-    after: str | None = None
-    while True:
-        page = catalogue.jobs(limit=1000, after=after)
-        for job in page.jobs:
-            if job.id not in known:
-                yield f"job {job.id} is there, and no answer had named it"
-        if page.next is None:
-            return
-        after = page.next
+    for job in catalogue.every_job():
+        if job.id not in known:
+            yield f"job {job.id} is there, and no answer had named it"
 
 
-def _leftovers(installation: Installation, jobs: Mapping[str, Job]) -> Iterator[str]:
-    """Look for files that nobody will need: of succeeded jobs only the results may be there."""
-    data = installation.data
-    for path in data.iterdir():
-        if path.name not in _DATA:
-            yield f"{path.name} is left in the data folder"
-    due = {_sealed(installation, job).key for job in jobs.values()}
-    cancelled = {job.id for job in jobs.values() if job.state is JobState.cancelled}
-    for path in _files_below(data / "results"):
-        if path.name.endswith(PARTIAL) or str(path.relative_to(data / "results")) not in due:
-            yield f"{path.relative_to(data)} is left over"
-    for path in _files_below(data / "running"):
-        job = path.relative_to(data / "running").parts[1]
-        if job not in cancelled or path.name.endswith(PARTIAL):  # these show what was computed
-            yield f"{path.relative_to(data)} is left over"
-
-
-def _files_below(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.rglob("*") if not path.is_dir())
+def _leftovers(settings: Settings, catalogue: Catalogue) -> Iterator[str]:
+    """Look for files that nobody will need, and for rows that contradict one another."""
+    for finding in (
+        *left_after(settings, catalogue, grace=0.0),
+        *contradictions(settings, catalogue),
+    ):
+        yield f"{finding.subject} {finding.found}"

@@ -29,6 +29,7 @@ COMMANDS: Final = (
     "compare",
     "cite",
     "openapi",
+    "doctor",
     "chaos",
 )
 """In the order of the help; each is the function of this name in the file of this name."""
@@ -57,6 +58,7 @@ EXITS: Final = {
     "ServiceFailure": Exit.FAILED,
     "WrongSetting": Exit.BAD_INPUT,
     "StartFailed": Exit.FAILED,
+    "Unavailable": Exit.FAILED,
     "ClientError": Exit.BAD_INPUT,
     "InvalidInput": Exit.BAD_INPUT,
     "MalformedJson": Exit.BAD_INPUT,

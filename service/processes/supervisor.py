@@ -51,7 +51,7 @@ class Supervisor:
         self, host: str, port: int, data: Path, workers: int, parent_pipe: int | None = None
     ) -> None:
         self._host, self._port = host, port
-        self._settings = _settings(data)
+        self._settings = settings_of(data)
         self._workers = workers
         self._parent_pipe = parent_pipe
         self._stop_asked = False
@@ -189,7 +189,8 @@ class Supervisor:
         return self._settings.data / "logs" / f"{name}.log"
 
 
-def _settings(data: Path) -> Settings:
+def settings_of(data: Path) -> Settings:
+    """Return the settings of a service with this data folder; WrongSetting if some are wrong."""
     try:
         return Settings(data=data)
     except ValidationError as error:

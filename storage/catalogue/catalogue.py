@@ -4,14 +4,25 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from functools import update_wrapper
 from typing import Concatenate, ParamSpec, TypeVar
 
 from sqlalchemy import Connection, text
+from sqlalchemy.exc import DBAPIError
 
-from jointplay.storage.catalogue import batches, holding, listing, rows, schema, submission, upkeep
+from jointplay.storage.catalogue import (
+    adoption,
+    batches,
+    disagreements,
+    holding,
+    listing,
+    rows,
+    schema,
+    submission,
+    upkeep,
+)
 from jointplay.storage.catalogue.connections import Connections, Unit
 from jointplay.storage.catalogue.errors import KeyReused, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
@@ -99,6 +110,17 @@ class Catalogue:
                 f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
             )
 
+    def flaws(self) -> tuple[str, ...]:
+        """Return sentences on why nothing else can be asked of the database; none if it is sound.
+
+        Reads all of it.
+        """
+        try:
+            with self.connections.reading() as connection:
+                return schema.flaws(connection)
+        except DBAPIError as error:
+            return (f"cannot be read: {error.orig}",)
+
     # What users ask for
 
     def submit(
@@ -162,6 +184,16 @@ class Catalogue:
     delete = _durably(upkeep.expire)
     mark_damaged = _writing(upkeep.mark_damaged)
 
+    def every_job(self) -> Iterator[Job]:
+        """Yield all jobs that have not expired, newest first."""
+        after: str | None = None
+        while True:
+            page = self.jobs(limit=listing.LARGEST_PAGE, after=after)
+            yield from page.jobs
+            if page.next is None:
+                return
+            after = page.next
+
     def expired(self, job: Job) -> bool:
         """Tell whether a job and its results can be read no more."""
         return job.expired(self.clock())
@@ -180,7 +212,7 @@ class Catalogue:
     finish = _durably(holding.finish)
     finish_repeatable = _writing(holding.finish)  # for what is quickly found again
 
-    # What relay and reaper do
+    # What relay and reaper do, and whoever reconciles the catalogue with the rest
 
     due_wake_ups = _reading(upkeep.due_wake_ups)
     on_the_way = _reading(upkeep.on_the_way)
@@ -190,5 +222,10 @@ class Catalogue:
     mark_removed = _writing(upkeep.mark_removed)
     mend_after_setting_back = _writing(upkeep.mend_after_setting_back)
     announce_again = _writing(upkeep.announce_again)
+    contradicting = _reading(disagreements.find)
+    reconcile = _writing(disagreements.mend)
+    adopt = _durably(adoption.adopt)
+    newest_event = _reading(listing.newest_event)
+    known_blocks = _reading(listing.known_blocks)
     take_lead = _writing(upkeep.take_lead)
     release_lead = _writing(upkeep.release_lead)

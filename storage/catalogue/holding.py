@@ -203,10 +203,10 @@ def finish(
         raise ValueError(f"job {job_id} was not asked to be cancelled")
     _end_attempt(unit, block_id, attempt, outcome.value)
     _sum_progress(unit, job_id)
-    return _settle(unit, job_id, error)
+    return settle(unit, job_id, error)
 
 
-def _settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
+def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
     """End the job if nothing of it is left to do, or at once if a block failed.
 
     When only the block that seals is left, it is queued, ahead of blocks that never started.
@@ -289,7 +289,7 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
         f"{losses} workers in a row disappeared while computing this; the worker's log says why"
         " (out of memory is the usual reason). Submit it again once that is solved.",
     )
-    _settle(unit, job.id, error if given_up is BlockState.failed else None)
+    settle(unit, job.id, error if given_up is BlockState.failed else None)
     return given_up
 
 

@@ -30,5 +30,13 @@ def earliest(time: float) -> str:
     return _encode(milliseconds << _RANDOM_BITS)
 
 
+def time_of(identifier: str) -> float:
+    """Return when an id was made, epoch seconds."""
+    number = 0
+    for character in identifier:
+        number = number << 5 | _ALPHABET.index(character)
+    return (number >> _RANDOM_BITS) / 1000.0
+
+
 def _encode(number: int) -> str:
     return "".join(_ALPHABET[(number >> shift) & 31] for shift in range(125, -5, -5))

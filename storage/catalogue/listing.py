@@ -115,3 +115,15 @@ def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
         ).where(columns.id.in_(jobs))
     )
     return tuple(JobStatus(*row) for row in rows)
+
+
+def newest_event(unit: Unit) -> float | None:
+    """Return when the newest of all events happened (epoch seconds)."""
+    found: float | None = unit.execute(select(func.max(tables.event.c.time))).scalar_one()
+    return found
+
+
+def known_blocks(unit: Unit, blocks: Sequence[str]) -> frozenset[str]:
+    """Return those ids of blocks that there are."""
+    known = select(tables.block.c.id).where(tables.block.c.id.in_(blocks))
+    return frozenset(unit.execute(known).scalars())

@@ -34,3 +34,18 @@ def upgrade(connection: Connection) -> None:
         command.stamp(configuration, "head")
     else:
         command.upgrade(configuration, "head")
+
+
+def flaws(connection: Connection) -> tuple[str, ...]:
+    """Return sentences on a schema that is not the present one, and on pages that are damaged."""
+    found = present_revision(connection)
+    if found is None:
+        return ("has no tables; jointplay serve makes them",)
+    if found < REVISION:
+        return (f"is at revision {found}; jointplay serve brings it to {REVISION}",)
+    if found > REVISION:
+        return (f"is at revision {found}, of a newer jointplay than this one",)
+    if connection.dialect.name != "sqlite":
+        return ()
+    said = connection.execute(text("PRAGMA integrity_check(5)")).scalars()
+    return tuple(f"is damaged: {sentence}" for sentence in said if sentence != "ok")

@@ -68,15 +68,23 @@ def announce_again(unit: Unit) -> int:
     return int(unit.execute(again).rowcount)
 
 
-def mend_after_setting_back(unit: Unit, lease: float, republish_after: float) -> None:
-    """Shorten what waits longer than can be, because the clock was set back: leases, wake-ups."""
+def too_far_ahead(
+    unit: Unit, lease: float, republish_after: float
+) -> tuple[ColumnElement[bool], ColumnElement[bool]]:
+    """Return which blocks are held, and which wake-ups are put off, for longer than can be."""
     block, outbox = tables.block, tables.outbox
     held = (block.c.state == BlockState.running.value) & (
         block.c.lease_until > unit.now + 2 * lease
     )
-    unit.execute(update(block).where(held).values(lease_until=unit.now + lease))
     late = outbox.c.due > unit.now + 2 * _RAREST_REPEAT * republish_after + LONGEST_PAUSE
-    unit.execute(update(outbox).where(late).values(due=unit.now))
+    return held, late
+
+
+def mend_after_setting_back(unit: Unit, lease: float, republish_after: float) -> None:
+    """Shorten what waits longer than can be, because the clock was set back: leases, wake-ups."""
+    held, late = too_far_ahead(unit, lease, republish_after)
+    unit.execute(update(tables.block).where(held).values(lease_until=unit.now + lease))
+    unit.execute(update(tables.outbox).where(late).values(due=unit.now))
 
 
 def reap(unit: Unit, max_attempts: int) -> Reaped:

@@ -52,6 +52,13 @@ class Place(Protocol):
         """Yield the keys of all objects that begin with a prefix, in no order."""
         ...
 
+    def cut_off(self) -> Iterator[str]:
+        """Yield what puts that were cut off left, and those that are under way.
+
+        Each begins with the key that it was to become, and can be removed.
+        """
+        ...
+
     def remove(self, prefix: str) -> None:
         """Remove all objects whose keys begin so, and what puts that were cut off left of them."""
         ...

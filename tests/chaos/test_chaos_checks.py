@@ -150,7 +150,7 @@ def never_answer(left: Left) -> None:
         (change_an_array, "has other bytes than undisturbed"),
         (write_after_being_fenced, "-a2.zarr.zip is left over"),
         (leave_a_partial_file, ".partial is left over"),
-        (leave_a_restart_point, "block0-a1 is left over"),
+        (leave_a_restart_point, " is left over"),
         (leave_a_file, "ballast is left in the data folder"),
         (end_twice, "ended as ['succeeded', 'succeeded']"),
         (lose_an_event, "has events that are missing or doubled"),

@@ -12,6 +12,7 @@ from jointplay.service import processes
 from jointplay.service.processes.folder_lock import holding
 from jointplay.solver.scene import presets
 from jointplay.storage import errors
+from jointplay.storage.catalogue import errors as of_the_catalogue
 
 PRESS = ["run", "seven-bar-press", "-o", "OUT"]
 TIMED = [*PRESS, "--duration", "2"]
@@ -158,6 +159,6 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
 
 def test_exit_codes_are_of_exceptions_that_there_are():
     """They are named and not imported: a name that nothing has would never be met."""
-    places = (builtins, client, failure, strict_json, processes, figures, errors)
+    places = (builtins, client, failure, strict_json, processes, figures, errors, of_the_catalogue)
     unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
     assert unknown == []

@@ -103,6 +103,18 @@ class PlaceContract(ABC):
         place.put(KEY, pieces())
         assert self.raw_get(place, KEY) == CONTENT
 
+    def test_a_put_that_is_under_way_can_be_told_from_objects(self, place: Place) -> None:
+        seen = []
+
+        def watched() -> Iterator[bytes]:
+            for piece in pieces():
+                seen.extend(place.cut_off())
+                yield piece
+
+        place.put(KEY, watched())
+        assert all(one.startswith(KEY) and one != KEY for one in seen)
+        assert list(place.cut_off()) == []
+
     def test_an_object_being_put_is_not_seen_before_it_is_whole(self, place: Place) -> None:
         seen = []
 

@@ -1,0 +1,91 @@
+"""``jointplay doctor``: whether everything that a service, or a run, keeps is as it should be."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.options import AS_JSON
+from jointplay.command_line.output import aligned, tell
+
+if TYPE_CHECKING:
+    from jointplay.storage.reconciliation import Finding
+
+
+def doctor(
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FOLDER",
+            envvar="JOINTPLAY_DATA",
+            help="Data folder of a service, or folder of `jointplay run`.",
+        ),
+    ] = Path(".jointplay"),
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Only look, mend nothing.")] = False,
+    as_json: AS_JSON = False,
+) -> None:
+    """Compare catalogue, results and broker with one another, and mend what can be mended.
+
+    Every byte of all sealed results is compared with its checksum.  Jobs whose results are damaged
+    are marked, so that submitting them again computes them anew; leftovers are removed, whole
+    results without a job get one.  The service may run meanwhile: what a worker holds is left
+    alone.  Exit code 0: nothing was found; 1: something was, and is in the table.
+
+    Example: `jointplay doctor .jointplay --dry-run`
+    """
+    found = []
+    with _examination(folder) as findings:
+        for finding in findings:
+            if finding.mend is not None and not dry_run:
+                finding.mend()
+            found.append(finding)
+    mendable = sum(finding.mend is not None for finding in found)
+    document = {
+        "findings": [finding.document() for finding in found],
+        "mended": 0 if dry_run else mendable,
+    }
+    tell(document, _lines(found, dry_run=dry_run), as_json=as_json)
+    if found:
+        done = "can be mended" if dry_run else "mended"
+        raise Stopped(f"findings: {len(found)}, {done}: {mendable}", Exit.CHECK_FAILED)
+
+
+@contextmanager
+def _examination(folder: Path) -> "Iterator[Iterable[Finding]]":
+    """Give what is found in a folder, while it is looked for."""
+    from jointplay.worker.local.folder import JOB_FILE, STORE
+
+    if any((folder / name).exists() for name in (JOB_FILE, STORE)):
+        from jointplay.worker.local.examination import examined
+
+        yield examined(folder)
+        return
+    from jointplay.service.processes.supervisor import settings_of
+    from jointplay.storage.catalogue.catalogue import Catalogue
+    from jointplay.storage.reconciliation import findings
+    from jointplay.worker.stray_messages import stray_messages
+
+    settings = settings_of(folder)
+    database = settings.catalogue_url.partition("sqlite:///")[2]
+    if not folder.is_dir() or (database and not Path(database).exists()):
+        line = f"{folder} holds neither a service's data nor the results of a run."
+        raise Stopped(line)
+    catalogue = Catalogue(settings.catalogue_url)
+    try:
+        yield findings(settings, catalogue, (stray_messages,))
+    finally:
+        catalogue.close()
+
+
+def _lines(found: "list[Finding]", *, dry_run: bool) -> Iterator[str]:
+    if not found:
+        yield "nothing is wrong"
+        return
+    done = "would be" if dry_run else "mended"
+    rows = [("where", "what", "is wrong", done)]
+    rows += [(one.where, one.subject, one.found, one.mended or "-") for one in found]
+    yield from aligned(rows)
+    yield from dict.fromkeys(f"left to you: {one.advice}" for one in found if one.advice)

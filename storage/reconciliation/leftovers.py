@@ -1,0 +1,140 @@
+"""Files that nobody will need, and results whose job is not in the catalogue."""
+
+import re
+import shutil
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Any, Final
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import JobNotFound
+from jointplay.storage.catalogue.records import Job, NewJob
+from jointplay.storage.durable import PARTIAL
+from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation.finding import Finding
+from jointplay.storage.reconciliation.results import sealed_results, verified
+from jointplay.storage.settings import Settings
+
+_DATA: Final = {
+    "broker",
+    "catalogue.sqlite",
+    "catalogue.sqlite-shm",
+    "catalogue.sqlite-wal",
+    "logs",
+    "results",
+    "running",
+    "serve.lock",
+}
+"""Everything that a data folder may hold."""
+_SEALED: Final = re.compile(
+    r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
+)
+_LEFT: Final = "is left over"
+
+
+def leftovers(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
+    """Look for files of jobs that have ended, longer ago than workers take to tidy up."""
+    return left_after(settings, catalogue, settings.lease)
+
+
+def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+    """Look for files of jobs that ended more than some seconds ago, and of no job.
+
+    Files are listed before their job is looked up: what a worker is about to write is not here.
+    """
+    yield from _of_the_place(settings, catalogue, grace)
+    yield from _of_running_jobs(settings, catalogue, grace)
+    for path in sorted(settings.data.iterdir()):
+        if path.name not in _DATA:
+            yield Finding(
+                "data", (path.name,), "is left in the data folder", advice=f"rm -r '{path}'"
+            )
+
+
+def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+    place = settings.place
+    for key in sorted([*place.list(""), *place.cut_off()]):
+        named = _SEALED.fullmatch(key)
+        if named is None:
+            advice = "nothing of this name belongs there; move it away"
+            yield Finding("results", (key,), _LEFT, advice=advice)
+            continue
+        job = _job_of(catalogue, named["job"])
+        if job is None and not key.endswith(PARTIAL):
+            yield _without_job(settings, catalogue, StoredObject(place, key), named)
+        elif job is None or (_settled(job, catalogue, grace) and _not_due(settings, job, key)):
+            yield Finding("results", (key,), _LEFT, "removed", mend=partial(place.remove, key))
+
+
+def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+    for folder in sorted((settings.data / "running").glob("*/*")):
+        job = _job_of(catalogue, folder.name)
+        name = str(folder.relative_to(settings.data))
+        if job is None:
+            found = "holds what a job computed that is not in the catalogue"
+            yield Finding("running", (name,), found, advice=f"rm -r '{folder}'")
+        elif not _settled(job, catalogue, grace):
+            continue
+        elif job.removed is not None or sealed_results(settings, job) is not None:
+            remove = partial(shutil.rmtree, folder, ignore_errors=True)
+            yield Finding("running", (name,), _LEFT, "removed", mend=remove)
+        else:  # it ended without sealed results: these show what was computed
+            for path in sorted(folder.rglob(f"*{PARTIAL}")):
+                name = str(path.relative_to(settings.data))
+                remove = partial(path.unlink, missing_ok=True)
+                yield Finding("running", (name,), _LEFT, "removed", mend=remove)
+
+
+def _job_of(catalogue: Catalogue, job_id: str) -> Job | None:
+    try:
+        return catalogue.get(job_id)
+    except JobNotFound:
+        return None
+
+
+def _settled(job: Job, catalogue: Catalogue, grace: float) -> bool:
+    """Whether a job has ended, and workers had the time to remove what it needed."""
+    moment = job.removed or job.finished or 0.0
+    return job.state.terminal and moment <= catalogue.clock() - grace
+
+
+def _not_due(settings: Settings, job: Job, key: str) -> bool:
+    sealed = sealed_results(settings, job)
+    return job.removed is not None or sealed is None or sealed.key != key
+
+
+def _without_job(
+    settings: Settings, catalogue: Catalogue, sealed: StoredObject, named: re.Match[str]
+) -> Finding:
+    """Adopt whole results; whatever else it is, only its owner can say."""
+    found, advice = "belongs to no job", "jointplay show FILE reads it; remove it, or keep it apart"
+    try:
+        attributes = verified(sealed)
+        new = _job_in(settings, attributes)
+    except (NotAStore, CorruptStore, KeyError, TypeError, AttributeError) as error:
+        found += f", and cannot be adopted: {error}"
+        return Finding("results", (str(sealed),), found, advice=advice)
+    if not attributes["complete"]:
+        found += ", and is of a run that was cut short"
+        return Finding("results", (str(sealed),), found, advice=advice)
+    steps = (attributes.get("summary") or {}).get("steps")
+    mend = partial(
+        catalogue.adopt, named["job"], new, attempt=int(named["attempt"] or 1), steps=steps
+    )
+    return Finding("results", (str(sealed),), found, "its job was made again", mend=mend)
+
+
+def _job_in(settings: Settings, attributes: Mapping[str, Any]) -> NewJob:
+    """Return the job that results describe, as it was submitted."""
+    spec, study = attributes["job"], attributes.get("blocks")
+    return NewJob(
+        kind=spec["kind"],
+        label=spec.get("label") or None,
+        spec=spec,
+        digest=attributes["digest"],
+        solver_version=attributes["solver_version"],
+        scene=spec["scene"].get("preset") or spec["scene"].get("name"),
+        blocks=tuple((first, count) for first, count in study) if study else ((0, 1),),
+        seal=bool(study),
+    )

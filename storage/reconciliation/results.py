@@ -1,0 +1,81 @@
+"""Sealed results against their manifests, and against the jobs of the catalogue."""
+
+import errno
+import json
+from collections.abc import Iterator
+from functools import partial
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Job, JobState
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.identity import require_results_of
+from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation.finding import Finding
+from jointplay.storage.results import manifest
+from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.settings import Settings
+
+WHERE = "results"
+_ANEW = "jointplay show {0} --job > job.json; jointplay submit job.json"
+
+
+def damage(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
+    """Compare the results of every job that has ended, byte by byte, with what was sealed."""
+    for job in catalogue.every_job():
+        if not job.state.terminal:
+            continue
+        found = damage_of(settings, job)
+        if found == job.damaged:
+            mended = None
+        elif found is None:
+            mended = "no longer marked as damaged"
+        else:
+            mended = "marked as damaged"
+        if (found is None and mended is None) or catalogue.expired(catalogue.get(job.id)):
+            continue
+        yield Finding(
+            WHERE,
+            (f"job {job.id}",),
+            found or "is marked as damaged, and its results are whole",
+            mended,
+            _ANEW.format(job.id) if found else None,
+            partial(catalogue.mark_damaged, job.id, found) if mended else None,
+        )
+
+
+def damage_of(settings: Settings, job: Job) -> str | None:
+    """Return what is wrong with the results of a job that has ended; none if they are whole."""
+    try:
+        sealed = sealed_results(settings, job)
+        if sealed is not None:
+            require_results_of(job, verified(sealed), str(sealed))
+        elif job.state is JobState.succeeded:
+            raise LostObject(f"{settings.results_prefix(job.id)}*.zarr.zip is gone")
+    except (NotAStore, CorruptStore) as error:
+        return str(error)
+    except OSError as error:
+        if error.errno != errno.EIO:  # such as permissions, which are the reader's
+            raise
+        return f"{settings.results_prefix(job.id)}*.zarr.zip cannot be read: {error.strerror}"
+    return None
+
+
+def sealed_results(settings: Settings, job: Job) -> StoredObject | None:
+    """Return what holds the results of a job, whatever its kind; none: they are not sealed."""
+    candidates = settings.sealed_study(job.id), settings.sealed_run(job.id, job.attempt)
+    return next((one for one in candidates if one.exists()), None)
+
+
+def verified(sealed: StoredObject) -> Document:
+    """Compare all of a store with its manifest, and return the attributes of its root.
+
+    Raises
+    ------
+    NotAStore, CorruptStore
+        It is not what was sealed.
+    """
+    files = Packed(sealed)
+    manifest.verify(files)
+    attributes: Document = json.loads(files.read(FILE))["attributes"]
+    return attributes

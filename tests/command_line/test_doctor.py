@@ -1,0 +1,112 @@
+"""`jointplay doctor`: what it prints, its exit codes, and that it disturbs no worker."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from jointplay.client import Client
+from jointplay.command_line.application import run
+from jointplay.service.processes import running_service
+from tests.storage.reconciliation.installation import Installed, installed
+
+__all__ = ["installed"]
+
+
+def flip(path: Path) -> None:
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+
+
+def test_nothing_is_wrong_with_a_service_that_is_well(jointplay, installed: Installed) -> None:
+    ended = jointplay("doctor", installed.settings.data)
+    assert (ended.code, ended.out, ended.err) == (0, "nothing is wrong\n", "")
+
+
+def test_what_is_wrong_is_told_in_a_table_mended_and_left(jointplay, installed: Installed) -> None:
+    data = installed.settings.data
+    flip(installed.sealed("succeeded"))
+    installed.sql("DELETE FROM outbox")
+    looked = jointplay("doctor", data, "--dry-run")
+    assert looked.code == 1
+    assert looked.line() == "jointplay: findings: 2, can be mended: 2"
+    heading, *rows = looked.out.splitlines()
+    assert heading.split() == ["where", "what", "is", "wrong", "would", "be"]
+    assert rows[0].startswith("catalogue  block ")
+    assert rows[1].startswith("results    job ")
+    assert rows[2] == (
+        f"left to you: jointplay show {installed.jobs['succeeded']} --job > job.json;"
+        " jointplay submit job.json"
+    )
+    mended = jointplay("doctor", data, "--json")
+    assert mended.code == 1
+    document = json.loads(mended.out)
+    assert document["mended"] == 2
+    assert [one["mended"] for one in document["findings"]] == ["announced", "marked as damaged"]
+    again = jointplay("doctor", data)
+    assert again.line() == "jointplay: findings: 1, mended: 0"
+    installed.catalogue.delete(installed.jobs["succeeded"])
+    assert jointplay("doctor", data).code == 0
+
+
+def test_beside_workers_it_finds_nothing_and_changes_nothing(jointplay, tmp_path: Path) -> None:
+    """Jobs come, are computed and end while it looks, again and again."""
+    data = tmp_path / "data"
+    looks = 0
+    with running_service(data, workers=2) as url, Client(url) as client:
+        jobs = [client.simulate("pendulum", duration=1.0 + n) for n in range(6)]
+        jobs += [client.sweep("pendulum", {"angle": [0.1, 0.3 + n]}, duration=1) for n in range(3)]
+        while not all(job.refresh().is_finished for job in jobs) or looks < 2:
+            ended = jointplay("doctor", data)
+            assert (ended.code, ended.out) == (0, "nothing is wrong\n"), ended
+            looks += 1
+        assert {job.state for job in jobs} == {"succeeded"}
+        assert {job.attempt for job in jobs} == {1}
+    assert jointplay("doctor", data).code == 0
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    folder = tmp_path / "OUT"
+    assert run(["run", "pendulum", "--duration", "0.1", "-o", str(folder)]) == 0
+    return folder
+
+
+def test_nothing_is_wrong_with_what_a_run_left(jointplay, folder: Path) -> None:
+    assert jointplay("doctor", folder).code == 0
+
+
+@pytest.mark.parametrize(
+    ("harm", "found", "mended"),
+    [
+        (lambda out: flip(out / "results.zarr.zip"), "has other bytes", False),
+        (lambda out: (out / "job.json").write_text("{}"), "is not the job of", True),
+        (lambda out: (out / "job.json").unlink(), "is not the job of", True),
+        (lambda out: (out / "outcome.json").write_text("{"), "is no JSON document", True),
+        (lambda out: (out / "running").mkdir(), "is left over", True),
+        (lambda out: (out / "results.zarr.zip.0123.partial").touch(), "is left over", True),
+    ],
+)
+def test_what_is_wrong_with_a_run_is_found(jointplay, folder: Path, harm, found, mended) -> None:
+    before = (folder / "job.json").read_bytes()
+    harm(folder)
+    ended = jointplay("doctor", folder)
+    assert ended.code == 1
+    assert found in ended.out
+    assert (jointplay("doctor", folder).code == 0) == mended
+    assert (f"jointplay run {folder}/job.json -o AGAIN" in ended.out) != mended
+    assert (folder / "job.json").read_bytes() == before
+
+
+def test_a_run_that_was_cut_short_can_be_repeated(jointplay, folder: Path) -> None:
+    (folder / "results.zarr.zip").unlink()
+    (folder / "outcome.json").unlink()
+    assert "was cut short, or goes on" in jointplay("doctor", folder).out
+
+
+def test_a_folder_of_neither_is_refused(jointplay, tmp_path: Path) -> None:
+    ended = jointplay("doctor", tmp_path)
+    assert ended.code == 2
+    assert "neither a service's data nor the results of a run" in ended.line()
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,3 @@
+from tests.storage.reconciliation.installation import installed
+
+__all__ = ["installed"]

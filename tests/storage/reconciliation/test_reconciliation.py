@@ -1,0 +1,284 @@
+"""Whatever contradicts itself in an installation is found, and mended where that can be."""
+
+import os
+import shutil
+import sqlite3
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.storage.reconciliation import findings, rows
+from jointplay.storage.settings import Settings
+from tests.storage.reconciliation.installation import Installed
+
+ELSEWHERE = "01ARZ3NDEKTSV4RRFFQ69G5FAV"
+Break = Callable[[Installed], None]
+
+
+def every_file(installed: Installed) -> dict[Path, bytes]:
+    data = installed.settings.data
+    return {
+        path: path.read_bytes()
+        for path in sorted(data.rglob("*"))
+        if path.is_file() and not path.name.startswith("catalogue")
+    }
+
+
+def test_nothing_is_found_in_an_installation_that_is_well(installed: Installed) -> None:
+    before = every_file(installed)
+    assert installed.look() == []
+    assert every_file(installed) == before
+
+
+def flip(installed: Installed) -> None:
+    path = installed.sealed("succeeded")
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+
+
+def remove(installed: Installed) -> None:
+    installed.sealed("succeeded").unlink()
+
+
+def exchange(installed: Installed) -> None:
+    shutil.copyfile(installed.sealed("swept"), installed.sealed("succeeded"))
+
+
+def damage_an_incomplete_run(installed: Installed) -> None:
+    path = installed.sealed("cancelled")
+    path.write_bytes(path.read_bytes()[:-1])
+
+
+def restore(installed: Installed) -> None:
+    installed.catalogue.mark_damaged(installed.jobs["swept"], "it was")
+
+
+def leave_a_fenced_attempt(installed: Installed) -> None:
+    path = installed.sealed("succeeded")
+    shutil.copyfile(path, path.with_name(path.name.replace("-a1", "-a2")))
+
+
+def leave_a_partial_result(installed: Installed) -> None:
+    path = installed.sealed("succeeded")
+    path.with_name(f"{path.name}.0a1b2c3d.partial").write_bytes(b"half")
+
+
+def leave_a_running_folder(installed: Installed) -> None:
+    folder = installed.running("swept")
+    folder.mkdir(parents=True)
+    (folder / "part").write_bytes(b"")
+
+
+def leave_a_partial_part(installed: Installed) -> None:
+    (installed.running("cut short") / "study" / "parts" / "1.partial").write_bytes(b"")
+
+
+def orphan_rows(installed: Installed) -> None:
+    installed.sql(f"UPDATE block SET job = '{ELSEWHERE}' WHERE job = '{installed.jobs['swept']}'")
+
+
+def lose_a_wake_up(installed: Installed) -> None:
+    installed.sql("DELETE FROM outbox")
+
+
+def leave_a_wake_up(installed: Installed) -> None:
+    block = f"{installed.jobs['swept']}-0"
+    installed.sql(f"INSERT INTO outbox SELECT '{block}', queue, created, due, tries FROM outbox")
+
+
+def leave_a_block(installed: Installed) -> None:
+    job = installed.jobs["cancelled"]
+    installed.sql(f"UPDATE block SET state = 'queued' WHERE job = '{job}'")
+
+
+def forget_the_worker(installed: Installed) -> None:
+    installed.sql("UPDATE block SET lease_until = 1.0 WHERE state = 'running'")
+
+
+def hold_for_years(installed: Installed) -> None:
+    installed.sql("UPDATE block SET lease_until = 1e11 WHERE state = 'running'")
+
+
+def do_not_settle(installed: Installed) -> None:
+    job = installed.jobs["swept"]
+    installed.sql(f"UPDATE job SET state = 'running' WHERE id = '{job}'")
+
+
+MENDED = {
+    flip: ("results", "has other bytes", "marked"),
+    remove: ("results", "is gone", "marked"),
+    exchange: ("results", "holds the results of another job", "marked"),
+    damage_an_incomplete_run: ("results", "is cut off", "marked"),
+    restore: ("results", "are whole", "no longer marked"),
+    leave_a_fenced_attempt: ("results", "is left over", "removed"),
+    leave_a_partial_result: ("results", "is left over", "removed"),
+    leave_a_running_folder: ("running", "is left over", "removed"),
+    leave_a_partial_part: ("running", "is left over", "removed"),
+    lose_a_wake_up: ("catalogue", "no wake-up is due", "announced"),
+    leave_a_wake_up: ("catalogue", "waits for no worker", "removed"),
+    leave_a_block: ("catalogue", "its job has ended", "cancelled"),
+    forget_the_worker: ("catalogue", "ran out long ago", "taken back"),
+    hold_for_years: ("catalogue", "longer than can be", "shortened"),
+    do_not_settle: ("catalogue", "though its blocks have", "settled"),
+}
+
+
+@pytest.mark.parametrize("damage", MENDED)
+def test_what_is_wrong_is_found_once_and_mended(installed: Installed, damage: Break) -> None:
+    damage(installed)
+    where, found, mended = MENDED[damage]
+    (finding,) = installed.look()  # looking mends nothing
+    assert (finding.where, found in finding.found) == (where, True), finding
+    assert mended in str(finding.mended)
+    (finding,) = installed.mend()
+    left = installed.look()
+    if mended == "marked":
+        assert [(one.found, one.mend) for one in left] == [(finding.found, None)]
+        assert "submit" in str(left[0].advice)
+    else:
+        assert left == []
+
+
+def test_a_job_with_damaged_results_is_marked(installed: Installed) -> None:
+    flip(installed)
+    installed.mend()
+    job = installed.catalogue.get(installed.jobs["succeeded"])
+    assert installed.sealed("succeeded").name in str(job.damaged)
+    assert job.state is JobState.succeeded
+
+
+def test_a_block_that_is_taken_back_is_computed_again(installed: Installed) -> None:
+    forget_the_worker(installed)
+    installed.mend()
+    (block,) = installed.catalogue.blocks(installed.jobs["running"])
+    assert (block.state, block.losses) == (BlockState.queued, 1)
+    assert installed.claim(installed.jobs["running"]).block.attempt == 2
+
+
+def test_a_block_whose_worker_wakes_up_is_left_to_it(
+    installed: Installed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After a sleep of the machine all leases seem to have run out; heartbeats follow at once."""
+
+    def beat(_: float) -> None:
+        installed.catalogue.heartbeat(f"{installed.jobs['running']}-0", 1, installed.settings.lease)
+
+    forget_the_worker(installed)
+    monkeypatch.setattr(rows.time, "sleep", beat)
+    assert installed.mend() == []
+
+
+def test_orphaned_rows_are_removed(installed: Installed) -> None:
+    orphan_rows(installed)
+    (found,) = [one for one in installed.mend() if "not there" in one.found]
+    assert found.subjects == ("rows 2 in block",)
+    assert installed.catalogue.blocks(ELSEWHERE) == ()
+    assert not any("not there" in one.found for one in installed.look())
+
+
+def test_whole_results_without_a_job_get_one_that_can_be_found(installed: Installed) -> None:
+    """The catalogue is lost, or a copy from before the jobs; only what was whole is adopted."""
+    lost = {label: installed.catalogue.get(job) for label, job in installed.jobs.items()}
+    installed.sql("PRAGMA foreign_keys=ON", "DELETE FROM job")
+    found = {one.found: one for one in installed.mend()}
+    assert len([one for one in found.values() if one.mended == "its job was made again"]) == 1
+    jobs = {job.label: job for job in installed.catalogue.every_job()}
+    assert set(jobs) == {"succeeded", "swept"}
+    for label, job in jobs.items():
+        former = lost[label]
+        same = ("id", "kind", "spec", "digest", "solver_version", "scene", "state", "attempt")
+        for name in (*same, "progress_fraction"):
+            assert getattr(job, name) == getattr(former, name), name
+        assert job.created == pytest.approx(former.created, abs=1e-3)  # ids count milliseconds
+    left = {one.subjects[0].rpartition("/")[2]: one for one in installed.look()}
+    assert set(left) == {
+        installed.sealed("cancelled").name,
+        installed.jobs["cut short"],
+        installed.jobs["running"],
+    }
+    assert all(one.mend is None and one.advice for one in left.values())
+
+
+def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> None:
+    path = installed.sealed("succeeded")
+    copy = shutil.copyfile(path, path.with_name(f"{path.name}.bak"))
+    (installed.settings.data / "notes").write_text("mine")
+    found = installed.mend()
+    assert [one.mend for one in found] == [None, None]
+    assert copy.exists()
+
+
+def test_a_job_that_nothing_will_end_is_left_to_the_user(installed: Installed) -> None:
+    job = installed.jobs["cancelled"]
+    installed.sql(f"UPDATE job SET state = 'running' WHERE id = '{job}'")
+    (finding,) = installed.mend()
+    assert finding.found == "has not ended, and nothing of it will be computed"
+    assert f"jointplay cancel {job}" in str(finding.advice)
+
+
+def test_a_clock_that_was_set_back_is_said(installed: Installed) -> None:
+    installed.clock.ahead -= 3600.0
+    (finding,) = [one for one in installed.look() if one.where == "clock"]
+    assert finding.found.startswith("3600 s before the newest event")
+
+
+def test_a_disk_without_room_is_said(installed: Installed) -> None:
+    settings = installed.settings.model_copy(update={"reserve": 2**60})
+    (finding,) = [one for one in findings(settings, installed.catalogue) if one.where == "disk"]
+    assert "no job is accepted" in finding.found
+    assert "MB" in str(finding.advice)
+
+
+def overwrite(path: Path) -> None:
+    path.write_bytes(b"no database at all" * 500)
+
+
+def cut(path: Path) -> None:
+    os.truncate(path, 8192)
+
+
+def change_the_revision(path: Path, revision: str) -> None:
+    with closing(sqlite3.connect(path)) as database:
+        database.execute(f"UPDATE alembic_version SET version_num = '{revision}'")
+        database.commit()
+
+
+@pytest.mark.parametrize(
+    ("harm", "found"),
+    [
+        (overwrite, "cannot be read"),
+        (cut, "cannot be read"),
+        (lambda path: change_the_revision(path, "9999"), "newer jointplay"),
+        (lambda path: change_the_revision(path, "0000"), "jointplay serve brings it to"),
+    ],
+)
+def test_of_a_catalogue_that_is_broken_nothing_else_is_asked(
+    tmp_path: Path, harm: Callable[[Path], None], found: str
+) -> None:
+    settings = Settings(data=tmp_path)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    catalogue.close()
+    for path in tmp_path.glob("catalogue.sqlite-*"):
+        path.unlink()
+    harm(tmp_path / "catalogue.sqlite")
+    told = [*findings(settings, Catalogue(settings.catalogue_url))]
+    assert {one.where for one in told} == {"catalogue"}
+    assert found in told[0].found
+    assert all(one.mend is None for one in told)
+
+
+def test_a_catalogue_whose_index_is_not_that_of_its_rows_is_found(installed: Installed) -> None:
+    """Questions to such a database are answered, and some of the answers are wrong."""
+    installed.catalogue.close()
+    path = installed.settings.data / "catalogue.sqlite"
+    whole = path.read_bytes()
+    path.write_bytes(whole.replace(b"succeeded", b"succeedex", 1))
+    (found, *_) = installed.look()
+    assert found.found.startswith("is damaged: ")
+    assert "backup" in str(found.advice)

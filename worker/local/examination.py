@@ -1,0 +1,59 @@
+"""Whether the files of a local run's folder are what the run left."""
+
+import json
+import shutil
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from jointplay.storage import durable
+from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.reconciliation.finding import Finding
+from jointplay.storage.reconciliation.results import verified
+from jointplay.worker.local.folder import JOB_FILE, OUTCOME_FILE, RUNNING, STORE
+
+
+def examined(folder: Path) -> Iterator[Finding]:
+    """Yield everything that is not as it should be; nothing is mended by it."""
+    again = f"jointplay run {folder / JOB_FILE} -o AGAIN"
+    if not (folder / STORE).exists():
+        if not (folder / OUTCOME_FILE).exists():
+            found = "is not there: the run was cut short, or goes on"
+            yield _finding(folder, STORE, found, advice=again)
+        return
+    try:
+        job = verified(StoredObject(Folder(str(folder)), STORE))["job"]
+    except (NotAStore, CorruptStore) as error:
+        yield _finding(folder, STORE, str(error), advice=again)
+        return
+    if _document(folder / JOB_FILE) != job:
+        content = (json.dumps(job, indent=2) + "\n").encode()
+        mend = partial(durable.write, folder / JOB_FILE, [content])
+        found = f"is not the job of {STORE}"
+        yield _finding(folder, JOB_FILE, found, "written anew", mend=mend)
+    if (folder / OUTCOME_FILE).exists() and _document(folder / OUTCOME_FILE) is None:
+        mend = partial((folder / OUTCOME_FILE).unlink, missing_ok=True)
+        yield _finding(folder, OUTCOME_FILE, "is no JSON document", "removed", mend=mend)
+    if (folder / RUNNING).exists():
+        mend = partial(shutil.rmtree, folder / RUNNING, ignore_errors=True)
+        yield _finding(folder, RUNNING, "is left over", "removed", mend=mend)
+    for path in sorted(folder.glob(f"*{durable.PARTIAL}")):
+        mend = partial(path.unlink, missing_ok=True)
+        yield _finding(folder, path.name, "is left over", "removed", mend=mend)
+
+
+def _finding(
+    folder: Path, name: str, found: str, mended: str | None = None, **more: Any
+) -> Finding:
+    return Finding(str(folder), (name,), found, mended, **more)
+
+
+def _document(path: Path) -> Any:
+    """Return what a file of JSON holds; None where it holds none."""
+    try:
+        return json.loads(path.read_bytes())
+    except (FileNotFoundError, ValueError):
+        return None
