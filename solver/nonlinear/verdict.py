@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from jointplay.solver.nonlinear.estimate import Estimate
+from jointplay.solver.nonlinear.lyapunov import contradicts
 
 UNDECIDED, PERIODIC, QUASI_PERIODIC, CHAOTIC = range(4)
 VERDICTS = {
@@ -43,18 +44,18 @@ def decide(
     zero_one: Estimate | None = None,
     period: int | None = None,
     rotation: Estimate | None = None,
-    otherwise: Estimate | None = None,
+    finer: Estimate | None = None,
 ) -> Verdict:
     """Return the verdict on a motion from the indicators of the whole system.
 
     lyapunov : largest exponent, other than the zero along an autonomous flow. zero_one : K.
     period : by recurrence; 0 where there is none up to the longest looked for. rotation : rotation
-    number; None where the section is no closed curve. otherwise : an exponent in far smaller steps
-    that contradicts it. None: not known. A K with an error of 0.5 or more (too few sections) is as
-    good as none.
+    number; None where the section is no closed curve. finer : the exponent in far smaller steps.
+    None: not known. An exponent that is not finite, and a K with an error of 0.5 or more (too few
+    sections), are as good as none.
 
-    chaotic : the exponent exceeds zero by more than three errors, nothing recurs, and K > 0.9. An
-        exponent that does not drift will do where there is no K.
+    chaotic : the exponent exceeds zero by more than three errors, in smaller steps too, nothing
+        recurs, and K > 0.9. An exponent that does not drift will do where there is no K.
     periodic : every p-th section is the same and the exponent is not positive. An exponent near
         zero and K > 0.9 contradict that; a clearly negative exponent overrules K.
     quasi-periodic : exponent within three errors of zero, K < 0.1, a closed curve with a rotation
@@ -62,13 +63,15 @@ def decide(
     undecided : the exponent is another in smaller steps, or anything else; the reason says what is
         missing or what contradicts what.
     """
-    if lyapunov is not None and not math.isfinite(lyapunov.error):
+    if lyapunov is not None and not math.isfinite(lyapunov.value + lyapunov.error):
         lyapunov = None
+    if finer is not None and not math.isfinite(finer.value + finer.error):
+        finer = None
     if zero_one is not None and not zero_one.error < VAGUE:
         zero_one = None
-    if otherwise is not None:
+    if lyapunov is not None and finer is not None and contradicts(finer, lyapunov):
         return _undecided(
-            f"the exponent is {lyapunov}, but {otherwise} in far smaller steps: contact is too hard"
+            f"the exponent is {lyapunov}, but {finer} in far smaller steps: contact is too hard"
             " and rare for a tangent at this tolerance; choose a smaller one"
         )
     if period:
@@ -77,7 +80,7 @@ def decide(
         seen = "" if zero_one is None else f" (K is {zero_one})"
         return _undecided(f"nothing recurs, and without an exponent nothing is certain{seen}")
     if lyapunov.exceeds(0.0):
-        return _diverging(lyapunov, zero_one)
+        return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):
         return _undecided(
             f"neighbours converge, the exponent is {lyapunov}, but no short period is seen:"
@@ -103,8 +106,15 @@ def _recurrent(lyapunov: Estimate | None, zero_one: Estimate | None, period: int
     return Verdict(PERIODIC, period, f"{recurs}; the exponent is {lyapunov}, {near}")
 
 
-def _diverging(lyapunov: Estimate, zero_one: Estimate | None) -> Verdict:
+def _diverging(lyapunov: Estimate, zero_one: Estimate | None, finer: Estimate | None) -> Verdict:
     parts = f"neighbours part, the exponent is {lyapunov}"
+    if finer is not None and not finer.exceeds(0.0):
+        return _undecided(
+            f"{parts}, but {finer} in far smaller steps, not different from zero: record more"
+            " sections, or choose a smaller tolerance"
+        )
+    if finer is not None:
+        parts += f", {finer} in far smaller steps"
     if zero_one is None and lyapunov.drifting:
         return _undecided(f"{parts}, but it still drifts, and there is no 0-1 test to confirm it")
     if zero_one is None:

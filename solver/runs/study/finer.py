@@ -2,7 +2,7 @@
 
 A tangent vector follows the trajectory's steps without an error of its own: where contact is hard
 and rare, its exponent may be of the steps' making, however steady it is. So the lane goes on for a
-share of the record, in far smaller steps; `solver.nonlinear.lyapunov.confirmed` compares the two.
+share of the record, in far smaller steps; `solver.nonlinear.lyapunov` compares the two exponents.
 """
 
 import math
@@ -12,11 +12,20 @@ from jointplay.solver.runs.study.indicators import LATE
 from jointplay.solver.runs.study.problem import ENDLESS
 
 FINER = 1e-2
-"""The finer tolerance, in the job's."""
+"""The finer tolerance, in the job's: at a tenth, an exponent that falls by three with every tenth
+would still be called right within three errors."""
 STRICTEST = 1e-13
 """Tolerances are no smaller: rounding would be followed."""
-SHARE, FEWEST = 0.25, 50
-"""Length of the stretch: a share of the record, but as many periods if the record has them."""
+SHARE, FEWEST = 1 / 16, 8
+"""Length of the stretch: a share of the record, but as many periods if the record has them. Where
+that leaves open whether neighbours part it is doubled, up to the length of the record."""
+COST: float = FINER**-0.2
+"""Steps of a finer period, in those of the record: methods that carry tangents are of order 5."""
+
+
+def periods_of(record: int) -> int:
+    """Return the length of the stretch behind so many sections."""
+    return min(record, max(math.ceil(SHARE * record), FEWEST))
 
 
 def go_on_finer(bundle: Bundle, lane: int, tolerance: float, period: float, record: int) -> int:
@@ -42,6 +51,14 @@ def go_on_finer(bundle: Bundle, lane: int, tolerance: float, period: float, reco
     for name in ("tangent", "tangent_impact_rate"):  # its length is measured by the weights
         at[name] = at[name] / finer
     first = math.ceil(at.time / period - LATE)
-    periods = min(record, max(math.ceil(SHARE * record), FEWEST))
-    bundle.extend(lane, (first + periods) * period, ENDLESS)
+    bundle.extend(lane, (first + periods_of(record)) * period, ENDLESS)
     return first
+
+
+def go_on_longer(bundle: Bundle, lane: int, first: int, period: float, record: int) -> bool:
+    """Double the stretch that began after `first` periods; whether the record is longer than it."""
+    periods = round(float(bundle.lane(lane).run["duration"]) / period) - first
+    if periods >= record:
+        return False
+    bundle.extend(lane, (first + min(2 * periods, record)) * period, ENDLESS)
+    return True

@@ -6,7 +6,11 @@ import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-from jointplay.solver.nonlinear.lyapunov import confirmed, differs, exponent_from_growth
+from jointplay.solver.nonlinear.lyapunov import (
+    confirmed,
+    exponent_from_growth,
+    in_smaller_steps,
+)
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
 from jointplay.solver.nonlinear.verdict import decide
@@ -29,6 +33,7 @@ def indicators_of(
     log_growth: Floats,
     finer_growth: Floats,
     period: float,
+    settled: int,
 ) -> dict[str, float]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
 
@@ -37,17 +42,16 @@ def indicators_of(
     each: the finest clearance, as length, turn, or rate of either. angles : (states,) which are
     angles, whose whole turns do not count. log_growth : (periods,) logarithm of the tangent
     vector's growth in each period of the record. finer_growth : the same behind the record, in far
-    smaller steps. period : s.
+    smaller steps. period : s. settled : periods of the vector before the record.
     """
     states = unwound(states[:MOST_SECTIONS], angles) / scales
     found: dict[str, float] = {}
-    lyapunov = otherwise = zero_one = rotation = None
+    lyapunov = finer = zero_one = rotation = None
     recurrence: int | None = None
     if "lyapunov" in chosen and len(log_growth):
-        coarse, finer = (_exponent(growth, period) for growth in (log_growth, finer_growth))
-        lyapunov = confirmed(coarse, finer)
-        otherwise = finer if differs(coarse, finer) else None
-        found |= {"lyapunov": lyapunov.value, "lyapunov_error": lyapunov.error}
+        lyapunov, finer = exponents(log_growth, finer_growth, period, settled)
+        stated = confirmed(lyapunov, finer)
+        found |= {"lyapunov": stated.value, "lyapunov_error": stated.error}
     if len(states) and "zero_one" in chosen:
         zero_one = zero_one_test(states, resolution=RECURS)
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
@@ -65,13 +69,27 @@ def indicators_of(
         spectrum = power_spectrum(principal_plane(states)[:, 0], period)
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
-    verdict = decide(lyapunov, zero_one, recurrence, rotation, otherwise)
+    verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)
     return found | {"verdict": float(verdict.code)}
 
 
-def _exponent(log_growth: Floats, period: float) -> Estimate:
-    known = not (np.isnan(log_growth) | (log_growth == np.inf)).any()
-    return exponent_from_growth(log_growth, period) if known else UNKNOWN
+def exponents(
+    log_growth: Floats, finer_growth: Floats, period: float, settled: int
+) -> tuple[Estimate, Estimate]:
+    """Return the exponent of a record and the one in far smaller steps, as `indicators_of` has it.
+
+    Each has the error of its length alone; one about which nothing is known is UNKNOWN.
+    """
+    if not len(log_growth) or not _known(log_growth):
+        return UNKNOWN, UNKNOWN
+    record = exponent_from_growth(log_growth, period, settled)
+    if not len(finer_growth) or not _known(finer_growth):
+        return record, UNKNOWN
+    return record, in_smaller_steps(log_growth, finer_growth, period)
+
+
+def _known(log_growth: Floats) -> bool:
+    return not (np.isnan(log_growth) | (log_growth == np.inf)).any()
 
 
 def growth_by_period(rows: Floats, period: float, settled: int) -> Floats:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.records.point import PointEnd, SectionRows
 from jointplay.solver.kernels.emit.tangents import compile_tangents
@@ -13,9 +14,15 @@ from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
+from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
-from jointplay.solver.runs.study.finer import go_on_finer
-from jointplay.solver.runs.study.indicators import MOST_SECTIONS, growth_by_period, indicators_of
+from jointplay.solver.runs.study.finer import COST, go_on_finer, go_on_longer, periods_of
+from jointplay.solver.runs.study.indicators import (
+    MOST_SECTIONS,
+    exponents,
+    growth_by_period,
+    indicators_of,
+)
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.point_run import (
     PointRun,
@@ -54,6 +61,10 @@ class LaneGroup:
         """Rows of the observables, and of the channels, in the kernel's block of channels."""
 
     @property
+    def _carries_exponents(self) -> bool:
+        return "lyapunov" in self.study.indicators
+
+    @property
     def busy(self) -> bool:
         """Whether a lane computes a point."""
         return any(run is not None for run in self.lanes)
@@ -67,10 +78,18 @@ class LaneGroup:
     def under_way(self) -> float:
         """Return how many points the parts of those under way amount to."""
         return sum(
-            min(self.bundle.lane(lane).time / float(self.study.duration[run.point]), 1.0)
-            for lane, run in enumerate(self.lanes)
-            if run is not None
+            self._computed(lane, run) for lane, run in enumerate(self.lanes) if run is not None
         )
+
+    def _computed(self, lane: int, run: PointRun) -> float:
+        """Return how much of a point is computed, 0..1, counted in steps of its record."""
+        study, at = self.study, self.bundle.lane(lane)
+        whole, stretch = float(study.duration[run.point]), 0.0
+        if self._carries_exponents:
+            stretch = COST * periods_of(study.record) * float(study.period[run.point])
+        if run.ended is None:
+            return min(at.time, whole) / (whole + stretch)
+        return max(1.0 - COST * (float(at.run["duration"]) - at.time) / (whole + stretch), 0.0)
 
     def fill(self, waiting: list[PointRun]) -> tuple[int, ...]:
         """Give free lanes waiting points of this structure; return those points."""
@@ -108,6 +127,8 @@ class LaneGroup:
                         continue
             else:
                 run.finer.append(self.bundle.growth(lane))
+                if status == Status.DONE and self._looks_longer(lane, run):
+                    continue
             if status != Status.RUNNING:
                 ended.append(self._judged(run))
                 self.lanes[lane] = None
@@ -125,11 +146,18 @@ class LaneGroup:
     def _looks_again(self, lane: int, run: PointRun) -> bool:
         """Let a point whose exponent is wanted go on in smaller steps; whether it does."""
         study = self.study
-        if run.ended is None or run.ended.code or "lyapunov" not in study.indicators:
+        if run.ended is None or run.ended.code or not self._carries_exponents:
             return False
         period = float(study.period[run.point])
         run.finer_from = go_on_finer(self.bundle, lane, study.tolerance, period, study.record)
         return True
+
+    def _looks_longer(self, lane: int, run: PointRun) -> bool:
+        """Lengthen the stretch in smaller steps while it settles nothing; whether it does."""
+        period = float(self.study.period[run.point])
+        if not undecided(*exponents(*self._growths(run), period, run.settled)):
+            return False
+        return go_on_longer(self.bundle, lane, run.finer_from, period, self.study.record)
 
     def _judged(self, run: PointRun) -> PointEnd:
         """Return a point's end with its indicators, for which now all is there."""
@@ -217,11 +245,19 @@ class LaneGroup:
         states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
         scales, angles = scales_of(study, kernel, run.point)
         period = float(study.period[run.point])
+        growths = self._growths(run)
+        return indicators_of(
+            study.indicators, states, scales, angles, *growths, period, run.settled
+        )
+
+    def _growths(self, run: PointRun) -> tuple[Floats, Floats]:
+        """Return logarithms of the tangent's growth by period: in the record, and behind it."""
+        period = float(self.study.period[run.point])
         growth, finer = (
             growth_by_period(np.concatenate([np.zeros((0, 2)), *rows]), period, since)
             for rows, since in ((run.growth, run.settled), (run.finer, run.finer_from))
         )
-        return indicators_of(study.indicators, states, scales, angles, growth, finer, period)
+        return growth, finer
 
     def _statistics(self, lane: int, run: PointRun, *, whole: bool) -> dict[str, float]:
         """Return what every point has; those of channels and contacts too if it ran to its end."""

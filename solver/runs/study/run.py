@@ -53,6 +53,7 @@ class StudyRun:
         self.seconds = 0.0
         """Spent computing by this process since this object was made, without compiling."""
         self._ended_steps = 0.0
+        self._reached = 0.0
         if checkpoint is not None:
             self._restore(checkpoint)
             return
@@ -91,8 +92,10 @@ class StudyRun:
         return self.group
 
     def _fraction(self, group: LaneGroup) -> float:
-        """Return how much of the block is computed, 0..1."""
-        return min((self.ended + group.under_way()) / self.count, 1.0)
+        """Return how much of the block is computed, 0..1; it never falls."""
+        found = min((self.ended + group.under_way()) / self.count, 1.0)
+        self._reached = max(self._reached, found)
+        return self._reached
 
     def checkpoint(self) -> bytes:
         """Return a restart point; valid between slices."""

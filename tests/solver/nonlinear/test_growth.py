@@ -18,6 +18,19 @@ def test_growth_that_dies_out_is_not_taken_for_chaos(blocks: int) -> None:
     assert found.drifting or blocks < 50
 
 
+@pytest.mark.parametrize("before", [0, 10, 200, 10_000])
+@pytest.mark.parametrize("blocks", [20, 100, 600])
+def test_what_a_free_spin_adds_is_no_exponent(blocks: int, before: int) -> None:
+    """Neighbours of a body that spins freely part by an angle that grows like t."""
+    time = before + np.arange(blocks + 1.0)
+    noise = 1e-9 * np.random.default_rng(before).standard_normal(blocks)
+    found = exponent_from_growth(np.diff(np.log(np.hypot(0.3, time))) + noise, 0.1, before)
+    assert found.value > 0.0
+    assert found.value <= 1.1 * found.error
+    # an exponent of its own is none the worse
+    assert exponent_from_growth(np.full(blocks, 2.0) + noise, 1.0, before).error < 1e-8
+
+
 def test_the_turning_of_the_vector_is_left_out() -> None:
     noise = 0.1 * np.random.default_rng(1).standard_normal(400)
     growth = noise + 0.5

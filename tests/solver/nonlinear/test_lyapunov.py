@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
-from jointplay.solver.nonlinear.lyapunov import confirmed, differs, exponent_from_growth
+from jointplay.solver.nonlinear.lyapunov import (
+    confirmed,
+    contradicts,
+    exponent_from_growth,
+    in_smaller_steps,
+    undecided,
+)
 from tests.solver.nonlinear.exponents import (
     agrees,
     companion_exponent,
@@ -180,19 +186,46 @@ def test_the_metric_of_a_companion_does_not_matter() -> None:
 
 
 @pytest.mark.parametrize(
-    ("found", "finer", "error", "other"),
+    ("found", "finer", "error", "contradicted"),
     [
-        (Estimate(14.6, 1e-5), Estimate(-3.3, 4.9), 13.0, True),
-        (Estimate(6.4, 0.6), Estimate(6.7, 1.2), 0.6, False),
-        (Estimate(40.0, 3.0), Estimate(28.0, 4.0), 8.0, False),  # no chance to tell them apart
-        (Estimate(40.0, 1.0), Estimate(28.0, 1.0), 11.0, True),
+        (Estimate(14.6, 1e-5), Estimate(-3.3, 4.9), 17.9, True),
+        (Estimate(6.4, 0.6), Estimate(6.7, 1.2), 1.2, False),
+        (Estimate(40.0, 3.0), Estimate(28.0, 4.0), 12.0, False),  # too near to tell them apart
+        (Estimate(40.0, 1.0), Estimate(20.0, 1.0), 20.0, True),
+        (Estimate(40.0, 1e-3), Estimate(39.9, 1e-3), 0.1, False),  # of no consequence
         (Estimate(1.0, 0.1), UNKNOWN, 0.1, False),
         (Estimate(-math.inf, 0.0), Estimate(-2.0, 0.1), 0.0, False),
     ],
 )
 def test_an_exponent_is_no_better_than_what_smaller_steps_leave_of_it(
-    found: Estimate, finer: Estimate, error: float, other: bool
+    found: Estimate, finer: Estimate, error: float, contradicted: bool
 ) -> None:
     assert confirmed(found, finer).value == found.value
     assert confirmed(found, finer).error == pytest.approx(error)
-    assert differs(found, finer) == other
+    assert contradicts(finer, found) == contradicted
+
+
+@pytest.mark.parametrize(
+    ("finer", "open_still"),
+    [(Estimate(18.0, 7.0), True), (Estimate(18.0, 5.0), False), (Estimate(-20.0, 7.0), False)],
+)
+def test_a_stretch_in_smaller_steps_is_longer_where_it_settles_nothing(
+    finer: Estimate, open_still: bool
+) -> None:
+    assert undecided(Estimate(20.0, 1.0), finer) == open_still
+    assert not undecided(Estimate(2.0, 1.0), finer)
+
+
+def test_a_short_stretch_has_the_error_of_its_length() -> None:
+    noise = np.random.default_rng(5).standard_normal(400)
+    found = [in_smaller_steps(noise[:360] + 0.5, part + 0.5, 2.0) for part in noise.reshape(-1, 8)]
+    # eight numbers of standard deviation 1, over blocks that last 2; widened by Student's t
+    assert all(one.error == pytest.approx(1.0 / math.sqrt(8.0) / 2.0, rel=0.5) for one in found)
+    assert all(agrees(one, 0.25) for one in found[45:])
+
+
+def test_on_a_torus_a_short_stretch_has_the_error_of_where_it_begins_and_ends() -> None:
+    growth = np.cos(2.0 * math.pi * 0.06180339887 * np.arange(500.0))
+    found = in_smaller_steps(growth[:480], growth[480:488], 1.0)
+    assert agrees(found, 0.0)
+    assert found.error > 0.3  # half a swing

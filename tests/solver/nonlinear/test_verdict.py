@@ -125,6 +125,19 @@ def test_an_exponent_that_smaller_steps_contradict_decides_nothing(period: int) 
     assert str(NEGATIVE) in verdict.reason
 
 
+def test_chaos_needs_an_exponent_above_zero_in_smaller_steps_too() -> None:
+    assert decide(POSITIVE, IRREGULAR, 0, None, Estimate(0.4, 0.1)).code == CHAOTIC
+    vague = decide(POSITIVE, IRREGULAR, 0, None, Estimate(0.4, 0.2))
+    assert vague.code == UNDECIDED
+    assert "record more sections" in vague.reason
+
+
+@pytest.mark.parametrize("exponent", [Estimate(-math.inf, 0.0), Estimate(0.5, math.inf)])
+def test_an_infinite_exponent_decides_nothing(exponent: Estimate) -> None:
+    assert decide(exponent, IRREGULAR, 0).code == UNDECIDED
+    assert "not known" in decide(exponent, REGULAR, 2).reason
+
+
 def test_verdicts_have_names() -> None:
     assert Verdict(PERIODIC, 3, "").name == "period-3"
     assert [Verdict(code, 0, "").name for code in (0, 2, 3)] == [
