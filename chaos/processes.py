@@ -14,7 +14,7 @@ from jointplay.chaos.inside import FOLDER_VARIABLE
 ROLES: Final = ("computing", "worker", "api", "relay", "broker", "supervisor")
 """What processes do that faults choose from; "computing" are the children of the worker.
 
-Beside them there are those that compile, which end with those who wait for them.
+Beside them there are those that compile or check documents, which end with those who wait for them.
 """
 _MODULES: Final = {
     "jointplay.service.processes.api": "api",
@@ -22,6 +22,7 @@ _MODULES: Final = {
     "jointplay.worker": "worker",
     "jointplay.service.processes": "supervisor",
     "jointplay.solver.kernels.compile_file": "compiling",
+    "jointplay.service.checking": "checking",
 }
 _PATIENCE = 30.0  # s, until a killed process is gone
 

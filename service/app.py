@@ -21,6 +21,7 @@ import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, problems, scenes
 from jointplay.service.batches.admission import BatchDocument
+from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.prober import Prober
@@ -75,10 +76,12 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
         app.state.prober = prober = Prober()
+        app.state.checker = checker = Checker(settings)
         try:
             yield
         finally:
             prober.close()
+            checker.close()
             catalogue.close()
 
     app = FastAPI(

@@ -1,17 +1,14 @@
-"""The body of a request, bounded and parsed strictly."""
+"""The body of a request, bounded and of the right media type."""
 
 from collections.abc import Awaitable, Callable
 from typing import Annotated
 
 from fastapi import Depends, Request
-from fastapi.concurrency import run_in_threadpool
 
-from jointplay.records.strict_json import parse
 from jointplay.service.problems import RequestRefused, kinds
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
-_SHORT = 32 * 1024  # parsed within a millisecond
 MOST_DROPPED = 64 * 1024 * 1024
 
 
@@ -38,14 +35,14 @@ async def _bounded(request: Request, largest: int) -> bytes:
     return bytes(body)
 
 
-def _json_document(largest: int) -> Callable[[Request], Awaitable[object]]:
-    """Return a parser of bodies of at most `largest` bytes.
+def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:
+    """Return a reader of bodies of at most `largest` bytes.
 
     The media type is insisted on: a browser sends a foreign page's ``text/plain`` here without
     asking, but not its ``application/json``.
     """
 
-    async def document(request: Request) -> object:
+    async def read(request: Request) -> bytes:
         media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
         body = await _bounded(request, largest)
         if media_type != "application/json":
@@ -54,10 +51,10 @@ def _json_document(largest: int) -> Callable[[Request], Awaitable[object]]:
                 f"The body was sent as {media_type or 'nothing'!r}; send it as application/json "
                 "(curl: --json @job.json).",
             )
-        return parse(body) if len(body) <= _SHORT else await run_in_threadpool(parse, body)
+        return body
 
-    return document
+    return read
 
 
-JsonDocument = Annotated[object, Depends(_json_document(LARGEST_BODY))]
-JsonBatch = Annotated[object, Depends(_json_document(LARGEST_BATCH))]
+JobBody = Annotated[bytes, Depends(_json_body(LARGEST_BODY))]
+BatchBody = Annotated[bytes, Depends(_json_body(LARGEST_BATCH))]

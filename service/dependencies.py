@@ -8,6 +8,7 @@ from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
 from jointplay.records.job import is_job_id
+from jointplay.service.checking import Checker
 from jointplay.service.problems import RequestRefused, clipped, kinds
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import JobNotFound
@@ -37,6 +38,7 @@ async def _no_parameters(request: Request) -> None:
 
 
 NO_PARAMETERS = Depends(_no_parameters)
+CheckerDependency = Annotated[Checker, of_the_application("checker")]
 CatalogueDependency = Annotated[Catalogue, of_the_application("catalogue")]
 SettingsDependency = Annotated[Settings, of_the_application("settings")]
 

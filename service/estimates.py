@@ -5,15 +5,16 @@ from typing import Annotated
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
-from jointplay.service.body import JsonDocument
+from jointplay.service.body import JobBody
+from jointplay.service.checking import check_job
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
-    SettingsDependency,
+    CheckerDependency,
     of_the_application,
 )
 from jointplay.service.fields import in_unit
-from jointplay.service.jobs.submission import REQUEST_BODY, checked
+from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.prober import Prober
 from jointplay.service.problems import kinds, problems
 
@@ -46,9 +47,9 @@ class Estimate(BaseModel):
     responses=problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE),
 )
 def estimate_job(
-    document: JsonDocument,
+    body: JobBody,
     catalogue: CatalogueDependency,
-    settings: SettingsDependency,
+    checker: CheckerDependency,
     prober: Annotated[Prober, of_the_application("prober")],
 ) -> Estimate:
     """Say what a job will cost, and queue nothing.
@@ -56,6 +57,7 @@ def estimate_job(
     The document is checked as POST /v1/jobs checks it.  Then half a second of the job is computed
     on this machine; the pace at the end of it is taken for the rest.
     """
-    new, reuse = checked(document, settings)
-    cached = reuse and catalogue.identical(new) is not None
+    found = checker.check(check_job, body)
+    new = found.jobs[0]
+    cached = found.reuse and catalogue.identical(new) is not None
     return Estimate(**prober.cost_of(new.spec), cached=cached)

@@ -18,13 +18,14 @@ class Repeatable:
     """A request that may carry a key."""
 
     def __init__(self, request: Request, key: str | None) -> None:
-        self._path = request.url.path
+        self.path = request.url.path if key else ""
+        """Where it was sent to, if it carries a key: its `fingerprint` is wanted then."""
         self._key = key
         self._in_flight: dict[str, Repeatable] = request.app.state.in_flight
 
     @contextmanager
-    def key_for(self, document: object) -> Iterator[SubmissionKey | None]:
-        """Yield what to store with what this document makes; one request at a time has a key.
+    def key_for(self, fingerprint: str) -> Iterator[SubmissionKey | None]:
+        """Yield what to store with what a document makes; one request at a time has a key.
 
         Raises
         ------
@@ -34,8 +35,6 @@ class Repeatable:
         if self._key is None:
             yield None
             return
-        body = json.dumps([self._path, document], sort_keys=True, separators=(",", ":"))
-        fingerprint = hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
         if self._in_flight.setdefault(self._key, self) is not self:  # one step, for all threads
             sentence = "A request with this key is being answered; send it again in a moment."
             raise RequestRefused.of_parameter(
@@ -45,6 +44,14 @@ class Repeatable:
             yield SubmissionKey(self._key, fingerprint)
         finally:
             del self._in_flight[self._key]
+
+
+def fingerprint(path: str, document: object) -> str:
+    """Return what a document and the path that it is sent to are known by; nothing of no path."""
+    if not path:
+        return ""
+    body = json.dumps([path, document], sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 async def _repeatable(

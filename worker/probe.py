@@ -1,12 +1,11 @@
 """`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
 
 Receives admitted job documents through the connection whose file descriptor is its argument, and
-answers each with JSON; ends with the connection, or after five minutes without a question. A job
-that is over within the budget is known exactly; of a longer one the pace at the end of the
+answers each with a dictionary; ends with the connection, or after five minutes without a question.
+A job that is over within the budget is known exactly; of a longer one the pace at the end of the
 beginning is taken for the rest.
 """
 
-import json
 import shutil
 import sys
 import tempfile
@@ -188,10 +187,10 @@ def main() -> None:
     with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
         while asking.poll(_IDLE):
             try:
-                answer = asdict(cost_of(json.loads(asking.recv_bytes())))
+                answer = asdict(cost_of(asking.recv()))
             except InvalidInput as error:
                 answer = {"refused": str(error)}
-            asking.send_bytes(json.dumps(answer).encode())
+            asking.send(answer)
 
 
 if __name__ == "__main__":

@@ -7,11 +7,12 @@ from fastapi import APIRouter, Depends, Path, Query, Response
 from pydantic import BaseModel, Field
 
 from jointplay.records.job import is_job_id
-from jointplay.service.batches.admission import admit_batch
-from jointplay.service.body import JsonBatch
+from jointplay.service.body import BatchBody
+from jointplay.service.checking import check_batch
 from jointplay.service.dependencies import (
     NO_PARAMETERS,
     CatalogueDependency,
+    CheckerDependency,
     SettingsDependency,
     require_room,
 )
@@ -92,7 +93,8 @@ BatchOfThePath = Annotated[Batch, Depends(_batch_of_the_path)]
     responses=MADE | problems(*kinds.OF_SUBMISSIONS),
 )
 def submit_batch(
-    document: JsonBatch,
+    body: BatchBody,
+    checker: CheckerDependency,
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
@@ -103,9 +105,9 @@ def submit_batch(
     All are checked first; if any cannot be run, nothing is queued and `errors` points at each
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
-    with repeatable.key_for(document) as key:
-        jobs, label = admit_batch(document, settings)
-        submitted = catalogue.submit_batch(jobs, label=label or None, key=key)
+    found = checker.check(check_batch, body, repeatable.path)
+    with repeatable.key_for(found.fingerprint) as key:
+        submitted = catalogue.submit_batch(found.jobs, label=found.label or None, key=key)
     wake_relay(settings.redis_url)
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]

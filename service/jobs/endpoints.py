@@ -5,9 +5,11 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
-from jointplay.service.body import JsonDocument
+from jointplay.service.body import JobBody
+from jointplay.service.checking import Checker, check_job
 from jointplay.service.dependencies import (
     CatalogueDependency,
+    CheckerDependency,
     JobOfThePath,
     SettingsDependency,
     require_room,
@@ -15,7 +17,7 @@ from jointplay.service.dependencies import (
 from jointplay.service.idempotency import Repeatable, RepeatableRequest
 from jointplay.service.jobs.listing import JobQuery
 from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, address
-from jointplay.service.jobs.submission import REQUEST_BODY, checked
+from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -43,7 +45,8 @@ MADE_OR_FOUND: dict[int | str, dict[str, Any]] = {
     responses=MADE_OR_FOUND | problems(*kinds.OF_SUBMISSIONS),
 )
 async def submit_job(
-    document: JsonDocument,
+    body: JobBody,
+    checker: CheckerDependency,
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
@@ -57,7 +60,7 @@ async def submit_job(
     equals one that is queued, running or succeeded is not computed again: that one is the answer,
     with 200 and `cached`, unless the document says `"cache": false`.
     """
-    submitted = await run_in_threadpool(_submit, catalogue, settings, repeatable, document)
+    submitted = await run_in_threadpool(_submit, catalogue, checker, settings, repeatable, body)
     job = await patience.finished(submitted.job)
     if submitted.cached or job.state.terminal:
         response.status_code = 200
@@ -66,11 +69,15 @@ async def submit_job(
 
 
 def _submit(
-    catalogue: Catalogue, settings: Settings, repeatable: Repeatable, document: object
+    catalogue: Catalogue,
+    checker: Checker,
+    settings: Settings,
+    repeatable: Repeatable,
+    body: bytes,
 ) -> Submitted:
-    with repeatable.key_for(document) as key:
-        new, reuse = checked(document, settings)
-        submitted = catalogue.submit(new, key, reuse=reuse)
+    found = checker.check(check_job, body, repeatable.path)
+    with repeatable.key_for(found.fingerprint) as key:
+        submitted = catalogue.submit(found.jobs[0], key, reuse=found.reuse)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted

@@ -61,6 +61,9 @@ class RequestRefused(Exception):
         self.errors = tuple(errors)
         self.headers = dict(headers or {})
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.kind, self.detail, self.errors, self.headers)
+
     @classmethod
     def of_parameter(
         cls,
