@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import sys
 
 # One solver runs on one core; threads of libraries beside it only take turns with each other.
 for variable in (
@@ -22,18 +23,18 @@ def main() -> None:
     import jointplay.worker.tasks  # noqa: F401 - registers the task; after the environment is set
     from jointplay.worker.app import QUEUES, app
 
-    app.worker_main(
-        [
-            "worker",
-            "--pool=prefork",
-            f"--concurrency={arguments.processes}",
-            f"--queues={','.join(QUEUES)}",
-            "--without-gossip",
-            "--without-mingle",
-            "--without-heartbeat",
-            "--loglevel=INFO",
-        ]
+    # without Celery's command line, whose libraries would be a tenth of the worker's start
+    worker = app.Worker(
+        pool_cls="prefork",
+        concurrency=arguments.processes,
+        queues=list(QUEUES),
+        without_gossip=True,
+        without_mingle=True,
+        without_heartbeat=True,
+        loglevel="INFO",
     )
+    worker.start()
+    sys.exit(worker.exitcode)
 
 
 if __name__ == "__main__":

@@ -5,9 +5,7 @@ nothing breaks: a redundant wake-up finds nothing to claim.
 """
 
 import logging
-import os
 import signal
-import socket
 import threading
 import time
 
@@ -18,6 +16,7 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, QUEUES, RUN_BLOCK, make_app
+from jointplay.worker.presence import has_ended, own_name
 from jointplay.worker.removal import remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
 
@@ -37,7 +36,7 @@ class Relay:
         self._settings = settings
         self._app = make_app(settings.redis_url)
         self._redis = connection(settings.redis_url or "redis://")
-        self._name = f"{socket.gethostname()}:{os.getpid()}"
+        self._name = own_name()
         self._reap_next = 0.0
         self._last_turn = time.time()
         self._queues_empty_since: float | None = None
@@ -49,7 +48,7 @@ class Relay:
         now = time.monotonic()
         self._give_the_sleeping_time(now)
         if now > self._lead_until - _LEAD_SECONDS / 2:
-            if not self._catalogue.take_lead(_TASK, self._name, _LEAD_SECONDS):
+            if not self._lead():
                 return
             self._lead_until = now + _LEAD_SECONDS
         if now >= self._reap_next:
@@ -57,13 +56,21 @@ class Relay:
             self._catalogue.mend_after_setting_back(
                 self._settings.lease, self._settings.republish_after
             )
-            reaped = self._catalogue.reap(self._settings.max_attempts)
+            ended = [name for name in self._catalogue.holders() if has_ended(name)]
+            reaped = self._catalogue.reap(self._settings.max_attempts, ended)
             for block in reaped.requeued:
                 _log.warning("block %s lost its worker and is queued again", block)
             for job in reaped.ended:
                 _log.error("job %s lost too many workers", job)
             self._remove_expired()
         self.publish()
+
+    def _lead(self) -> bool:
+        """Take or keep the lead; at once where the process that had it has ended."""
+        leader = self._catalogue.leader(_TASK)
+        if leader is not None and has_ended(leader):
+            self._catalogue.release_lead(_TASK, leader)
+        return self._catalogue.take_lead(_TASK, self._name, _LEAD_SECONDS)
 
     def _remove_expired(self) -> None:
         """Begin with it beside the relay's other work, which must not wait for disks."""

@@ -3,7 +3,6 @@
 import logging
 import os
 import signal
-import socket
 import threading
 from functools import lru_cache
 from typing import Any
@@ -18,6 +17,7 @@ from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.block_run import (
     BlockRun,  # before the fork: all children share numba and the solver
 )
+from jointplay.worker.presence import own_name
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
@@ -37,9 +37,8 @@ def run_block(block: str) -> None:
     settings, catalogue = _platform()
     if _draining.is_set():
         return
-    worker = f"{socket.gethostname()}:{os.getpid()}"
     try:
-        claim = catalogue.claim_block(block, worker, settings.lease)
+        claim = catalogue.claim_block(block, own_name(), settings.lease)
     except Unavailable as fault:
         _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
         return

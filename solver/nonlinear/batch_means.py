@@ -7,7 +7,6 @@ Commun. 156:143 and Lee et al. 2011, Phys. Rev. E 83:066706 (their length).
 import math
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import SIGNIFICANT, UNKNOWN, Estimate
@@ -94,4 +93,6 @@ def _batch_error(centred: Floats, length: int) -> Floats:
 
 def _widening(batches: int) -> float:
     """Return Student's t, two means taken out, over that of a known error, at three errors."""
+    from scipy.special import ndtr, stdtrit  # a tenth of the time in which workers start
+
     return float(stdtrit(max(batches - 2, 1), ndtr(SIGNIFICANT))) / SIGNIFICANT

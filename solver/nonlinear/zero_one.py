@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.nonlinear.estimate import UNKNOWN, Estimate
@@ -89,6 +88,8 @@ def _mean_square_displacement(translation: NDArray[np.complex128], reach: int) -
     |z_{j+n} - z_j|² = |z_{j+n}|² + |z_j|² - 2 Re z̄_j z_{j+n}; the last sum over j is a correlation,
     done by Fourier transforms.
     """
+    from scipy import fft  # a tenth of the time in which workers start
+
     n = translation.shape[1]
     starts = n - reach
     squares = np.zeros((len(translation), n + 1))

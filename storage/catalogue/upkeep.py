@@ -87,12 +87,23 @@ def mend_after_setting_back(unit: Unit, lease: float, republish_after: float) ->
     unit.execute(update(tables.outbox).where(late).values(due=unit.now))
 
 
-def reap(unit: Unit, max_attempts: int) -> Reaped:
-    """Take back the blocks whose lease ran out, and forget idempotency keys past their time."""
+def holders(unit: Unit) -> tuple[str, ...]:
+    """Return the workers that hold blocks."""
     block = tables.block
+    held = select(block.c.worker).where(block.c.state == BlockState.running).distinct()
+    return tuple(unit.execute(held).scalars())
+
+
+def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
+    """Take back the blocks whose lease ran out, or whose worker is one of those that have ended.
+
+    Idempotency keys past their time are forgotten.
+    """
+    block = tables.block
+    lost = (block.c.lease_until < unit.now) | block.c.worker.in_(ended)
     expired = unit.execute(
         select(block.c.id, block.c.attempt, block.c.job)
-        .where(block.c.state == BlockState.running, block.c.lease_until < unit.now)
+        .where(block.c.state == BlockState.running, lost)
         .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
         .with_for_update(skip_locked=True)
@@ -162,6 +173,13 @@ def take_lead(unit: Unit, name: str, holder: str, seconds: float) -> bool:
         unit.execute(insert(leader).values(name=name, **lead))  # there was no leader
         return True
     return False
+
+
+def leader(unit: Unit, name: str) -> str | None:
+    """Return who had the lead of a task last, if anybody had."""
+    holder = select(tables.leader.c.holder).where(tables.leader.c.name == name)
+    found = unit.execute(holder).scalar_one_or_none()
+    return None if found is None else str(found)
 
 
 def release_lead(unit: Unit, name: str, holder: str) -> None:

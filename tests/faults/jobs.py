@@ -46,4 +46,4 @@ def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
 
 def pid_of(block: Block) -> int:
     assert block.worker is not None
-    return int(block.worker.rsplit(":", 1)[1])
+    return int(block.worker.split(":")[1])

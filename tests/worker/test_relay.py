@@ -11,6 +11,7 @@ from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
+from jointplay.worker.presence import own_name
 from jointplay.worker.relay import Relay
 from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher
 from tests.waiting import until
@@ -64,6 +65,21 @@ def test_the_block_of_a_silent_worker_is_queued_ahead_of_others(
     catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
     until(lambda: redis.llen(RECOVERED) == 1, act=relay.turn)
     assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost"]
+
+
+def test_what_a_process_had_that_ended_is_taken_over_before_its_time(
+    relay: Relay, catalogue: Catalogue, redis: Redis
+) -> None:
+    host, pid, started, space = own_name().split(":", 3)
+    ended = f"{host}:{pid}:{int(started) - 1}:{space}"
+    lost, held = (catalogue.submit(NEW).job.id for _ in range(2))
+    catalogue.claim_block(f"{lost}-0", ended, lease=1000.0)
+    catalogue.claim_block(f"{held}-0", own_name(), lease=1000.0)
+    assert catalogue.take_lead("relay", ended, 1000.0)
+    relay.turn()
+    assert redis.llen(RECOVERED) == 1
+    assert [attempt.outcome for attempt in catalogue.attempts(lost)] == ["lost"]
+    assert [attempt.outcome for attempt in catalogue.attempts(held)] == [None]
 
 
 def test_a_broker_that_dies_is_waited_for(

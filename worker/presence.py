@@ -1,0 +1,50 @@
+"""Names of processes by which others of the same machine know for certain that they ended.
+
+A lease must run out only where that cannot be known: for a process that is stopped, of another
+machine or container, or of a system without /proc.
+"""
+
+import os
+import socket
+from functools import cache
+from pathlib import Path
+
+
+def own_name() -> str:
+    """Return "HOST:PID:STARTED:SPACE" of this process, which no other has or ever had."""
+    pid = os.getpid()
+    return f"{socket.gethostname()}:{pid}:{_started(pid)}:{_pid_space()}"
+
+
+def has_ended(name: str) -> bool:
+    """Return whether the process of this name is certain to have ended."""
+    parts = name.split(":", 3)
+    if not _pid_space() or parts[3:] != [_pid_space()]:
+        return False
+    _, pid, started, _ = parts
+    try:
+        os.kill(int(pid), 0)
+        return _started(int(pid)) != started  # "": it waits for its parent; other: a later one
+    except ProcessLookupError:
+        return True
+    except PermissionError:  # another user's, of whom /proc may tell nothing
+        return False
+
+
+def _started(pid: int) -> str:
+    """Return when a process started, in ticks since the boot; empty if it does not run."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except OSError:
+        return ""
+    return "" if fields[0] in "ZX" else fields[19]
+
+
+@cache
+def _pid_space() -> str:
+    """Return where and since when ids of processes mean the same; empty if that is not known."""
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
+        return f"{boot}:{Path('/proc/self/ns/pid').stat().st_ino}"
+    except OSError:
+        return ""
