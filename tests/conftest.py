@@ -1,6 +1,13 @@
 """Settings that all tests share."""
 
+import pytest
 from hypothesis import settings
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Take a seed: another one damages other bytes."""
+    parser.addoption("--seed", type=int, default=0, help="of the damages to files")
+
 
 # the machine that tests run on may be busy: a slow example is no failure
 settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=60)

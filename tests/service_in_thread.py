@@ -18,6 +18,7 @@ from jointplay.records.impact import IMPACT
 from jointplay.records.job import JobError
 from jointplay.records.peak import Peak
 from jointplay.records.point import PointEnd, SectionRows, StudySlice
+from jointplay.records.run import CertificateRecord
 from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.solver.kinds import Admission, Study, admit
@@ -149,7 +150,13 @@ class Worker:
         assert claim is not None
         return claim
 
-    def store(self, claim: Claim, *, complete: bool = True) -> None:
+    def store(
+        self,
+        claim: Claim,
+        *,
+        complete: bool = True,
+        certificate: CertificateRecord | None = None,
+    ) -> None:
         """Store value = column + time, peaks -1 and 1, and one impact without a release."""
         admission, writer, target = self._writer(claim)
         channels = admission.channels
@@ -170,7 +177,9 @@ class Worker:
         energy = dict.fromkeys(LEDGER, 0.0) | {"driver_work": 2.5, "residual": 1e-6}
         summary = {"steps": 7, "rejections": 1, "onsets": 2, "smallest_step": 1e-6}
         summary |= {"solver_seconds": 0.25, "energy": energy}
-        writer.seal(target, peaks=peaks, summary=summary, complete=complete)
+        writer.seal(
+            target, peaks=peaks, summary=summary, complete=complete, certificate=certificate
+        )
 
     def store_nothing(self, claim: Claim) -> None:
         """Seal the results of a run that ended before its first sample."""

@@ -60,7 +60,8 @@ def _lines(job: "Job", found: dict[str, Any]) -> Iterator[str]:
     if job.error is not None:
         yield f"error     {job.error.error_class}: {job.error.detail}"
     if job.damaged is not None:
-        yield f"damaged   {job.damaged}; submit it again: jointplay show {job.id} --job"
+        again = f"jointplay show {job.id} --job > job.json; jointplay submit job.json"
+        yield f"damaged   {job.damaged}; to compute it anew: {again}"
     if job.is_finished and not any(found.values()):
         yield "Nothing was computed."
     statistics = found["statistics"] or {}

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import NotFound
 from jointplay.client.job import Job
+from jointplay.storage.errors import ResultsError
 from jointplay.worker.local.folder import OUTCOME_FILE, RUNNING, STORE
 
 if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
+
+_OUTCOME = ("state", "error", "started", "finished", "progress")
 
 
 class FolderJob(Job):
@@ -54,8 +57,13 @@ class FolderJob(Job):
 
     def _outcome(self, end: float, *, complete: bool) -> dict[str, Any]:
         """Return how the job ended; of a store alone only that it is whole, or not, is known."""
+        path = self._folder / OUTCOME_FILE
         try:
-            found: dict[str, Any] = json.loads((self._folder / OUTCOME_FILE).read_bytes())
+            found: dict[str, Any] = json.loads(path.read_bytes())
+            _ = [found[name] for name in _OUTCOME]
+        except (ValueError, TypeError, KeyError) as error:
+            sentence = "is not what was written; remove it, the results can be read without it"
+            raise ResultsError(f"{path} {sentence}.") from error
         except (FileNotFoundError, NotADirectoryError):
             written = datetime.fromtimestamp(self._folder.stat().st_mtime, UTC).isoformat()
             found = {

@@ -3,9 +3,9 @@
 Stores can be read as they grow: what a job has committed, and nothing else.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Annotated, TypeVar
+from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, Request
 
@@ -29,7 +29,7 @@ Reader = TypeVar("Reader", ResultReader, StudyReader)
 
 
 class ResultsOfJob:
-    """What a job has computed, as it is now."""
+    """Results of a job, as they are now."""
 
     def __init__(self, job: Job, settings: Settings, catalogue: Catalogue) -> None:
         self.job, self.settings, self.catalogue = job, settings, catalogue
@@ -63,6 +63,20 @@ class ResultsOfJob:
             return self.job.attempt, block.watermark
         return int(block.checkpoint.rpartition("-a")[2]), block.watermark
 
+    def require_own(self, attributes: Mapping[str, Any] | None = None) -> None:
+        """Raise `CorruptStore` if the documents of the growing results are another job's.
+
+        They are read unless their attributes are given.
+        """
+        if attributes is None:
+            growing = (
+                self.settings.running_study(self.job.id)
+                if self.is_study
+                else self.settings.running_run(self.job.id, self.committed()[0])
+            )
+            attributes = growing.attributes
+        require_results_of(self.job, attributes, f"{DOCUMENTS} of the growing results")
+
     def whole(self) -> ResultReader | StudyReader | None:
         """Return the reader of the sealed results, which are the job's; None: there are none yet.
 
@@ -72,7 +86,7 @@ class ResultsOfJob:
             They are damaged, or another job's.
         """
         version = self.sealed.version()
-        if version is None and self.job.state is JobState.succeeded:
+        if version is None and self._must_be_sealed():
             raise LostObject(f"{self.sealed} is gone")
         if version is None:
             return None
@@ -125,6 +139,12 @@ class ResultsOfJob:
         if any(block.watermark for block in self.catalogue.blocks(job.id)):
             raise LostObject(f"{DOCUMENTS} of the growing results is gone")
 
+    def _must_be_sealed(self) -> bool:
+        """Whether the job ended in a way that follows sealing: it succeeded, or its run failed."""
+        error = self.job.error
+        failed = error is not None and error.error_class in ("solver", "limit")
+        return self.job.state is JobState.succeeded or (failed and not self.is_study)
+
     def _open(self, wanted: type[Reader], growing: Callable[[], Reader], when: str) -> Reader:
         for _ in range(2):  # it may be sealed between the two looks
             whole = self.whole()
@@ -137,9 +157,10 @@ class ResultsOfJob:
             except CorruptStore:
                 if self.sealed.exists():
                     continue
+                self.require_own()
                 raise
             if not self.sealed.exists():
-                require_results_of(self.job, reader.attributes, str(reader.files))
+                self.require_own(reader.attributes)
                 return reader
         self.require_computed()
         if not self.job.state.terminal:

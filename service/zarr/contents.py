@@ -13,8 +13,7 @@ from jointplay.records.channel import Channel
 from jointplay.service.results.stores import ResultsOfJob, growing_study
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.errors import LostObject, NotAStore
-from jointplay.storage.identity import require_results_of
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.packed import Files
 from jointplay.storage.results.live import LiveStore, loosened
 from jointplay.storage.results.metadata import FILE
@@ -111,12 +110,16 @@ def _live(results: ResultsOfJob) -> LiveStore | LiveStudy:
     `_FRESH` seconds ago.
     """
     store: LiveStore | LiveStudy
-    if results.is_study:
-        moment = time.monotonic() // _FRESH
-        store = _study_at(results.settings, results.catalogue, results.job.id, moment)
-    else:
-        store = _run_at(results.settings, results.job.id, *results.committed())
-    require_results_of(results.job, store.attributes, str(store.files))
+    try:
+        if results.is_study:
+            moment = time.monotonic() // _FRESH
+            store = _study_at(results.settings, results.catalogue, results.job.id, moment)
+        else:
+            store = _run_at(results.settings, results.job.id, *results.committed())
+    except CorruptStore:
+        results.require_own()
+        raise
+    results.require_own(store.attributes)
     return store
 
 

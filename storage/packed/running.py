@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final, TypeVar
 
 from jointplay.storage import durable
-from jointplay.storage.errors import LostObject, NotAStore
+from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject
@@ -87,6 +87,11 @@ class Running:
         """Whether the chunks at the place of a key were written, and the folder is there."""
         return self._path(key).exists()
 
+    @staticmethod
+    def file_of(key: str) -> str:
+        """Name the file of the chunks at the place of a key, below the folder."""
+        return f"{ROWS}/{_name(key)}"
+
     def shards(self, pattern: str) -> int:
         """Count the shards of an array that were written, whose keys are made by a pattern.
 
@@ -159,10 +164,14 @@ class Running:
     @cached_property
     def owner(self) -> bytes:
         """Begins the checksums of all files but the documents, which say whose they are."""
-        if self._owner is not None:
-            return self._owner.encode()
-        attributes = json.loads(self.documents.read("zarr.json"))["attributes"]
-        return owner_in(attributes).encode()
+        owner = owner_in(self.attributes) if self._owner is None else self._owner
+        return owner.encode()
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the root, by which the store says what it holds; errors of `documents`."""
+        found: dict[str, Any] = json.loads(self.documents.read("zarr.json"))["attributes"]
+        return found
 
     def write_other(self, path: str, pieces: Iterable[bytes]) -> None:
         """Write a file that is no part of the sealed store; durable on return."""
@@ -190,9 +199,12 @@ class Running:
         known = self._packs.get(name)
         if known is None or known[0] != version:
             try:
-                known = self._packs[name] = version, Packed(found, self.owner)
+                packed = Packed(found, self.owner)
             except NotAStore as error:  # removed meanwhile
                 raise FileNotFoundError(str(error)) from error
+            if any(_name(one) != name for one in packed):
+                raise CorruptStore(f"{found} holds chunks that stand at another place")
+            known = self._packs[name] = version, packed
         return known[1]
 
     def _sync_folders(self) -> None:

@@ -13,6 +13,7 @@ from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Files, Running
+from jointplay.storage.packed.running import PARTS
 from jointplay.storage.results import shards
 from jointplay.storage.results.layout import SCHEMA_VERSION
 from jointplay.storage.results.metadata import DOUBLE, FILE, Document, documents, serialise
@@ -138,10 +139,15 @@ def root_of(files: Files) -> Document:
 
 def rows_in_shards(files: Running, root: Document, table: str) -> int:
     """Count the rows of a growing table whose shards are on the disk."""
-    key = f"{table}/{columns_of(root['attributes'])[table][-1]}".lstrip("/")
+    key = _any_key(root, table)
     array = root["consolidated_metadata"]["metadata"][key]
     shards_there = files.shards(f"{key}/c/{{}}")
     return min(shards_there * shape_of(array)[0], int(array["shape"][0]))
+
+
+def _any_key(root: Document, table: str) -> str:
+    """Return the path of one column of a growing table; all are cut alike."""
+    return f"{table}/{columns_of(root['attributes'])[table][-1]}".lstrip("/")
 
 
 def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting]:
@@ -170,13 +176,16 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
         needed = {table: one.durable for table, one in found.items()}
     for table, rows in needed.items():
         if in_shards[table] < rows and files.sealed() is None:
-            raise CorruptStore(_lost(files, table, in_shards[table], samples))
+            raise CorruptStore(_lost(files, root, table, in_shards[table], samples))
     return found
 
 
-def _lost(files: Running, table: str, rows: int, samples: int) -> str:
+def _lost(files: Running, root: Document, table: str, rows: int, samples: int) -> str:
+    key = _any_key(root, table)
+    shard_rows, _ = shape_of(root["consolidated_metadata"]["metadata"][key])
+    following = files.file_of(f"{key}/c/{rows // shard_rows}")
     return (
         f"of {samples} samples that are committed, {rows} rows of {table or 'the history'} are in"
-        f" the shards of {files.folder.name}: a shard is gone, or the journal has other bytes than"
-        " were written"
+        f" the shards of {files.folder.name}: {following} is gone, or the journal in {PARTS} has"
+        " other bytes than were written"
     )

@@ -93,23 +93,23 @@ class Part(Points):
         CheckpointMismatch
             It belongs to another study.
         """
-        content = path.read_bytes()
+        content, name = path.read_bytes(), f"{PARTS}/{path.name}"
         try:
             facts, arrays = checkpoint.decode(content, _KIND, digest)
         except checkpoint.ForeignCheckpoint as error:
-            raise CheckpointMismatch(f"{path} belongs to another study: {error}") from error
+            raise CheckpointMismatch(f"{name} belongs to another study: {error}") from error
         except checkpoint.UnusableCheckpoint as error:
-            raise CorruptStore(f"{path} cannot be read: {error}") from error
+            raise CorruptStore(f"{name} cannot be read: {error}") from error
         if facts["block"] != int(path.name.partition("-")[0]):
-            raise CorruptStore(f"{path} is the part of block {facts['block']}")
+            raise CorruptStore(f"{name} is the part of block {facts['block']}")
         part = cls(arrays["status"], arrays["counts"], arrays["peaks"], index=facts["block"])
-        for name, array in arrays.items():
-            group, _, member = name.partition("/")
+        for key, array in arrays.items():
+            group, _, member = key.partition("/")
             if group == "open":
                 row, _, column = member.partition("/")
                 part.open[int(row), int(column)] = array
             elif member:
-                part.numbers[name] = array
+                part.numbers[key] = array
         failures = facts["failures"].items()
         part.failures = {int(point): Failure(*failure) for point, failure in failures}
         part.carried = arrays["carried"].tobytes()

@@ -4,6 +4,7 @@ import contextlib
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -80,6 +81,25 @@ def test_local_results_are_exported_bit_for_bit(jointplay, press, tmp_path):
     near = jointplay("export", press, "--channels", "slider7.vX")
     assert near.code == 2
     assert "slider7.vx" in near.line()
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", "7", '{"state": "succeeded"}', "\x00"])
+def test_an_outcome_that_is_damaged_is_named(jointplay, press, tmp_path, content):
+    folder = shutil.copytree(press, tmp_path / "OUT")
+    (folder / "outcome.json").write_text(content)
+    shown = jointplay("show", folder)
+    assert shown.code == 2
+    assert "outcome.json is not what was written; remove it" in shown.line()
+    (folder / "outcome.json").unlink()
+    assert "succeeded" in jointplay("show", folder).out
+
+
+@pytest.mark.parametrize("kept", [0, 100, -1])
+def test_results_that_are_cut_off_are_named(jointplay, press, tmp_path, kept):
+    store = tmp_path / "results.zarr.zip"
+    store.write_bytes((press / "results.zarr.zip").read_bytes()[:kept])
+    for command in ("show", "export", "plot"):
+        assert "results.zarr.zip is cut off" in jointplay(command, tmp_path).line()
 
 
 def test_local_results_are_drawn(jointplay, press, tmp_path):
