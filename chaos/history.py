@@ -1,4 +1,4 @@
-"""What a service was asked, and what it answered."""
+"""Record of what a service was asked and answered."""
 
 from dataclasses import dataclass, field
 from typing import Any

@@ -12,7 +12,7 @@ from typing import Final
 from jointplay.chaos.inside import FOLDER_VARIABLE
 
 ROLES: Final = ("computing", "worker", "api", "relay", "broker", "supervisor")
-"""What processes do that faults choose from; "computing" are the children of the worker.
+"""Roles of processes that faults choose from; "computing" are the children of the worker.
 
 Beside them there are those that compile or check documents, which end with those who wait for them.
 """

@@ -1,4 +1,4 @@
-"""How soon the blocks that were held when a fault struck go on."""
+"""Times until the blocks that were held when a fault struck go on."""
 
 import time
 

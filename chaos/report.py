@@ -1,4 +1,4 @@
-"""What a campaign found: one document for programs, a table for people."""
+"""Findings of a campaign: one document for programs, a table for people."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field

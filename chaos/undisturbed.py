@@ -15,7 +15,7 @@ from jointplay.worker.local.folder import STORE
 
 _ROOT: Final = "zarr.json"
 _MEASURED_COSTS: Final = "statistics/seconds/c/0"
-"""Of an accuracy study: seconds that methods took."""
+"""Seconds that methods took, in an accuracy study."""
 
 
 def undisturbed(job: Document, folder: Path) -> dict[str, bytes]:

@@ -15,7 +15,7 @@ from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
 COLOURS: Final = (page.GREEN, page.BLUE, page.VERMILION)
-"""Of the runs that are compared."""
+"""One for each of the runs that are compared."""
 _FIRST: Final = 0.4
 """s: in which the publication sees the motion settle from its start."""
 _MILLI: Final = 1e-3

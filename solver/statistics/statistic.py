@@ -27,7 +27,7 @@ class ChannelStatistic(ABC):
     """
 
     rows = 1
-    """Of the tally."""
+    """Rows of the tally."""
 
     @property
     @abstractmethod

@@ -61,7 +61,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True)
 class JobRequest:
-    """What is known of a job from the request for it on."""
+    """Facts of a job that are known from the request for it on."""
 
     kind: str
     spec: dict[str, Any]

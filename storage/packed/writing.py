@@ -13,7 +13,7 @@ from zlib import crc32
 COMMENT: Final = struct.Struct("<17s4s")
 """At the end of a packed file: `MARK`, CRC-32 of the owner and all from the directory on."""
 MARK: Final = b"jointplay results"
-"""Of files whose entries begin right behind their local headers' names, uncompressed."""
+"""Name of the form: entries are uncompressed and right behind the names of their headers."""
 LOCAL: Final = struct.Struct("<4s5H3I2H")
 CENTRAL: Final = struct.Struct("<4s6H3I5H2I")
 END: Final = struct.Struct("<4s4H2IH")

@@ -23,7 +23,7 @@ JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
 
 @dataclass
 class Left:
-    """What a campaign of one job has left."""
+    """A campaign of one job, as it has left its folder."""
 
     installation: Installation
     history: History

@@ -1,4 +1,4 @@
-"""What accuracy costs, from the command line."""
+"""The costs of accuracy, from the command line."""
 
 import json
 

@@ -26,7 +26,7 @@ class AssembledScene:
 
     @property
     def problems(self) -> "list[Problem]":
-        """What keeps it from being run."""
+        """Reasons that keep it from being run."""
         return [] if self.refusal is None else list(self.refusal.problems)
 
     def pose(self) -> dict[str, tuple[float, float, float]]:

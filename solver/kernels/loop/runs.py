@@ -91,7 +91,7 @@ class Run:
     section_sense: float
     """1: crossings from below count; -1: from above."""
     section_turn: float
-    """How far levels are apart at which an angle crosses; 0: there is one level."""
+    """Distance of the levels at which an angle crosses; 0: there is one level."""
     section_from: float
     """Time from which events count, s."""
 

@@ -24,9 +24,9 @@ class Instants:
     """Instants of a run."""
 
     duration: float
-    """Of the run, s."""
+    """End of the run, s."""
     octaves: int
-    """How often the step is doubled."""
+    """Doublings of the step."""
 
     @classmethod
     def over(cls, duration: float, unit: float) -> Instants:

@@ -30,7 +30,7 @@ class Violation:
         self.drivers: Sequence[str] = tuple(scene.drivers)
         self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=False)
         self.largest = np.zeros(2)
-        """Of positions, m, and of angles, rad."""
+        """Largest violation of positions, m, and of angles, rad."""
 
     def look(self, rows: Floats) -> None:
         """Look at dense states, (count, width), as `solver.kernels.loop.dense_rows` writes them."""

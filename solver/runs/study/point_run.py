@@ -40,7 +40,7 @@ class PointRun:
     finer_from: int = 0
     """Periods after which that counts."""
     ended: PointEnd | None = None
-    """What is known of it at the end of its record, but for the indicators."""
+    """Its end, once its record is full; the indicators are still missing."""
     tallies: list[Floats] = field(default_factory=list)
     """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0

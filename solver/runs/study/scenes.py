@@ -38,7 +38,7 @@ class PointScenes:
     base: Scene
     """Checked in full; every leaf is present in it."""
     leaves: tuple[Leaf, ...]
-    """What changes; no path twice."""
+    """Places in the document that change from point to point; none twice."""
     values: Floats
     """(points, parameters) in the unit of each."""
 
