@@ -21,7 +21,7 @@ from tests.service.damage.subjects import KINDS, Subject, Subjects
 from tests.service.damage.table import Outcome, Table, outcome_of
 from tests.service_in_thread import Worker
 
-SOME = 8
+SOME = 6
 """Readings of what is struck, and as many of other results."""
 # aiohttp leaves its connections to the garbage collector
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
@@ -133,7 +133,7 @@ def test_nothing_is_served_that_was_not_stored(
     striker: Striker, subjects: dict[str, Subject], kind: str
 ) -> None:
     """A sample of what the next test does."""
-    striker.strike(kind, subjects[kind], few=3)
+    striker.strike(kind, subjects[kind], few=2)
 
 
 @pytest.mark.long
