@@ -18,6 +18,7 @@ ALL = (
     "submission",
     "latency",
     "memory",
+    "hostile",
     "start",
     "compilation",
     "results_store",

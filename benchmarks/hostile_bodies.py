@@ -3,7 +3,9 @@
 import json
 import random
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
+
+from jointplay.service.body import LARGEST_BATCH
 
 PRESS: dict[str, Any] = {
     "kind": "simulate",
@@ -11,15 +13,32 @@ PRESS: dict[str, Any] = {
     "duration": 2.0,
 }
 ODD = 300
-"""Bodies that are sent."""
+"""Bodies that are sent which must be refused."""
 
 
-def odd_bodies() -> Iterator[bytes]:
-    """Yield bodies that must be refused: too large, too deep, of wrong types, unknown names."""
+class Hostile(NamedTuple):
+    """A body, where it is sent, and what is wrong with it."""
+
+    label: str
+    path: str
+    body: bytes
+
+
+def hostile_bodies() -> Iterator[Hostile]:
+    """Yield bodies that are wrong, and others that are slow to look at, of which some are right."""
     chance = random.Random(0)
     kinds = (_too_large, _too_deep, _long_lists, _wrong_types, _unknown_names, _huge_numbers)
     for number in range(ODD):
-        yield kinds[number % len(kinds)](chance)
+        kind = kinds[number % len(kinds)]
+        label = kind.__name__.removeprefix("_").replace("_", " ")
+        yield Hostile(label, "/v1/jobs", kind(chance))
+    for document in slow_scenes():
+        yield Hostile(document["label"], "/v1/jobs", json.dumps(document).encode())
+    scene = job("", chain(64))
+    body = json.dumps({"jobs": [scene] * (LARGEST_BATCH // (len(json.dumps(scene)) + 2) - 1)})
+    yield Hostile("a batch of 64 chained bodies", "/v1/batches", body.encode())
+    body = json.dumps({"jobs": [PRESS | {"label": f"{i}"} for i in range(10_000)]})
+    yield Hostile("a batch of 10 000 jobs", "/v1/batches", body.encode())
 
 
 def _too_large(chance: random.Random) -> bytes:

@@ -1,6 +1,6 @@
 """Memory of each process of a service: at its start, and after what may make it grow.
 
-    python -m benchmarks memory [--jobs 4000] [--computed 300]
+    python -m benchmarks memory [--jobs 20000] [--computed 300]
 
 Bodies that are wrong in many ways, scenes made to be slow, windows of results, streams of events,
 and then jobs by the thousand.  The last lines tell how much each process grew per thousand jobs,
@@ -18,13 +18,15 @@ from urllib.parse import urlsplit
 
 import httpx
 
-from benchmarks.hostile_bodies import odd_bodies, slow_scenes
+from benchmarks.hostile import send
+from benchmarks.hostile_bodies import hostile_bodies
 from jointplay.chaos.inside import FOLDER_VARIABLE
 from jointplay.chaos.processes import ROLES, running
 from jointplay.service.processes import running_service
 
 WINDOWS = 5000
 STREAMS = 200
+COLUMNS = (*ROLES, "checking")
 QUIET = 2.0  # s, for what is given back a moment later
 PATIENCE = 600.0  # s
 
@@ -34,15 +36,16 @@ class Table:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        print(f"{'MB after':<34}" + "".join(f"{role:>12}" for role in ROLES))
+        print(f"{'MB after':<34}" + "".join(f"{role:>12}" for role in COLUMNS))
 
     def row(self, after: str) -> dict[str, float]:
         """Measure and print a row."""
         time.sleep(QUIET)
-        found = dict.fromkeys(ROLES, 0.0)
+        found = dict.fromkeys(COLUMNS, 0.0)
         for process in running(self._folder):
-            found[process.role] += anonymous(process.pid)
-        print(f"{after:<34}" + "".join(f"{found[role]:12.1f}" for role in ROLES), flush=True)
+            if process.role in found:
+                found[process.role] += anonymous(process.pid)
+        print(f"{after:<34}" + "".join(f"{found[role]:12.1f}" for role in COLUMNS), flush=True)
         return found
 
 
@@ -63,24 +66,13 @@ def job(number: int, duration: float = 2.0) -> dict[str, Any]:
     return {"kind": "simulate", "scene": scene, "duration": duration}
 
 
-def send_odd_bodies(http: httpx.Client) -> None:
-    """Send bodies that are refused, all of them."""
-    for body in odd_bodies():
-        answer = http.post(
-            "/v1/jobs", content=body, headers={"Content-Type": "application/json"}, timeout=60.0
-        )
-        assert 400 <= answer.status_code < 500, answer.text[:200]
-
-
-def send_slow_scenes(http: httpx.Client) -> None:
-    """Send scenes that are slow to look at; what is accepted is cancelled."""
-    for document in slow_scenes():
-        begun = time.perf_counter()
-        answer = http.post("/v1/jobs", json=document, timeout=300.0)
-        took = time.perf_counter() - begun
-        print(f"    {document['label']}: {answer.status_code} in {took:.1f} s", flush=True)
+def send_hostile_bodies(http: httpx.Client) -> None:
+    """Send bodies that are wrong or slow to look at; what is accepted is cancelled."""
+    for one in hostile_bodies():
+        answer = send(http, one)
+        assert answer.status_code < 500, answer.text[:200]
         if answer.is_success:
-            http.post(f"{answer.headers['Location']}/cancel")
+            http.post(f"{answer.headers['Location']}/cancel").raise_for_status()
 
 
 def look_through_windows(http: httpx.Client) -> None:
@@ -148,7 +140,7 @@ def soak(
         what(http, range(first, first + part))
         rows.append(table.row(f"{name}, {first + part - numbers.start} jobs"))
     thousands = (len(rows) - 1) * part / 1000
-    grown = "".join(f"{(rows[-1][role] - rows[0][role]) / thousands:12.2f}" for role in ROLES)
+    grown = "".join(f"{(rows[-1][role] - rows[0][role]) / thousands:12.2f}" for role in COLUMNS)
     print(f"{'  MB per 1000 jobs':<34}{grown}")
 
 
@@ -160,7 +152,7 @@ def parts(numbers: range, length: int) -> Iterator[int]:
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks memory")
-    parser.add_argument("--jobs", type=int, default=4000, help="jobs that are only submitted")
+    parser.add_argument("--jobs", type=int, default=20_000, help="jobs that are only submitted")
     parser.add_argument("--computed", type=int, default=300, help="jobs that are computed")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as made:
@@ -174,7 +166,7 @@ def main() -> None:
             table.row("start")
             compute(http, range(1_000_000, 1_000_003))
             table.row("3 jobs computed and read")
-            for step in (send_odd_bodies, send_slow_scenes, look_through_windows, open_streams):
+            for step in (send_hostile_bodies, look_through_windows, open_streams):
                 step(http)
                 table.row(step.__name__.replace("_", " "))
             soak(table, http, submit, range(10, 10 + arguments.jobs))

@@ -27,6 +27,11 @@ class Estimate(BaseModel):
     seconds: float = in_unit(
         "s", "Computing time of one core; compiling is not in it, nor waiting in the queue."
     )
+    compilation: float = in_unit(
+        "s",
+        "What compiling the equations took of one core, 0 where they were compiled before; the code"
+        " is kept, so that workers on this machine need not compile it again.",
+    )
     steps: int = in_unit("1", "Accepted steps of the solver.")
     bytes: int = in_unit("B", "What the results take on the disk.")
     points: int = Field(description="Points of a study; 1 of a simulation.")

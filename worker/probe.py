@@ -11,12 +11,13 @@ import sys
 import tempfile
 import time
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, Study, parse
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.packed.reading import Packed
@@ -45,6 +46,7 @@ class Cost:
     seconds: float
     steps: int
     bytes: int
+    compilation: float  # s of one core that the equations took to compile; 0: they were
     points: int  # of a study; 1
     blocks: int  # that can be computed at the same time
     exact: bool  # it was computed to its end
@@ -69,7 +71,9 @@ def cost_of(document: dict[str, Any]) -> Cost:
         The job cannot be computed after all.
     """
     admitted = parse(document)
-    return _of_study(admitted) if isinstance(admitted, Study) else _of_simulation(admitted)
+    before = SPENT.seconds
+    cost = _of_study(admitted) if isinstance(admitted, Study) else _of_simulation(admitted)
+    return replace(cost, compilation=SPENT.seconds - before)
 
 
 def _of_simulation(admission: Admission) -> Cost:
@@ -91,6 +95,7 @@ def _of_simulation(admission: Admission) -> Cost:
         seconds=whole.seconds,
         steps=round(whole.steps),
         bytes=round(fixed + growing / (1.0 if exact else reached)),
+        compilation=0.0,
         points=1,
         blocks=1,
         exact=exact,
@@ -149,6 +154,7 @@ def _of_study(study: Study) -> Cost:
         seconds=seconds / points * every,
         steps=round(steps / points * every),
         bytes=round(_STUDY_COMPRESSION * study.stored_bytes),
+        compilation=0.0,
         points=every,
         blocks=count,
         exact=exact and len(chosen) == count,

@@ -15,12 +15,14 @@ TERMINAL_STATES = frozenset({"succeeded", "failed", "cancelled"})
 class Estimate:
     """Expected cost of a job on the machine of the service.
 
-    ``seconds`` of one core, accepted ``steps`` of the solver, ``bytes`` on the disk; ``blocks``
+    ``seconds`` of one core, beside those that the ``compilation`` of its equations took (0: they
+    were compiled), accepted ``steps`` of the solver, ``bytes`` on the disk; ``blocks``
     can be computed at the same time.  ``exact``: the whole job was computed for it.  ``failure``
     says why it will end early, ``cached`` that an identical job is there already.
     """
 
     seconds: float
+    compilation: float
     steps: int
     bytes: int
     points: int

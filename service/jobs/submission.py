@@ -6,6 +6,7 @@ from typing import Any
 
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds import Study, admit
+from jointplay.solver.kinds.compilation import check_compilation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
@@ -38,6 +39,8 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
     ------
     InvalidInput
         With every field that is wrong.
+    LimitExceeded
+        The job is sound but too large, or takes too long to compile.
     """
     expires = None if settings.keep is None else time.time() + settings.keep
     cache: object = True
@@ -57,6 +60,7 @@ def checked(document: object, settings: Settings) -> tuple[NewJob, bool]:
         document = {name: value for name, value in document.items() if name not in FIELDS}
     try:
         admission = admit(document)
+        check_compilation(admission, settings.longest_compilation)
     except InvalidInput as error:
         if not problems:
             raise

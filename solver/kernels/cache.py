@@ -11,8 +11,10 @@ import importlib.util
 import os
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -67,6 +69,16 @@ def load(source: str) -> ModuleType:
     return load_file(path)
 
 
+@dataclass
+class Spent:
+    """What this process has spent so far: `seconds` of processor time on compiling sources."""
+
+    seconds: float = 0.0
+
+
+SPENT = Spent()
+
+
 def is_compiled(path: Path) -> bool:
     """Return whether all functions of a generated file have once been compiled."""
     return _mark(path).exists()
@@ -79,6 +91,7 @@ def load_file(path: Path) -> ModuleType:
     if specification is None or specification.loader is None:
         raise ImportError(f"cannot load {path}")
     module = importlib.util.module_from_spec(specification)
+    begun = time.process_time()
     sys.modules[name] = module  # before it runs, or Numba's cache does not load
     try:
         with without_collection():
@@ -87,6 +100,7 @@ def load_file(path: Path) -> ModuleType:
         del sys.modules[name]
         raise
     if not is_compiled(path):
+        SPENT.seconds += time.process_time() - begun
         _mark(path).touch()
     return module
 

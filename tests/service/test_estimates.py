@@ -76,6 +76,7 @@ def test_nothing_is_queued_and_a_short_job_is_known_exactly(http):
     estimate = estimated(http, job)
     assert (estimate["exact"], estimate["cached"]) == (True, False)
     assert http.get("/v1/jobs").json()["jobs"] == before
+    assert estimated(http, job)["compilation"] == 0.0  # it was compiled for the first one
     http.post("/v1/jobs", json=job)
     assert estimated(http, job)["cached"]
     assert not estimated(http, job | {"cache": False})["cached"]
@@ -93,9 +94,10 @@ def test_a_probe_that_ended_is_started_again():
     spec = admit(job).job
     try:
         first = prober.cost_of(spec)
-        assert prober._process is not None
-        prober._process.kill()
-        prober._process.wait()
+        process = prober._process._process
+        assert process is not None
+        process.kill()
+        process.wait()
         assert prober.cost_of(spec)["steps"] == first["steps"]
     finally:
         prober.close()

@@ -15,6 +15,7 @@ from jointplay.solver.kernels.record.recorder import (
     reachable,
     too_many,
 )
+from jointplay.solver.kernels.watched import require_wanted
 
 HEADER = '''"""A generated kernel: see jointplay.solver.kernels.emit."""
 
@@ -122,6 +123,7 @@ class Tape:
 
     def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
         """Return the source of a function; see `straight_line` for what it goes over."""
+        require_wanted()
         types, arguments, of_tape = SIGNATURES[over]
         if self.lines[-1].startswith("return"):
             types = types.replace("void", "float64")

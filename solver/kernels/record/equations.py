@@ -16,7 +16,7 @@ from jointplay.solver.mechanics.lagrange import LagrangeMechanism
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
-from jointplay.solver.mechanics.view import view
+from jointplay.solver.mechanics.view import form, view
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import inner_states
 
@@ -199,15 +199,31 @@ def trigonometry(equations: Equations) -> list[Expression]:
 
 SURELY_SHORT = 7
 """Bodies up to which no scene comes near the limit: recording it would only cost time."""
+_lengths: dict[tuple[str, Tree, str], int] = {}
+_MOST_KEPT = 64
+"""Lengths that a process keeps: jobs of a batch differ in numbers, seldom in form."""
 
 
 def check_length(scene: Scene, tree: Tree, formulation: str) -> None:
     """Refuse (LimitExceeded) a scene whose equations have more statements than can be compiled."""
-    if len(scene.bodies) <= SURELY_SHORT:
-        return
+    if len(scene.bodies) > SURELY_SHORT:
+        statements(scene, tree, formulation)
+
+
+def statements(scene: Scene, tree: Tree, formulation: str) -> int:
+    """Return how many statements slopes and channels take; raises what `check_length` does."""
+    key = (form(scene), tree, formulation)
+    if key in _lengths:
+        return _lengths[key]
     # a third of what is recorded may never be used
     equations = record(scene, tree, formulation, Recorder(2 * MOST_STATEMENTS))
+    total = 0
     for expressions in ([e for _, e in slopes(equations)], equations.channels.values()):
         count = len(reachable(expressions))
         if count > MOST_STATEMENTS:
             raise too_many(count)
+        total += count
+    while len(_lengths) >= _MOST_KEPT:
+        _lengths.pop(next(iter(_lengths)))
+    _lengths[key] = total
+    return total

@@ -18,10 +18,14 @@ from dataclasses import dataclass, field
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.operations import OPERATIONS
+from jointplay.solver.kernels.watched import require_wanted
 
 MOST_STATEMENTS = 10_000
-"""Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000)."""
+"""Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000); see
+`solver.kinds.compilation`."""
 
+_LOOK = 2048
+"""Nodes, some 20 ms, between two questions whether the equations are still wanted."""
 COMMUTING = frozenset({"add", "mul"})
 
 
@@ -78,6 +82,8 @@ class Recorder:
                 raise too_many(len(self._nodes))
             found = Expression(self, len(self._nodes), operation, ordered, data, fixed)
             self._nodes[key] = found
+            if len(self._nodes) % _LOOK == 0:
+                require_wanted()
         return found
 
     def apply(self, operation: str, *arguments: Expression) -> Expression:

@@ -5,7 +5,10 @@ from pathlib import Path
 import pytest
 
 from jointplay.solver.kernels import cache, watched
+from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.watched import CompilationTooLong, CompilationUnwanted
+from jointplay.solver.mechanics.tree import spanning_tree
+from tests.solver.random_mechanisms import chain
 
 SOURCE = """
 from numba import float64, njit
@@ -49,6 +52,16 @@ def test_code_that_is_unwanted_is_compiled_no_further(file: str) -> None:
         cache.load(source)
     assert ended.value.answer == "unwanted"
     assert not marked(source)
+
+
+def test_equations_that_are_unwanted_are_recorded_no_further() -> None:
+    scene = chain(12)
+    with (
+        pytest.raises(CompilationUnwanted) as ended,
+        watched.watched(lambda: "unwanted", 600.0),
+    ):
+        record(scene, spanning_tree(scene), "reduced")
+    assert ended.value.answer == "unwanted"
 
 
 def test_a_compilation_that_takes_too_long_is_ended(file: str) -> None:

@@ -1,0 +1,46 @@
+"""Seconds that compiling the equations of a job takes, before anything is compiled."""
+
+from jointplay.records.failure import LimitExceeded
+from jointplay.solver.kernels.record.equations import SURELY_SHORT, statements
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.study.plan import Study
+
+LINES = {"statement": 8, "state": 200, "joint": 1300}
+"""Lines of the longest source for each statement of the equations, state, and joint with play: that
+of the methods of order 8 or implicit, at most half as much again; others have down to half as many
+lines, tangents a third."""
+SECONDS_PER_LINE = 2.5e-4
+"""Of one core; measured: 0.15 to 0.3 ms (`python -m benchmarks compilation`)."""
+SURELY_ENOUGH = 60.0
+"""Seconds within which every scene of few bodies is compiled: recording it would only cost time."""
+
+
+def compile_seconds(admitted: Admission | Study) -> float:
+    """Return the most that one source of an admitted job takes to compile, s of one core."""
+    scene = admitted.point_scene(0) if isinstance(admitted, Study) else admitted.scene
+    tree = spanning_tree(scene)
+    if tree.closing or not tree.coordinates:
+        return 0.0  # every pose is found without compiled equations
+    formulation = admitted.job["formulation"]
+    count = 3 * len(scene.bodies) if formulation == "lagrange" else len(tree.coordinates)
+    counts = {
+        "statement": statements(scene, tree, formulation),
+        "state": 2 * count,
+        "joint": len(tree.play),
+    }
+    return SECONDS_PER_LINE * sum(lines * counts[what] for what, lines in LINES.items())
+
+
+def check_compilation(admitted: Admission | Study, limit: float) -> None:
+    """Refuse (LimitExceeded) a job whose equations take longer to compile than `limit`, s."""
+    scene = admitted.scenes.base if isinstance(admitted, Study) else admitted.scene
+    if len(scene.bodies) <= SURELY_SHORT and limit >= SURELY_ENOUGH:
+        return
+    seconds = compile_seconds(admitted)
+    if seconds > limit:
+        raise LimitExceeded.at(
+            "/scene",
+            f"Compiling the equations of this scene takes about {seconds:.2g} s; the limit is"
+            f" {limit:g} s (JOINTPLAY_LONGEST_COMPILATION). Use fewer bodies.",
+        )
