@@ -16,6 +16,7 @@ from jointplay.storage.catalogue import (
     adoption,
     batches,
     disagreements,
+    ending,
     holding,
     listing,
     rows,
@@ -206,11 +207,11 @@ class Catalogue:
     record_progress = _writing(holding.record_progress)
     note_activity = _writing(holding.note_activity)
     record_checkpoint = _writing(holding.record_checkpoint)
-    release = _writing(holding.release)
-    put_off = _writing(holding.put_off)
+    release = _writing(ending.release)
+    put_off = _writing(ending.put_off)
 
-    finish = _durably(holding.finish)
-    finish_repeatable = _writing(holding.finish)  # for what is quickly found again
+    finish = _durably(ending.finish)
+    finish_repeatable = _writing(ending.finish)  # for what is quickly found again
 
     # What relay and reaper do, and whoever reconciles the catalogue with the rest
 

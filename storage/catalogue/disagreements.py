@@ -12,7 +12,7 @@ from sqlalchemy import ColumnElement, Select, Table, and_, delete, exists, func,
 
 from jointplay.storage.catalogue import tables, upkeep
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.holding import lose, queue_again, settle
+from jointplay.storage.catalogue.ending import lose, queue_again, settle
 from jointplay.storage.catalogue.records import TERMINAL, BlockState
 from jointplay.storage.catalogue.submission import drop_blocks
 

@@ -10,8 +10,8 @@ from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.ending import LONGEST_PAUSE, RECOVERED_QUEUE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
-from jointplay.storage.catalogue.holding import LONGEST_PAUSE, RECOVERED_QUEUE, lose
 from jointplay.storage.catalogue.records import TERMINAL, BlockState, Job, Reaped, WakeUp
 from jointplay.storage.catalogue.rows import find_job, lock_job
 from jointplay.storage.catalogue.submission import FRESH_QUEUE

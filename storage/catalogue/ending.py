@@ -1,0 +1,186 @@
+"""The end of an attempt at a block: it is finished, given back, put off, or lost.
+
+With its last block a job ends; what is given back is queued again.
+"""
+
+from typing import Any, Final
+
+from sqlalchemy import func, insert, select, update
+
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.holding import change_held, sum_progress
+from jointplay.storage.catalogue.records import BlockState, Job, JobState
+from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
+from jointplay.storage.catalogue.submission import drop_blocks
+
+RECOVERED_QUEUE = "recovered"
+_PUT_OFF: Final = "put-off"
+_FIRST_PAUSE = 2.0  # s
+LONGEST_PAUSE: Final = 10.0
+"""Seconds after which a block that was put off is tried again at the latest."""
+_block = tables.block
+
+
+def finish(
+    unit: Unit,
+    block_id: str,
+    attempt: int,
+    outcome: BlockState,
+    error: JobError | None = None,
+    *,
+    time: float | None = None,
+    fraction: float | None = None,
+    steps: int | None = None,
+) -> JobState:
+    """End a held block (done, failed or cancelled) and, with its last block, the job.
+
+    `time` [s], `fraction` (0..1) and `steps` say how far it came, if that is known; a block that
+    is done came all the way.
+
+    Returns
+    -------
+    JobState
+        The job's state after it.
+
+    Raises
+    ------
+    Fenced
+        The block is held no more; nothing was changed.
+    """
+    changes: dict[str, Any] = {"state": outcome, "lease_until": None}
+    if time is not None:
+        changes["progress_time"] = time
+    if steps is not None:
+        changes["progress_steps"] = steps
+    if outcome is BlockState.done:
+        fraction = 1.0
+    if fraction is not None:
+        changes["progress_fraction"] = fraction
+    job_id = change_held(unit, block_id, attempt, **changes)
+    job = lock_job(unit, job_id)
+    if (outcome is BlockState.failed) != (error is not None):
+        raise ValueError("a failed block, and no other, has an error")
+    if outcome is BlockState.cancelled and job.state is JobState.running:
+        raise ValueError(f"job {job_id} was not asked to be cancelled")
+    _end_attempt(unit, block_id, attempt, outcome.value)
+    sum_progress(unit, job_id)
+    return settle(unit, job_id, error)
+
+
+def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
+    """End the job if nothing of it is left to do, or at once if a block failed.
+
+    When only the block that seals is left, it is queued, ahead of blocks that never started.
+    """
+    if error is not None:
+        drop_blocks(unit, _block.c.job == job_id, untouched=False)
+        step_job(unit, job_id, JobState.failed, error=error)
+        return lock_job(unit, job_id).state
+    of_job = select(_block.c.state).where(_block.c.job == job_id).distinct()
+    states = set(unit.execute(of_job).scalars())
+    if states == {BlockState.done, BlockState.waiting}:
+        _queue_waiting(unit, job_id)
+    elif not states & {BlockState.queued, BlockState.running}:
+        all_done = states == {BlockState.done}
+        step_job(unit, job_id, JobState.succeeded if all_done else JobState.cancelled)
+    return lock_job(unit, job_id).state
+
+
+def _queue_waiting(unit: Unit, job_id: str) -> None:
+    queued = unit.execute(
+        update(_block)
+        .where(_block.c.job == job_id, _block.c.state == BlockState.waiting)
+        .values(state=BlockState.queued)
+        .returning(_block.c.id)
+    )
+    for block_id in queued.scalars().all():
+        queue_again(unit, block_id)
+
+
+def release(unit: Unit, block_id: str, attempt: int) -> None:
+    """Give a held block back unfinished, to be resumed by a free worker; or Fenced.
+
+    It is not a loss.
+    """
+    _requeue(unit, block_id, _take_back(unit, block_id, attempt, "released"))
+
+
+def put_off(unit: Unit, block_id: str, attempt: int, activity: str) -> None:
+    """Give a held block back because of a fault that may pass, such as a full disk; or Fenced.
+
+    It is not a loss. Until it is tried again, after ever longer pauses while the fault lasts,
+    the job shows `activity`, a few words for what it waits for.
+    """
+    table = tables.attempt
+    worked = select(func.coalesce(func.max(table.c.number), 0)).where(
+        table.c.block == block_id, table.c.number < attempt, table.c.outcome != _PUT_OFF
+    )
+    in_vain = attempt - 1 - unit.execute(worked).scalar_one()
+    job = _take_back(unit, block_id, attempt, _PUT_OFF)
+    unit.execute(update(tables.job).where(tables.job.c.id == job.id).values(activity=activity))
+    _requeue(unit, block_id, job, min(_FIRST_PAUSE * 2.0**in_vain, LONGEST_PAUSE))
+
+
+def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
+    """Queue a block that was given back, to be claimed after a pause [s]."""
+    if job.state.terminal:
+        drop_blocks(unit, _block.c.job == job.id, untouched=False)
+    else:
+        queue_again(unit, block_id, pause)
+
+
+def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
+    """Take a block from a worker whose lease ran out; queue it again or give it up.
+
+    Returns
+    -------
+    BlockState
+        What became of the block: queued, failed, or cancelled if the job was being cancelled.
+    """
+    job = _take_back(unit, block_id, attempt, "lost", losses=_block.c.losses + 1)
+    losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
+    if losses < max_attempts and not job.state.terminal:
+        queue_again(unit, block_id)
+        return BlockState.queued
+    given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
+    unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
+    error = JobError(
+        "platform",
+        "worker-lost",
+        f"{losses} workers in a row disappeared while computing this; the worker's log says why"
+        " (out of memory is the usual reason). Submit it again once that is solved.",
+    )
+    settle(unit, job.id, error if given_up is BlockState.failed else None)
+    return given_up
+
+
+def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:
+    """End an attempt without a result and return its job; Fenced if it does not hold the block."""
+    free = {"state": BlockState.queued, "lease_until": None, "worker": None}
+    job_id = change_held(unit, block_id, attempt, **free, **changes)
+    job = lock_job(unit, job_id)
+    _end_attempt(unit, block_id, attempt, outcome)
+    sum_progress(unit, job_id)
+    record_event(unit, job_id, outcome, {"block": block_id, "attempt": attempt})
+    return job
+
+
+def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
+    """Have a worker woken for a block after a pause [s], ahead of jobs that never started."""
+    due = unit.now + pause
+    unit.execute(
+        insert(tables.outbox).values(
+            block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=due, tries=0
+        )
+    )
+
+
+def _end_attempt(unit: Unit, block_id: str, attempt: int, outcome: str) -> None:
+    table = tables.attempt
+    unit.execute(
+        update(table)
+        .where(table.c.block == block_id, table.c.number == attempt)
+        .values(ended=unit.now, outcome=outcome)
+    )
