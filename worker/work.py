@@ -16,6 +16,7 @@ from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
+from jointplay.worker.removal import remove_running
 from jointplay.worker.study_block import layout_of, run_block
 
 _log = logging.getLogger(__name__)
@@ -78,7 +79,7 @@ class SimulationWork:
             for attempt in range(1, self._block.attempt):
                 lost = self._sealed(attempt)
                 lost.place.remove(lost.key)
-            shutil.rmtree(self._folder.parent, ignore_errors=True)
+            remove_running(self._settings, self._block.job)
 
     def _sealed(self, attempt: int) -> StoredObject:
         return self._settings.sealed_run(self._block.job, attempt)
@@ -139,6 +140,7 @@ class SealWork:
 
     def __init__(self, study: Study, layout: StudyLayout, job: str, settings: Settings) -> None:
         self._study, self._layout = study, layout
+        self._job, self._settings = job, settings
         self._target = settings.sealed_study(job)
         self._folder = settings.running_study(job).folder
 
@@ -163,7 +165,7 @@ class SealWork:
 
     def tidy(self) -> None:
         """Remove what was needed only while the study ran."""
-        shutil.rmtree(self._folder.parent, ignore_errors=True)
+        remove_running(self._settings, self._job)
 
 
 _last_study: tuple[str, Study, StudyLayout] | None = None

@@ -7,6 +7,7 @@ all columns at one place, such as ``history-3.zip``, which is written once, when
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final, TypeVar
@@ -22,6 +23,7 @@ DOCUMENTS: Final = "documents.zip"
 ROWS: Final = "rows"
 PARTS: Final = "parts"
 """Folder of what is not stored yet: the journal of a run, the parts of a study's blocks."""
+_PATIENCE: Final = 100
 Found = TypeVar("Found")
 
 
@@ -56,7 +58,7 @@ class Running:
     def write_documents(self, entries: Iterable[tuple[str, bytes]]) -> None:
         """Replace the documents: readers see all of them or none, a power cut may take them."""
         for name in (ROWS, PARTS):
-            (self.folder / name).mkdir(parents=True, exist_ok=True)
+            _make(self.folder / name)
         durable.write(self.folder / DOCUMENTS, pack(entries), lasting=False)
 
     def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
@@ -235,6 +237,14 @@ class InMemory:
     def read(self, start: int, stop: int) -> bytes:
         """Return bytes [start, stop)."""
         return self._content[start:stop]
+
+
+def _make(folder: Path) -> None:
+    """Make a folder and those above it; one above may be empty, and removed meanwhile."""
+    for _ in range(_PATIENCE):
+        with suppress(FileNotFoundError):
+            return folder.mkdir(parents=True, exist_ok=True)
+    return folder.mkdir(parents=True)
 
 
 def owner_in(attributes: Mapping[str, Any]) -> str:

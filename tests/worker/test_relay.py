@@ -145,6 +145,8 @@ def test_the_results_of_deleted_jobs_are_removed(
         settings.sealed_run(job, 1).put([b"results"])
     catalogue.delete(deleted)
     until(lambda: catalogue.get(deleted).removed is not None, act=relay.turn)
+    left = settings.running_folder(deleted).parent
+    assert not left.exists() or list(left.iterdir()) == [settings.running_folder(kept)]
     assert not settings.running_folder(deleted).exists()
     assert not settings.sealed_run(deleted, 1).exists()
     assert settings.running_folder(kept).exists()
