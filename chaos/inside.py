@@ -6,27 +6,46 @@ imports when it starts. The copy knows nothing of jointplay; without the variabl
 
 import mmap
 import os
+import sqlite3
 import stat
 import struct
 import time
+from functools import partial
 from pathlib import Path
 
 FOLDER_VARIABLE = "JOINTPLAY_CHAOS"
 """Names the installation's folder; all processes of the installation have it."""
-CLOCK, SYNCED = "clock", "synced"
-"""Files in it: seconds that are added to the time, as a double; lines "INODE SIZE"."""
+CLOCK, SYNCED, COMMITTED = "clock", "synced", "committed"
+"""Files in it: seconds that are added to the time, as a double; lines "INODE SIZE" of files that
+were synced; beginnings of the catalogue's WAL index after transactions that were synced."""
+INDEX = Path("data", "catalogue.sqlite-shm")
+INDEX_SIZE = 48
+"""Bytes of the first copy of the index's header; https://www.sqlite.org/walformat.html."""
+_FULL = 2  # of PRAGMA synchronous: commits wait for the disk
 
 
 def change(folder: Path) -> None:
-    """Add the seconds of the file to `time.time`, note the size of every file that is synced."""
+    """Add the seconds of the file to `time.time`; note what is synced, and when."""
+    _change_the_clock(folder)
+    _note_files(folder)
+    _note_transactions(folder)
+
+
+def _change_the_clock(folder: Path) -> None:
     with (folder / CLOCK).open("rb") as file:
         ahead = mmap.mmap(file.fileno(), 8, prot=mmap.PROT_READ)
-    notes = os.open(folder / SYNCED, os.O_WRONLY | os.O_APPEND)
-    true_time, true_sync = time.time, os.fsync
+    true_time = time.time
 
     def shifted_time() -> float:
         seconds: float = struct.unpack_from("d", ahead)[0]
         return true_time() + seconds
+
+    time.time = shifted_time
+
+
+def _note_files(folder: Path) -> None:
+    notes = os.open(folder / SYNCED, os.O_WRONLY | os.O_APPEND)
+    true_sync = os.fsync
 
     def noted_sync(descriptor: int) -> None:
         size = os.fstat(descriptor).st_size
@@ -35,8 +54,23 @@ def change(folder: Path) -> None:
         if stat.S_ISREG(found.st_mode):
             os.write(notes, b"%d %d\n" % (found.st_ino, size))
 
-    time.time = shifted_time
     os.fsync = noted_sync  # type: ignore[assignment]
+
+
+def _note_transactions(folder: Path) -> None:
+    notes = os.open(folder / COMMITTED, os.O_WRONLY | os.O_APPEND)
+
+    class Connection(sqlite3.Connection):
+        def commit(self) -> None:
+            super().commit()
+            if self.execute("PRAGMA synchronous").fetchone() == (_FULL,):
+                first = second = b""
+                while not first or first != second:  # it is just being written
+                    header = (folder / INDEX).read_bytes()[: 2 * INDEX_SIZE]
+                    first, second = header[:INDEX_SIZE], header[INDEX_SIZE:]
+                os.write(notes, first)
+
+    sqlite3.dbapi2.connect = partial(sqlite3.connect, factory=Connection)  # type: ignore[assignment]
 
 
 if FOLDER_VARIABLE in os.environ:

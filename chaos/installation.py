@@ -56,7 +56,8 @@ class Installation:
         self._workers = workers
         self._service: subprocess.Popen[bytes] | None = None
         self.set_clock(0.0)
-        (folder / inside.SYNCED).touch()
+        for notes in (inside.SYNCED, inside.COMMITTED):
+            (folder / notes).touch()
         modules = folder / "modules"
         modules.mkdir()
         shutil.copy(inside.__file__, modules / "sitecustomize.py")
@@ -72,15 +73,16 @@ class Installation:
                 stdin=subprocess.PIPE,  # its end tells the service of ours
                 stdout=subprocess.PIPE,
                 stderr=messages,
-                env=self._environment(),
-                process_group=0,
+                env=self.environment(),
+                start_new_session=True,  # a share of the machine's time that is not ours
             )
         answer = self._service.stdout.readline() if self._service.stdout else b""
         if not answer:
             raise StartFailed(log.read_text(errors="replace").strip())
         self.url = json.loads(answer)["url"]
 
-    def _environment(self) -> dict[str, str]:
+    def environment(self) -> dict[str, str]:
+        """Return the variables of its processes."""
         ours = {
             name: value
             for name, value in os.environ.items()
@@ -122,9 +124,3 @@ class Installation:
 
     def _has_clock(self) -> bool:
         return (self.folder / inside.CLOCK).exists()
-
-    def synced_sizes(self) -> dict[int, int]:
-        """Return how much of each file was synced at its last time, bytes by inode."""
-        lines = (self.folder / inside.SYNCED).read_text().split("\n")
-        pairs = [line.split() for line in lines if line]
-        return {int(inode): int(size) for inode, size in pairs}

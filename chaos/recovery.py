@@ -60,13 +60,18 @@ class Recovery:
         return None if waiting else max(waited.values(), default=0.0)
 
     def _blocks(self) -> list[Block]:
-        """Return the blocks of all jobs that have begun; none while there is no answer."""
+        """Return the blocks of all jobs that have begun; none while there is no answer.
+
+        No file of the catalogue stays open, because a power cut takes its files away.
+        """
         try:
             jobs = self._catalogue.jobs(limit=1000).jobs
             begun = [job.id for job in jobs if job.state is not JobState.queued]
             return [block for job in begun for block in self._catalogue.blocks(job)]
         except Unavailable:
             return []
+        finally:
+            self._catalogue.close()
 
 
 def _runs(block: Block) -> bool:

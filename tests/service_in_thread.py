@@ -100,9 +100,14 @@ def settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
 
 
 @pytest.fixture(scope="session")
-def service_url(settings: Settings) -> Iterator[str]:
-    """Address of the real application: SQLite and results in a temporary folder, no worker."""
-    with serving(create_app(settings)) as url:
+def application(settings: Settings) -> FastAPI:
+    """The real application: SQLite and results in a temporary folder, no worker."""
+    return create_app(settings)
+
+
+@pytest.fixture(scope="session")
+def service_url(application: FastAPI) -> Iterator[str]:
+    with serving(application) as url:
         yield url
 
 

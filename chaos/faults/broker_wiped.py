@@ -4,24 +4,19 @@ import contextlib
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from random import Random
 
 from redis import Redis
 from redis.exceptions import RedisError
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 
 
-@dataclass(frozen=True)
-class BrokerWiped:
+class BrokerWiped(Fault):
     """FLUSHALL, then SIGSTOP, later SIGCONT."""
 
-    lasts: tuple[float, float] = (5.0, 45.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
+    lasts = (5.0, 45.0)
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

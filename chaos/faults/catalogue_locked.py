@@ -3,23 +3,18 @@
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 
 _PATIENCE = 30.0  # s, until the service lets it have the lock
 
 
-@dataclass(frozen=True)
-class CatalogueLocked:
+class CatalogueLocked(Fault):
     """A transaction that nobody else can write beside."""
 
-    lasts: tuple[float, float] = (10.0, 75.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
+    lasts = (10.0, 75.0)
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

@@ -2,23 +2,18 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 
 _MOST = 3600.0  # s; idempotency keys live longer
 
 
-@dataclass(frozen=True)
-class ClockSet:
+class ClockSet(Fault):
     """`time.time` of every Python process of the service, and no other clock, jumps."""
 
-    lasts: tuple[float, float] = (5.0, 20.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
+    lasts = (5.0, 20.0)
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

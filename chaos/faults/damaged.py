@@ -3,28 +3,21 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 
 _SHARE = 0.5  # of the files
 
 
-@dataclass(frozen=True)
-class Damaged:
+class Damaged(Fault):
     """Bytes flipped, cut off, or whole files missing, of restart points, journals and the like.
 
     Those who wrote them are killed first: what they would still write over them would hide it.
     Sealed results are no part of it: of these there is no second copy to go on from.
     """
-
-    lasts: tuple[float, float] = (0.0, 0.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

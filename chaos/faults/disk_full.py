@@ -3,19 +3,18 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 
 _PIECES = (2**20, 2**12)  # bytes
 
 
-@dataclass(frozen=True)
-class DiskFull:
+class DiskFull(Fault):
     """A file that takes all that is left of a disk, which must be the service's own."""
 
-    lasts: tuple[float, float] = (10.0, 600.0)
+    lasts = (10.0, 600.0)
 
     def hindrance(self, installation: Installation) -> str | None:
         """Return why, unless the data folder is a file system of its own."""

@@ -5,23 +5,19 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 from jointplay.chaos.processes import end
 
 
 @dataclass(frozen=True)
-class Killed:
+class Killed(Fault):
     """SIGKILL of one process of a role, or of all processes at once.
 
     Without its supervisor a service ends; it is then started again, as its user would.
     """
 
     role: str | None = None
-    lasts: tuple[float, float] = (0.0, 0.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

@@ -1,41 +1,25 @@
 """Everything ends at once, and what was not synced is gone."""
 
 import contextlib
-import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
+from jointplay.chaos.power_cut import cut_catalogue, cut_results
 
 
-@dataclass(frozen=True)
-class PowerLost:
-    """SIGKILL of all; files of results are cut to what was synced of them, the broker is empty.
-
-    The catalogue stays as it is, so it names more than the disk has: what a file holds is known
-    from notes that the service's Python takes when it syncs, and SQLite is not Python. What was
-    written over synced bytes, and the names of files, stay as well.
-    """
-
-    lasts: tuple[float, float] = (0.0, 0.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
+class PowerLost(Fault):
+    """SIGKILL of all; results and catalogue lose what was not synced, the broker all."""
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
         """Kill, cut, and start the service again."""
         installation.kill()
-        synced = installation.synced_sizes()
-        for folder in ("running", "results"):
-            for path in (installation.data / folder).rglob("*"):
-                if path.is_file():
-                    status = path.stat()
-                    os.truncate(path, min(synced.get(status.st_ino, 0), status.st_size))
+        cut_results(installation.folder)
+        cut_catalogue(installation.folder)
         with contextlib.suppress(FileNotFoundError):
             shutil.rmtree(installation.data / "broker")
         yield

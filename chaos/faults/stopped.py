@@ -6,19 +6,16 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from random import Random
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import LEASE, Installation
 
 
 @dataclass(frozen=True)
-class Stopped:
+class Stopped(Fault):
     """SIGSTOP of one process of a role, or of all at once, for longer than a lease; SIGCONT."""
 
     role: str | None = None
-    lasts: tuple[float, float] = (LEASE / 2, 2.5 * LEASE)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
+    lasts = (LEASE / 2, 2.5 * LEASE)
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

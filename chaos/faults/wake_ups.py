@@ -3,12 +3,12 @@
 import contextlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from random import Random
 
 from kombu.exceptions import OperationalError
 from redis.exceptions import RedisError
 
+from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -17,15 +17,8 @@ from jointplay.worker.app import QUEUES, RUN_BLOCK, make_app
 _TIMES = 3
 
 
-@dataclass(frozen=True)
-class WakeUps:
+class WakeUps(Fault):
     """Messages for every block that there is, ended or not, several times, in any order."""
-
-    lasts: tuple[float, float] = (0.0, 0.0)
-
-    def hindrance(self, installation: Installation) -> str | None:
-        """Return none: it can be done everywhere."""
-        return None
 
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:

@@ -9,6 +9,7 @@ import pytest
 
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState
+from tests.waiting import until
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 SOON = 1.0  # s in which an answer comes on a busy machine that looks every 25 to 100 ms
@@ -71,7 +72,7 @@ def test_a_submission_may_be_waited_for(http, worker, catalogue):
     assert answer.json()["cached"] is False
 
 
-def test_many_may_wait_at_once(http, service_url, worker):
+def test_many_may_wait_at_once(http, service_url, worker, application):
     """More than there are threads: waiting holds none."""
     claim = worker.start(worker.submit())
     states = []
@@ -85,7 +86,7 @@ def test_many_may_wait_at_once(http, service_url, worker):
     threads = [threading.Thread(target=wait) for _ in range(60)]
     for thread in threads:
         thread.start()
-    time.sleep(0.5)  # for the sixty requests to arrive, which nothing tells from outside
+    until(lambda: len(application.state.watcher._watches.get(claim.job.id, ())) == len(threads))
     assert http.get("/healthz").is_success
     worker.finish(claim, BlockState.done)
     for thread in threads:

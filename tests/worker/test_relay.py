@@ -11,6 +11,7 @@ from jointplay.service.processes.broker import Broker
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import NewJob
 from jointplay.storage.settings import Settings
+from jointplay.worker import relay as relay_module
 from jointplay.worker.presence import own_name
 from jointplay.worker.relay import Relay
 from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher
@@ -47,6 +48,29 @@ def test_what_redis_forgot_is_told_again(relay: Relay, catalogue: Catalogue, red
     until(lambda: redis.llen(FRESH) == 3, act=relay.turn)
 
 
+def test_a_wake_up_that_redis_lost_is_not_waited_for(
+    catalogue: Catalogue, settings: Settings, redis: Redis
+) -> None:
+    patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
+    catalogue.submit(NEW)
+    patient.turn()
+    redis.flushall()
+    until(lambda: redis.llen(FRESH) == 1, act=patient.turn)
+    patient.release_lead()
+
+
+def test_a_wake_up_that_is_still_in_redis_is_not_sent_again(
+    catalogue: Catalogue, settings: Settings, redis: Redis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(relay_module, "_UNDERWAY", 0.0)
+    patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
+    catalogue.submit(NEW)
+    for _ in range(5):
+        patient.turn()
+    assert redis.llen(FRESH) == 1
+    patient.release_lead()
+
+
 def test_a_claimed_block_is_told_no_more(relay: Relay, catalogue: Catalogue, redis: Redis) -> None:
     job = catalogue.submit(NEW).job.id
     other = catalogue.submit(NEW).job.id
@@ -65,6 +89,22 @@ def test_the_block_of_a_silent_worker_is_queued_ahead_of_others(
     catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
     until(lambda: redis.llen(RECOVERED) == 1, act=relay.turn)
     assert [attempt.outcome for attempt in catalogue.attempts(job)] == ["lost"]
+
+
+@pytest.mark.parametrize("jump", [-60.0, 60.0], ids=["slept, or set ahead", "set back"])
+def test_no_block_is_taken_back_until_the_living_had_time_for_a_heartbeat(
+    catalogue: Catalogue, settings: Settings, jump: float
+) -> None:
+    relay = Relay(catalogue, settings.model_copy(update={"heartbeat": 0.1}))
+    relay.turn()
+    job = catalogue.submit(NEW).job.id
+    catalogue.claim_block(f"{job}-0", "worker", lease=0.0)
+    relay._reap_next = 0.0
+    relay._last_turn += jump
+    began = time.monotonic()
+    until(lambda: catalogue.attempts(job)[0].outcome == "lost", act=relay.turn)
+    assert time.monotonic() - began >= 0.1 + 1.0  # a heartbeat, and a second for it to arrive
+    relay.release_lead()
 
 
 def test_what_a_process_had_that_ended_is_taken_over_before_its_time(

@@ -1,0 +1,62 @@
+"""A service that can record nothing says so, and when to come again; it records nothing then."""
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+
+import httpx
+import pytest
+
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue import connections
+from jointplay.storage.settings import Settings
+from tests.service_in_thread import serving
+
+JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+SUBMISSIONS = pytest.mark.parametrize(
+    ("path", "document"),
+    [("/v1/jobs", JOB), ("/v1/batches", {"jobs": [JOB, JOB]})],
+    ids=["a job", "a batch"],
+)
+
+
+@pytest.fixture
+def held_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[httpx.Client]:
+    """A service that is less patient than others, and whose catalogue another program holds."""
+    monkeypatch.setattr(connections, "_PATIENCE", 0.1)
+    with (
+        serving(create_app(Settings(data=tmp_path))) as url,
+        closing(sqlite3.connect(tmp_path / "catalogue.sqlite", isolation_level=None)) as other,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as client,
+    ):
+        other.execute("BEGIN EXCLUSIVE")
+        yield client
+
+
+@SUBMISSIONS
+def test_a_catalogue_that_is_held_refuses_what_it_cannot_record(
+    held_catalogue: httpx.Client, path: str, document: object
+) -> None:
+    key = {"Idempotency-Key": "once"}
+    answer = held_catalogue.post(path, json=document, headers=key)
+    assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
+    problem = answer.json()
+    assert problem["type"].endswith("unavailable")
+    assert problem["detail"] == "The catalogue is held by another program; nothing was recorded."
+    assert held_catalogue.get("/v1/jobs").json()["jobs"] == []
+
+
+@SUBMISSIONS
+def test_a_disk_without_room_takes_no_further_work(
+    tmp_path: Path, path: str, document: object
+) -> None:
+    full = Settings(data=tmp_path, reserve=2**40)  # more than there is
+    with (
+        serving(create_app(full)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as client,
+    ):
+        answer = client.post(path, json=document)
+        assert (answer.status_code, answer.headers["Retry-After"]) == (507, "30")
+        assert answer.json()["type"].endswith("disk-full")
+        assert client.get("/v1/jobs").json()["jobs"] == []

@@ -1,0 +1,46 @@
+"""A clock that was set back delays nothing for as long as it was set."""
+
+from stepped_clock import Clock
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob
+
+NEW = NewJob("simulate", {}, "d" * 64, "1")
+LEASE, REPUBLISH_AFTER, HOUR = 30.0, 20.0, 3600.0
+
+
+def test_a_lease_lasts_no_longer_than_a_lease(catalogue: Catalogue, clock: Clock) -> None:
+    job = catalogue.submit(NEW).job.id
+    catalogue.claim_block(f"{job}-0", "worker", LEASE)
+    clock.now -= HOUR
+    catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
+    clock.now += LEASE - 1
+    assert catalogue.reap(3).requeued == ()
+    clock.now += 2
+    assert catalogue.reap(3).requeued == (f"{job}-0",)
+
+
+def test_a_wake_up_is_sent_again_at_once(catalogue: Catalogue, clock: Clock) -> None:
+    block = f"{catalogue.submit(NEW).job.id}-0"
+    catalogue.mark_published((block,), REPUBLISH_AFTER)
+    clock.now -= HOUR
+    assert catalogue.due_wake_ups(10) == ()
+    catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
+    assert [wake_up.block for wake_up in catalogue.due_wake_ups(10)] == [block]
+
+
+def test_nothing_is_mended_where_the_clock_is_right(catalogue: Catalogue, clock: Clock) -> None:
+    held, sent = (catalogue.submit(NEW).job.id for _ in range(2))
+    catalogue.claim_block(f"{held}-0", "worker", LEASE)
+    catalogue.mark_published((f"{sent}-0",), REPUBLISH_AFTER)
+    clock.now += 1
+    catalogue.mend_after_setting_back(LEASE, REPUBLISH_AFTER)
+    assert catalogue.blocks(held)[0].lease_until == clock.now - 1 + LEASE
+    assert catalogue.due_wake_ups(10) == ()
+
+
+def test_a_lead_is_not_waited_for(catalogue: Catalogue, clock: Clock) -> None:
+    assert catalogue.take_lead("relay", "gone", 5)
+    clock.now -= HOUR
+    assert catalogue.take_lead("relay", "present", 5)
+    assert not catalogue.take_lead("relay", "other", 5)
