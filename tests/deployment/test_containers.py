@@ -65,10 +65,10 @@ def test_every_variable_is_a_setting() -> None:
     assert named <= settings
 
 
-def test_redis_never_drops_a_message() -> None:
+def test_redis_never_drops_a_message_and_stores_none() -> None:
     command = COMPOSE["services"]["redis"]["command"]
-    assert command[command.index("--maxmemory-policy") + 1] == "noeviction"
-    assert command[command.index("--appendonly") + 1] == "yes"
+    options = dict(zip(command[1::2], command[2::2], strict=True))
+    assert options == {"--appendonly": "no", "--save": "", "--maxmemory-policy": "noeviction"}
 
 
 def test_the_image_holds_every_package() -> None:

@@ -6,11 +6,11 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
+from one_block import run
 
-from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import connections
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -20,45 +20,16 @@ from jointplay.worker import block_run
 from jointplay.worker.block_run import BlockRun
 from tests.stores import files_of, sealed_run
 
-JOB = {
-    "kind": "simulate",
-    "scene": {"preset": "seven-bar-press"},
-    "duration": 20.0,
-    "channels": ["slider7.*"],
-}
 
-
-@pytest.fixture(scope="module")
-def admission() -> Admission:
-    admission = admit(JOB)
-    assert isinstance(admission, Admission)
-    return admission
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(data=tmp_path, progress_period=1e-3)  # a restart point with every slice
-
-
-@pytest.fixture
-def catalogue(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Catalogue]:
+@pytest.fixture(autouse=True)
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connections, "_PATIENCE", 0.1)
     monkeypatch.setattr(block_run, "_ASK_AGAIN", 0.1)
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    yield catalogue
-    catalogue.close()
 
 
 def submit(catalogue: Catalogue, admission: Admission) -> str:
     new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
     return catalogue.submit(new).job.id
-
-
-def run(catalogue: Catalogue, settings: Settings, job: str) -> None:
-    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
-    assert claim is not None
-    BlockRun(catalogue, settings, claim, threading.Event()).run()
 
 
 def stored(catalogue: Catalogue, settings: Settings, job: str) -> dict[str, bytes]:
@@ -85,18 +56,18 @@ def test_results_that_cannot_be_written_are_tried_again(
     catalogue: Catalogue, settings: Settings, admission: Admission
 ) -> None:
     undisturbed = submit(catalogue, admission)
-    run(catalogue, settings, undisturbed)
+    run(catalogue, settings, f"{undisturbed}-0")
     shutil.move(settings.data / "results", settings.data / "elsewhere")
     (settings.data / "results").write_text("a file where a folder has to be")
     job = submit(catalogue, admission)
-    run(catalogue, settings, job)
+    run(catalogue, settings, f"{job}-0")
     waiting = catalogue.get(job)
     assert (waiting.state, waiting.activity) == (JobState.running, "waiting for the results' place")
     assert [block.losses for block in catalogue.blocks(job)] == [0]
     assert catalogue.blocks(job)[0].state is BlockState.queued
     (settings.data / "results").unlink()
     shutil.move(settings.data / "elsewhere", settings.data / "results")
-    run(catalogue, settings, job)
+    run(catalogue, settings, f"{job}-0")
     assert [one.outcome for one in catalogue.attempts(job)] == ["put-off", "done"]
     same = stored(catalogue, settings, job), stored(catalogue, settings, undisturbed)
     assert same[0] == same[1]
@@ -112,7 +83,7 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
     more_than_there_is = settings.model_copy(update={"reserve": 2**60})
     pauses = []
     for _ in range(6):
-        run(catalogue, more_than_there_is, job)
+        run(catalogue, more_than_there_is, f"{job}-0")
         assert catalogue.due_wake_ups(10) == ()
         now = time.time()
         catalogue.clock = lambda now=now: now + 11.0  # type: ignore[misc]
@@ -123,7 +94,7 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
         pauses.append(round(due - now))
     assert pauses == [2, 4, 8, 10, 10, 10]
     assert catalogue.get(job).activity == "waiting for room on the disk"
-    run(catalogue, settings, job)
+    run(catalogue, settings, f"{job}-0")
     stored(catalogue, settings, job)
 
 
@@ -152,16 +123,12 @@ def test_rows_that_a_late_attempt_took_away_are_computed_again(
     catalogue: Catalogue, settings: Settings, admission: Admission
 ) -> None:
     undisturbed = submit(catalogue, admission)
-    run(catalogue, settings, undisturbed)
+    run(catalogue, settings, f"{undisturbed}-0")
     job = submit(catalogue, admission)
-    claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
-    assert claim is not None
-    draining = threading.Event()
-    draining.set()
-    BlockRun(catalogue, settings, claim, draining).run()
+    run(catalogue, settings, f"{job}-0", draining=True)
     assert catalogue.blocks(job)[0].checkpoint is not None
     shutil.rmtree(settings.running_run(job, 1).folder)
-    run(catalogue, settings, job)
+    run(catalogue, settings, f"{job}-0")
     same = stored(catalogue, settings, job), stored(catalogue, settings, undisturbed)
     assert same[0] == same[1]
 
@@ -174,7 +141,7 @@ def test_an_attempt_that_comes_too_late_leaves_nothing(
     assert late is not None
     while not catalogue.reap(3).requeued:
         pass
-    run(catalogue, settings, job)
+    run(catalogue, settings, f"{job}-0")
     before = stored(catalogue, settings, job)
     late_run = BlockRun(catalogue, settings, late, threading.Event())
     late_run._report = lambda *_: block_run.Answer.go_on  # type: ignore[method-assign]

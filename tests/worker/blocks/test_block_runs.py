@@ -1,16 +1,16 @@
 """One block in this process, against a real catalogue: how it ends, whatever happens to it."""
 
 import threading
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from one_block import run
 
 from jointplay.solver.kernels import cache, kernel_cache
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Block, BlockState, JobState, NewJob
+from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
@@ -20,40 +20,12 @@ from jointplay.worker.execute import Answer
 from tests.solver.random_mechanisms import chain
 from tests.stores import sealed_run
 
-JOB = {
-    "kind": "simulate",
-    "scene": {"preset": "seven-bar-press"},
-    "duration": 20.0,
-    "channels": ["slider7.*"],
-}
-
-
 SWEEP = {
     "kind": "sweep",
     "scene": {"preset": "seven-bar-press"},
     "grid": {"clearance": {"from": 2e-4, "to": 1e-3, "count": 12}},
     "periods": 10,
 }
-
-
-@pytest.fixture(scope="module")
-def admission() -> Admission:
-    admission = admit(JOB)
-    assert isinstance(admission, Admission)
-    return admission
-
-
-@pytest.fixture
-def settings(tmp_path: Path) -> Settings:
-    return Settings(data=tmp_path, progress_period=1e-3)  # a restart point with every slice
-
-
-@pytest.fixture
-def catalogue(settings: Settings) -> Iterator[Catalogue]:
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    yield catalogue
-    catalogue.close()
 
 
 @pytest.fixture
@@ -70,18 +42,6 @@ def study(catalogue: Catalogue) -> str:
         "sweep", admitted.job, admitted.digest, SOLVER_VERSION, blocks=admitted.blocks, seal=True
     )
     return catalogue.submit(new).job.id
-
-
-def run(
-    catalogue: Catalogue, settings: Settings, block: str, *, draining: bool = False
-) -> tuple[JobState, Block]:
-    claim = catalogue.claim_block(block, "this process", settings.lease)
-    assert claim is not None
-    asked = threading.Event()
-    if draining:
-        asked.set()
-    BlockRun(catalogue, settings, claim, asked).run()
-    return catalogue.get(claim.job.id).state, catalogue.blocks(claim.job.id)[claim.block.index]
 
 
 def test_success_is_told_after_the_store_is_sealed(
