@@ -7,6 +7,7 @@ from typing import Any
 
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
+from jointplay.client.errors import NotFound
 from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
 from jointplay.client.results import Form, Impacts, Names, Peak, Seconds, Store
@@ -34,6 +35,13 @@ class HttpResults:
             "trust_env": self._connection.trusts_environment,
         }
         return Store(f"{self._connection.url}{self._path}/zarr", {"client_kwargs": session})
+
+    def content(self, key: str) -> bytes:
+        """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
+        try:
+            return self._connection.content(f"{self._path}/zarr/{key}")
+        except NotFound as error:
+            raise FileNotFoundError(str(error)) from error
 
     def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""

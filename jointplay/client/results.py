@@ -59,6 +59,9 @@ class Results(Protocol):
     def store(self) -> Store:
         """Return where stock Zarr clients find the stored arrays."""
 
+    def content(self, key: str) -> bytes:
+        """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
+
     def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
         """Return channels from ``start`` to ``stop``."""
 

@@ -30,6 +30,7 @@ COMMANDS: Final = (
     "cite",
     "openapi",
     "doctor",
+    "verify",
     "chaos",
 )
 """In the order of the help; each is the function of this name in the file of this name."""

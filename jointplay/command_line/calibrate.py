@@ -85,7 +85,7 @@ def calibrate(
             tolerance=tolerance,
         )
     )
-    outcome = _compute(calibration, processes)
+    outcome = computed(calibration, processes)
     document = compact_json(outcome.document())
     if output is not None:
         output.write_text(document + "\n")
@@ -98,7 +98,8 @@ def calibrate(
         typer.echo(line)
 
 
-def _compute(calibration: "Calibration", processes: int | None) -> "Outcome":
+def computed(calibration: "Calibration", processes: int | None) -> "Outcome":
+    """Carry out a calibration with a bar on stderr; Stopped if nothing fits."""
     from concurrent.futures.process import BrokenProcessPool
 
     from jointplay.progress import progress

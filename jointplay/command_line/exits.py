@@ -7,7 +7,7 @@ class Exit(IntEnum):
     """Exit codes, for scripts."""
 
     OK = 0
-    CHECK_FAILED = 1  # of `jointplay chaos`, `doctor`
+    CHECK_FAILED = 1  # of `jointplay chaos`, `doctor` and `verify`
     BAD_INPUT = 2  # also wrong usage
     FAILED = 3  # the job failed
     CANCELLED = 4  # the job was cancelled

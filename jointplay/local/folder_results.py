@@ -37,6 +37,10 @@ class FolderResults:
             raise NotFound(sentence)
         return Store(str(self._store), None)
 
+    def content(self, key: str) -> bytes:
+        """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
+        return self._reader.files.read(key)
+
     def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
         run = self._run("history")

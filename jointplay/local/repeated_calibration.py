@@ -1,0 +1,54 @@
+"""What a calibration found, against what its repetition found."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.local.verification import Verification
+from jointplay.storage.results.comparison import Compared, compared_values
+
+_SOLVER: Final = "solver"
+"""Field of the document that has the solver's version."""
+
+
+def compared_calibrations(
+    name: str, stored: Mapping[str, Any], again: Mapping[str, Any]
+) -> Verification:
+    """Compare what two calibrations found; a table of numbers is an array."""
+    arrays: list[Compared] = []
+    others: list[str] = []
+    results = [{key: one[key] for key in one if key != _SOLVER} for one in (stored, again)]
+    for place, one, other in _leaves("", *results):
+        if all(isinstance(leaf, np.ndarray) for leaf in (one, other)):
+            arrays.append(compared_values(place, one, other))
+        elif one != other:
+            others.append(place)
+    versions = stored.get(_SOLVER), again[_SOLVER]
+    states = "succeeded", "succeeded"
+    return Verification(name, states, versions, tuple(arrays), tuple(others), None)
+
+
+def _leaves(place: str, stored: Any, again: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Yield by place tables of numbers, as arrays, and whatever is not made of others."""
+    tables = _table(stored), _table(again)
+    if all(one is not None for one in tables):
+        yield place, *tables
+        return
+    pairs = [dict(enumerate(one)) if isinstance(one, list) else one for one in (stored, again)]
+    if not all(isinstance(one, Mapping) for one in pairs):
+        yield place, stored, again
+        return
+    for key in dict.fromkeys([*pairs[0], *pairs[1]]):
+        yield from _leaves(f"{place}/{key}".lstrip("/"), *(one.get(key) for one in pairs))
+
+
+def _table(value: Any) -> NDArray[np.float64] | None:
+    """Return a number, or nested lists of numbers, as an array; None of anything else."""
+    if isinstance(value, bool | str) or value is None:
+        return None
+    try:
+        return np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        return None
