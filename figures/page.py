@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from textwrap import wrap
 from threading import RLock
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
 
@@ -31,6 +32,8 @@ DOTS_PER_INCH: Final = 300
 LEGEND_HEIGHT: Final = 5.0
 """Height of a legend above the panels [mm], for each row of it."""
 LEGEND_COLUMNS: Final = 4
+CAPTION_LINE: Final = 2.5
+"""Height of a line of a caption below the panels [mm]."""
 AXIS_HEIGHT: Final = 8.0
 """Height of an axis below panels, with its label [mm]."""
 
@@ -59,6 +62,8 @@ MOST_VECTOR_MARKS: Final = 4000
 """The same for marks that stand alone; each takes ten times the bytes."""
 
 _LONGEST_LABEL: Final = 20
+_CAPTION_WIDTH: Final = 82
+"""Letters in a line of a caption."""
 _GAP: Final = 2.0
 """Least space between two numbers along an axis [pt]."""
 _MILLIMETRES_AN_INCH: Final = 25.4
@@ -119,9 +124,11 @@ def panels(
     return figure, [list(row) for row in grid]
 
 
-def stack(heights: Sequence[float], legend_rows: int = 0) -> tuple[Figure, list[Axes]]:
+def stack(
+    heights: Sequence[float], legend_rows: int = 0, caption_height: float = 0.0
+) -> tuple[Figure, list[Axes]]:
     """Make panels of these heights [mm] below one another, over the same horizontal axis."""
-    height = sum(heights) + AXIS_HEIGHT + LEGEND_HEIGHT * legend_rows
+    height = sum(heights) + AXIS_HEIGHT + LEGEND_HEIGHT * legend_rows + caption_height
     figure, grid = panels(len(heights), 1, height, share_x=True, row_heights=heights)
     return figure, [row[0] for row in grid]
 
@@ -194,6 +201,22 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
     if handles:
         look: Look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2, "handletextpad": 0.1}
         figure.legend(handles=handles, loc="outside upper center", **look)
+
+
+def caption_height(sentence: str) -> float:
+    """Return the height of a caption [mm]; 0 of none."""
+    return CAPTION_LINE * len(_caption_lines(sentence))
+
+
+def caption(figure: Figure, sentence: str) -> None:
+    """Write a sentence below the panels."""
+    if sentence:
+        text = "\n".join(_caption_lines(sentence))
+        figure.supxlabel(text, x=0.01, ha="left", fontsize=5.5)
+
+
+def _caption_lines(sentence: str) -> list[str]:
+    return wrap(sentence, _CAPTION_WIDTH)
 
 
 def save(figure: Figure, form: Form) -> bytes:

@@ -51,11 +51,14 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         raise NotDrawable("No section was recorded there yet.", "start")
     verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
     legend_height = page.LEGEND_HEIGHT if verdicts else 0.0
-    figure, grid, panels = page.in_columns(len(pairs), _SINGLE_HEIGHT, _PANEL_HEIGHT, legend_height)
+    reason = source.reasons.get(points.start, "") if points.stop - points.start == 1 else ""
+    beside = legend_height + page.caption_height(reason)
+    figure, grid, panels = page.in_columns(len(pairs), _SINGLE_HEIGHT, _PANEL_HEIGHT, beside)
     for axes, pair in zip(panels, pairs, strict=True):
         _scatter(axes, source, pair, points, verdicts or [study_facts.everything(source)])
         axes.locator_params(axis="x", nbins=_INTERVALS // len(grid[0]))
     figure.align_ylabels()
+    page.caption(figure, reason)
     page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
     return figure
 

@@ -1,5 +1,6 @@
 """Power spectra of channels: lines where the motion is regular, a continuum where it is chaotic."""
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -22,6 +23,8 @@ _DECADES: Final = 12
 _COLUMNS: Final = 1000
 """Columns of the page on a logarithmic axis: each shows its largest and smallest power."""
 _NOTHING: Final = "fewer than 32 samples, or no change"
+_ROUGH: Final = ("N", "N m", "m/s^2", "rad/s^2")
+"""Units of channels that impacts change within microseconds."""
 _PANEL_HEIGHT: Final = 34.0  # mm
 
 
@@ -30,7 +33,9 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     drive = _driving_frequency(source)
     spectra = [_spectrum(*_samples(source, name, selection), drive) for name in names]
     marked = any(len(one) and one[0] <= drive <= one[-1] for one, _ in spectra)
-    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked)
+    note = _aliased(source, names)
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked, page.caption_height(note))
+    page.caption(figure, note)
     for axes, name, (frequency, power) in zip(panels, names, spectra, strict=True):
         unit = scene_facts.channel(source, name).unit
         axes.set_ylabel(f"{name}\n[{per_hertz(unit)}]")
@@ -49,6 +54,16 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     explained = next(axes for axes in panels if axes.lines) if marked else None
     page.finish_stack(figure, panels, "frequency [Hz]", explained)
     return figure
+
+
+def _aliased(source: Source, names: Sequence[str]) -> str:
+    """Say what samples make of forces and accelerations, which jump in less than a step."""
+    if all(scene_facts.channel(source, name).unit not in _ROUGH for name in names):
+        return ""
+    return (
+        "Forces and accelerations change faster than their samples: what lies above the highest"
+        " frequency appears below it. A smaller output_step shows how much that is."
+    )
 
 
 def _driving_frequency(source: Source) -> float:

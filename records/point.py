@@ -58,6 +58,8 @@ class PointEnd:
     """Numbers by name; the same names at every point that came to its end."""
     indicators: Mapping[str, float]
     """The same for what tells regular from chaotic motion."""
+    reason: str = ""
+    """Grounds of the verdict, and of indicators that say nothing; empty where none were wanted."""
 
 
 @dataclass(frozen=True)

@@ -96,6 +96,10 @@ class StudySource(Protocol):
     def verdict_names(self) -> Sequence[str]:
         """Names of the verdicts."""
 
+    @property
+    def reasons(self) -> Mapping[int, str]:
+        """Grounds of verdicts, by point."""
+
 
 @dataclass(frozen=True)
 class StudyDataset:
@@ -132,6 +136,7 @@ class StudyDataset:
     indicators: Mapping[str, Floats] = field(default_factory=dict)
     verdicts: NDArray[np.int64] | None = None
     verdict_names: Sequence[str] = ()
+    reasons: Mapping[int, str] = field(default_factory=dict)
 
     @property
     def kind(self) -> str:

@@ -254,6 +254,7 @@ class Worker:
             {"steps": 1000.0 + point}
             | ({} if failed else dict.fromkeys(study.own_outputs(), 0.5 * point)),
             indicators if study.indicators and not failed else {},
+            f"point {point} was judged" if study.indicators and not failed else "",
         )
 
     def finished_study(self, *, failing: Sequence[int] = (), **fields: Any) -> str:

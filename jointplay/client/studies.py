@@ -110,6 +110,12 @@ def _study(job: JobRecord, pages: Sequence[Document], **results: Any) -> StudyDa
         indicators=_columns(pages, "indicators"),
         verdicts=codes,
         verdict_names=names,
+        reasons={
+            page["start"] + at: reason
+            for page in pages
+            for at, reason in enumerate(page.get("reasons") or ())
+            if reason is not None
+        },
         **results,
     )
 

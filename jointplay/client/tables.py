@@ -115,7 +115,7 @@ class TabledJob(JobRecord, ABC):
 
     @property
     def points(self) -> "pd.DataFrame":
-        """Values, status, verdict, indicators and statistics of a study, one row a point."""
+        """Values, status, verdict and its reason, indicators, statistics: one row a point."""
         self._insist_on_points()
         # one section of each: they are not in this table
         study = self.results.study(None, None, None if "sweep" in self.links else (0, 1))
@@ -126,6 +126,7 @@ class TabledJob(JobRecord, ABC):
         if study.verdicts is not None:
             names = [*study.verdict_names, None]
             columns["verdict"] = [names[code] for code in study.verdicts]
+            columns["reason"] = [study.reasons.get(point) for point in range(study.points)]
         numbers = {**study.indicators, **study.statistics}
         columns |= {name: one for name, one in numbers.items() if name != "verdict"}
         units = {one.name: one.unit for one in study.parameters}

@@ -1,5 +1,6 @@
 """Summary of what a job came to: a document for programs, lines for people."""
 
+import textwrap
 from collections import Counter
 from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING, Any
@@ -67,6 +68,7 @@ def _summary_of(source: "StudySource") -> dict[str, Any]:
         "number": source.points,
         "status": {word: counts[word] for word in PointStatus.__members__},
         "verdicts": None if verdicts is None else dict(verdicts.most_common()),
+        "reasons": [{"point": point, "reason": reason} for point, reason in source.reasons.items()],
         "failures": [
             {"point": point, **failure._asdict()} for point, failure in source.failures.items()
         ],
@@ -92,6 +94,8 @@ def _study_lines(source: "StudySource") -> Iterator[str]:
         if counts is not None:
             listed = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
             yield f"{heading:9} {listed}"
+    if source.points == 1 and 0 in source.reasons:
+        yield from textwrap.wrap(source.reasons[0], 100, initial_indent="because   ")
     done = source.status == PointStatus.done
     width = max((len(channel.name) for channel in source.channels), default=0)
     for channel in source.channels if done.any() else ():

@@ -68,9 +68,15 @@ def point_lines(
     columns: dict[str, Any] = dict(_words_of_points(source))
     columns |= {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
     columns |= _columns_of_points(source, channels, units)
-    part = slice(points.start, points.stop)
-    rows = [points, *(column[part] for column in columns.values())]
-    yield from csv_lines(["point", *columns], [rows], comments)
+    if "reason" in columns:  # sentences have commas
+        columns["reason"] = ['"' + one.replace('"', '""') + '"' for one in columns["reason"]]
+    yield from csv_lines(["point", *columns], _point_blocks(points, columns), comments)
+
+
+def _point_blocks(points: range, columns: Mapping[str, Any]) -> Iterator[list[Any]]:
+    """Give the columns of `point_lines` for a few points at a time."""
+    for first, last in _blocks(points, 8 * len(columns)):
+        yield [range(first, last), *(column[first:last] for column in columns.values())]
 
 
 def section_json(source: StudySource, observables: Sequence[str], points: range) -> Iterator[str]:
@@ -96,13 +102,15 @@ def point_json(
     Yields
     ------
     str
-        Pieces of `{"complete", "values", "status", "verdict", "columns": {title: [...]}}`.
+        Pieces of `{"complete", "values", "status", "verdict", "reason", "columns"}`, the last by
+        title.
     """
     part = slice(points.start, points.stop)
     document = _head(source, points)
     words = _words_of_points(source)
-    if "verdict" in words:
-        document["verdict"] = [json.dumps(words["verdict"][part])]
+    for name in ("verdict", "reason"):
+        if name in words:
+            document[name] = [json.dumps(words[name][part])]
     found = _columns_of_points(source, channels, units)
     columns = {title: json_list([json_numbers(one[part])]) for title, one in found.items()}
     yield from json_object({**document, "columns": json_object(columns)})
@@ -160,6 +168,7 @@ def _words_of_points(source: StudySource) -> dict[str, list[str]]:
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])
         words["verdict"] = names[source.verdicts].tolist()
+        words["reason"] = [source.reasons.get(point, "") for point in range(source.points)]
     failures = source.failures
     words["failure"] = [
         failures[point].code if point in failures else "" for point in range(source.points)

@@ -118,6 +118,7 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
         "verdicts": None
         if codes is None
         else [None if code < 0 else names[code] for code in codes[part]],
+        "reasons": None if codes is None else [store.reasons.get(point) for point in points],
     }
 
 

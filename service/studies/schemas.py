@@ -48,6 +48,10 @@ class JudgedPoints(StudyPoints):
     verdicts: list[str | None] | None = Field(
         description="periodic, quasi-periodic, chaotic or undecided; null: not asked for."
     )
+    reasons: list[str | None] | None = Field(
+        description="Grounds of each verdict, and why an indicator says nothing; null: not asked "
+        "for."
+    )
 
 
 class Rows(Described):

@@ -78,7 +78,8 @@ def decide(
         return _recurrent(lyapunov, zero_one, period)
     if lyapunov is None:
         seen = "" if zero_one is None else f" (K is {zero_one})"
-        return _undecided(f"nothing recurs, and without an exponent nothing is certain{seen}")
+        recurs = "" if period is None else "nothing recurs, and "
+        return _undecided(f"{recurs}without an exponent nothing is certain{seen}")
     if lyapunov.exceeds(0.0):
         return _diverging(lyapunov, zero_one, finer)
     if lyapunov.falls_below(0.0):

@@ -177,6 +177,8 @@ class StudyBlock:
         for group, numbers in ((STATISTICS, end.statistics), (INDICATORS, end.indicators)):
             for name, value in numbers.items():
                 self._part.column(f"{group}/{name}")[place] = value
+        if end.reason:
+            self._part.reasons[end.point] = end.reason
         return end.point // self._layout.chunk[0]
 
     def _write_full_chunks(self, row: int) -> None:

@@ -23,7 +23,7 @@ from jointplay.storage.studies.block import lost, place_of
 from jointplay.storage.studies.layout import STUDY_SCHEMA, StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
-from jointplay.storage.studies.store import FAILURES
+from jointplay.storage.studies.store import FAILURES, REASONS
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 
@@ -164,6 +164,7 @@ class StudyMoment(StoreReader):
             np.asarray(self._array("count")[:], np.int32),
             np.empty((0, 0, 4)),
             self._failures(),
+            self._reasons(),
             {
                 f"{group}/{name}": np.asarray(array[:], np.float64)
                 for group, members in groups
@@ -181,6 +182,13 @@ class StudyMoment(StoreReader):
             int(point): Failure(code, detail, math.nan if time is None else time)
             for point, (code, detail, time) in found.items()
         }
+
+    def _reasons(self) -> dict[int, str]:
+        try:
+            found: dict[str, str] = json.loads(self.files.read(REASONS))
+        except FileNotFoundError:
+            return {}
+        return {int(point): reason for point, reason in found.items()}
 
 
 def _specs(listed: Sequence[Sequence[str]]) -> tuple[Channel, ...]:

@@ -63,6 +63,7 @@ class Part(Points):
         facts = {
             "block": self.index,
             "failures": {str(point): failure for point, failure in sorted(self.failures.items())},
+            "reasons": {str(point): reason for point, reason in sorted(self.reasons.items())},
         }
         arrays["carried"] = packed(self.carried)
         return checkpoint.encode(_KIND, layout.digest, facts, arrays)
@@ -112,6 +113,7 @@ class Part(Points):
                 part.numbers[key] = array
         failures = facts["failures"].items()
         part.failures = {int(point): Failure(*failure) for point, failure in failures}
+        part.reasons = {int(point): reason for point, reason in facts["reasons"].items()}
         part.carried = arrays["carried"].tobytes()
         return part
 

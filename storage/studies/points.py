@@ -26,6 +26,8 @@ class Points:
     """(points, channels, 4): minimum, its time, maximum, its time."""
     failures: dict[int, Failure] = field(default_factory=dict)
     """By point of the study."""
+    reasons: dict[int, str] = field(default_factory=dict)
+    """Grounds of verdicts, by point of the study."""
     numbers: dict[str, Floats] = field(default_factory=dict)
     """(points,) by group (`STATISTICS` or `INDICATORS`) and name: ``statistics/steps``."""
 
@@ -121,4 +123,5 @@ def together(
         for name, numbers in part.numbers.items():
             points.column(name)[target] = numbers[source]
         points.failures |= {p: one for p, one in part.failures.items() if start <= p < stop}
+        points.reasons |= {p: one for p, one in part.reasons.items() if start <= p < stop}
     return points

@@ -67,6 +67,11 @@ class StudyReader(StudyMoment):
         """Names of the verdicts."""
         return tuple(self.attributes.get("verdicts", ()))
 
+    @property
+    def reasons(self) -> Mapping[int, str]:
+        """Grounds of verdicts, by point."""
+        return self.known.reasons
+
     def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point; NaN at points that have not ended.
 

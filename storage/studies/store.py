@@ -32,6 +32,8 @@ from jointplay.storage.studies.points import Points, failure_codes, ordered, tog
 
 FAILURES: Final = "failures.json"
 """Failed points with code, sentence and time reached: what no array can hold."""
+REASONS: Final = "reasons.json"
+"""Grounds of verdicts by point."""
 
 
 def create(folder: Path, layout: StudyLayout) -> None:
@@ -133,7 +135,7 @@ def _files(
         return Part.read(finals[index], layout.digest)
 
     files = Running(folder, owner=layout.digest)
-    names, failures, ended = _survey(part_of, layout)
+    names, failures, reasons, ended = _survey(part_of, layout)
     codes = failure_codes(failures)
     yield from _values(layout)
     yield from _columns(part_of, layout, names, codes)
@@ -142,6 +144,8 @@ def _files(
     yield from _boundary_chunks(part_of, layout)
     if failures:
         yield FAILURES, metadata.serialise(_as_json(failures))
+    if reasons:
+        yield REASONS, metadata.serialise({str(point): one for point, one in reasons.items()})
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
     for key, document in documents.sealed(layout, names, attributes).items():
         yield key, metadata.serialise(document)
@@ -149,17 +153,19 @@ def _files(
 
 def _survey(
     part_of: Callable[[int], Part], layout: StudyLayout
-) -> tuple[list[str], dict[int, Failure], dict[str, int]]:
-    """Names of all numbers, failed points, and how many points are done and failed."""
+) -> tuple[list[str], dict[int, Failure], dict[int, str], dict[str, int]]:
+    """Names of all numbers, failed points, grounds of verdicts, how many are done and failed."""
     names: set[str] = set()
     failures: dict[int, Failure] = {}
+    reasons: dict[int, str] = {}
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
         names |= found.numbers.keys()
         failures |= found.failures
+        reasons |= found.reasons
         done += int((found.status == PointStatus.done).sum())
-    return ordered(names), failures, {"done": done, "failed": len(failures)}
+    return ordered(names), failures, reasons, {"done": done, "failed": len(failures)}
 
 
 def _columns(

@@ -73,6 +73,7 @@ def test_pages_of_points_and_windows_of_sections_are_put_together(
         np.testing.assert_array_equal(pieces.sections(one.name), whole.sections(one.name))
     np.testing.assert_array_equal(pieces.status, whole.status)
     np.testing.assert_array_equal(pieces.verdicts, whole.verdicts)
+    assert pieces.reasons == whole.reasons
     np.testing.assert_array_equal(pieces.indicators["lyapunov"], whole.indicators["lyapunov"])
 
 

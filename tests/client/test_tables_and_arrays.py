@@ -62,6 +62,7 @@ def test_tables_of_a_diagram(client, finished_study):
     assert row["clearance"] == np.linspace(1e-4, 1e-3, 20)[5]
     points = job.points
     assert points["verdict"].tolist()[:3] == ["undecided", "periodic", "quasi-periodic"]
+    assert points["reason"][1] == "point 1 was judged"
     assert points.loc[[3, 4], "failure"].tolist() == ["step-size-underflow", ""]
     assert points.loc[19, "steps"] == 1019.0
 

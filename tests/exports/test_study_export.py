@@ -5,6 +5,7 @@ import io
 import json
 import sys
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -45,10 +46,12 @@ def test_sections_of_one_point_have_no_parameter():
 
 def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
     source = bifurcation(points=6, judged=True, failed=(1,), unfinished=(4, 5))
+    source = replace(source, reasons={3: "it recurs after 2, K is 0"})
     header, *rows = rows_of(point_lines(source, [], range(6), UNITS))
-    assert header[:5] == ["point", "status", "verdict", "failure", "play [m]"]
+    assert header[:6] == ["point", "status", "verdict", "reason", "failure", "play [m]"]
+    assert [row[3] for row in rows[2:4]] == ["", "it recurs after 2, K is 0"]
     assert [row[1] for row in rows] == ["done", "failed", "done", "done", "running", "waiting"]
-    assert (rows[1][2], rows[1][3]) == ("", "step-size-underflow")
+    assert (rows[1][2], rows[1][4]) == ("", "step-size-underflow")
     names = source.verdict_names
     assert rows[3][2] == names[source.verdicts[3]]
     column = header.index("lyapunov [1/s]")
@@ -77,6 +80,7 @@ def test_extremes_of_a_sweep_stand_beside_its_parameters():
 
 def test_json_gives_back_every_bit_and_null_for_what_is_no_number():
     source = bifurcation(points=5, record=3, judged=True, failed=(2,))
+    source = replace(source, reasons={4: "nothing recurs"})
     text = "".join(section_json(source, OBSERVED, range(1, 5)))
     document = json.loads(text, parse_constant=pytest.fail)
     assert (document["complete"], document["first_point"]) == (True, 1)
@@ -90,6 +94,7 @@ def test_json_gives_back_every_bit_and_null_for_what_is_no_number():
     assert document["columns"]["lyapunov [1/s]"][2] is None
     assert document["columns"]["lyapunov [1/s]"][4] == source.indicators["lyapunov"][4]
     assert document["verdict"][2] == ""
+    assert document["reason"] == ["", "", "", "", "nothing recurs"]
 
 
 def test_many_sections_take_no_more_memory_than_a_block_of_them():

@@ -71,6 +71,7 @@ def test_a_diagram_has_values_status_sections_verdicts_and_failures(http, finish
     assert found["verdicts"][:5] == ["undecided", "periodic", "quasi-periodic", None, "undecided"]
     exponents = found["indicators"]["lyapunov"]
     assert (exponents["unit"], exponents["values"][:4]) == ("1/s", [0.0, 0.1, 0.2, None])
+    assert found["reasons"][2:5] == ["point 2 was judged", None, "point 4 was judged"]
     assert "verdict" not in found["indicators"]
     assert found["statistics"]["steps"]["values"][19] == 1019.0
 

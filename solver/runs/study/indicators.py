@@ -1,5 +1,6 @@
 """Indicators of one point, from the states of the whole system at its sections."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,14 +14,14 @@ from jointplay.solver.nonlinear.lyapunov import (
 )
 from jointplay.solver.nonlinear.recurrence import recurrence_period
 from jointplay.solver.nonlinear.rotation import rotation_number
-from jointplay.solver.nonlinear.verdict import decide
+from jointplay.solver.nonlinear.verdict import Verdict, decide
 from jointplay.solver.nonlinear.zero_one import zero_one_test
 
 RECURS = 1e-3
 """Sections closer than this share of the clearance are the same: far above the solver's error."""
 MOST_SECTIONS = 5000
 """That indicators look at: the first ones of the record."""
-FEWEST_FOR_SPECTRUM = 16
+FEWEST_FOR_SPECTRUM, FEWEST_FOR_RECURRENCE = 16, 4
 LATE = 0.1
 """Share of a period: growth is noted with the first step beyond its end, 0.01 of it at most."""
 
@@ -34,8 +35,10 @@ def indicators_of(
     finer_growth: Floats,
     period: float,
     settled: int,
-) -> dict[str, float]:
+) -> tuple[dict[str, float], Verdict]:
     """Return the chosen indicators, each with its error, and the verdict that they allow.
+
+    What too few sections do not give is NaN.
 
     chosen : of ``lyapunov``, ``zero_one``, ``recurrence``, ``rotation``, ``spectrum``. states :
     (sections, states) generalised coordinates and speeds. scales : (states,) what counts as one in
@@ -48,21 +51,24 @@ def indicators_of(
     found: dict[str, float] = {}
     lyapunov = finer = zero_one = rotation = None
     recurrence: int | None = None
-    if "lyapunov" in chosen and len(log_growth):
+    if "lyapunov" in chosen:
         lyapunov, finer = exponents(log_growth, finer_growth, period, settled)
         stated = confirmed(lyapunov, finer)
         found |= {"lyapunov": stated.value, "lyapunov_error": stated.error}
-    if len(states) and "zero_one" in chosen:
-        zero_one = zero_one_test(states, resolution=RECURS)
+    if "zero_one" in chosen:
+        zero_one = zero_one_test(states, resolution=RECURS) if len(states) else UNKNOWN
         found |= {"zero_one": zero_one.value, "zero_one_error": zero_one.error}
-    if len(states) and "recurrence" in chosen:
-        recurrence = recurrence_period(states, np.ones(len(scales)), RECURS)
-        found["period"] = float(recurrence)
-    if len(states) > 2 and "rotation" in chosen:
-        rotation = rotation_number(principal_plane(states))
-        found["rotation"] = rotation.value if rotation else float("nan")
-        found["rotation_error"] = rotation.error if rotation else float("nan")
-    if len(states) >= FEWEST_FOR_SPECTRUM and "spectrum" in chosen:
+    if "recurrence" in chosen:
+        if len(states) >= FEWEST_FOR_RECURRENCE:
+            recurrence = recurrence_period(states, np.ones(len(scales)), RECURS)
+        found["period"] = math.nan if recurrence is None else float(recurrence)
+    if "rotation" in chosen:
+        rotation = rotation_number(principal_plane(states)) if len(states) > 2 else None
+        found["rotation"] = rotation.value if rotation else math.nan
+        found["rotation_error"] = rotation.error if rotation else math.nan
+    if "spectrum" in chosen and len(states) < FEWEST_FOR_SPECTRUM:
+        found |= dict.fromkeys(("line_frequency", "line_share", "flatness"), math.nan)
+    elif "spectrum" in chosen:
         # scipy.signal takes a second to import, which only this indicator needs
         from jointplay.solver.nonlinear.spectrum import flatness, power_spectrum, strongest_line
 
@@ -70,7 +76,7 @@ def indicators_of(
         frequency, share = strongest_line(spectrum)
         found |= {"line_frequency": frequency, "line_share": share, "flatness": flatness(spectrum)}
     verdict = decide(lyapunov, zero_one, recurrence, rotation, finer)
-    return found | {"verdict": float(verdict.code)}
+    return found | {"verdict": float(verdict.code)}, verdict
 
 
 def exponents(

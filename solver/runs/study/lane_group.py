@@ -17,6 +17,7 @@ from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
 from jointplay.solver.runs.study.finer import COST, go_on_finer, go_on_longer, periods_of
+from jointplay.solver.runs.study.grounds import lasting_contacts, limits
 from jointplay.solver.runs.study.indicators import (
     MOST_SECTIONS,
     exponents,
@@ -164,7 +165,8 @@ class LaneGroup:
         assert run.ended is not None  # noqa: S101  (narrows the type)
         if run.ended.code or not self.study.indicators:
             return run.ended
-        return replace(run.ended, indicators=self._indicators(run))
+        found, reason = self._indicators(run)
+        return replace(run.ended, indicators=found, reason=reason)
 
     def _rows(self, lane: int, run: PointRun) -> list[SectionRows]:
         """Return a lane's new sections, if they are to be recorded."""
@@ -221,6 +223,10 @@ class LaneGroup:
         failure: SimulationFailed | None = None
         if status != Status.DONE:
             failure = failure_of(bundle, lane, study.tolerance)
+        elif study.indicators:
+            settled = run.settled * float(study.period[run.point])
+            scene = study.point_scene(run.point)
+            run.lasting = lasting_contacts(bundle, lane, scene, settled)
         names = [channel.name for channel in study.channels]
         peaks = peaks_of(bundle, lane, names).values()
         return PointEnd(
@@ -240,15 +246,18 @@ class LaneGroup:
             start = None if end.code else self.bundle.state_of(lane)
             yield PointRun(order[position], run.chain, position, start)
 
-    def _indicators(self, run: PointRun) -> dict[str, float]:
+    def _indicators(self, run: PointRun) -> tuple[dict[str, float], str]:
+        """Return the indicators of a point, and the grounds of its verdict."""
         kernel, study = self.bundle.kernel, self.study
         states = np.concatenate(run.seen) if run.seen else np.zeros((0, kernel.states))
         scales, angles = scales_of(study, kernel, run.point)
         period = float(study.period[run.point])
         growths = self._growths(run)
-        return indicators_of(
+        found, verdict = indicators_of(
             study.indicators, states, scales, angles, *growths, period, run.settled
         )
+        remarks = limits(study.point_scene(run.point), found, len(states[:MOST_SECTIONS]))
+        return found, "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
 
     def _growths(self, run: PointRun) -> tuple[Floats, Floats]:
         """Return logarithms of the tangent's growth by period: in the record, and behind it."""

@@ -41,6 +41,8 @@ class PointRun:
     """Periods after which that counts."""
     ended: PointEnd | None = None
     """Its end, once its record is full; the indicators are still missing."""
+    lasting: str = ""
+    """Contacts that lasted throughout the record, as a sentence."""
     tallies: list[Floats] = field(default_factory=list)
     """Tallies of the job's statistics, in its order; see `begin_tallies`."""
     sampled: int = 0

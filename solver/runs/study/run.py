@@ -132,8 +132,18 @@ class StudyRun:
 
 
 def _facts(run: PointRun) -> dict[str, Any]:
-    names = ("point", "chain", "position", "settled", "reached", "taken", "sampled", "finer_from")
-    facts = {name: getattr(run, name) for name in names}
+    names = (
+        "point",
+        "chain",
+        "position",
+        "settled",
+        "reached",
+        "taken",
+        "sampled",
+        "finer_from",
+        "lasting",
+    )
+    facts = {name: getattr(run, name) for name in (*names, "finer_from")}
     facts |= {name: len(getattr(run, name)) for name in SERIES}
     ended = run.ended and {**asdict(run.ended), "peaks": run.ended.peaks.tolist()}
     return facts | {"starts": run.start is not None, "ended": ended}

@@ -90,6 +90,7 @@ class MadeUpStudy:
             self.peaks[point],
             {"steps": self.steps[point], "energy_residual": -1e-9},
             {} if failed else {"lyapunov": self.exponents[point], "verdict": 1.0},
+            "" if failed else f"point {point} recurs",
         )
 
     def write_block(self, folder, index):

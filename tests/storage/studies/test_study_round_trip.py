@@ -62,6 +62,7 @@ def assert_equal(reader, study):
         reader.indicators["lyapunov"], np.where(whole, study.exponents, np.nan)
     )
     np.testing.assert_array_equal(reader.verdicts, np.where(whole, 1, -1))
+    assert reader.reasons == {p: f"point {p} recurs" for p in np.flatnonzero(whole).tolist()}
 
 
 def test_a_sealed_study_reads_back(tmp_path, study):

@@ -1,0 +1,67 @@
+"""Grounds of a point's verdict beside the indicators' own: what they cannot tell, and whose it is.
+
+An indicator says nothing where it has too few sections, or where its number is infinite; and a
+contact that lasts throughout rests on a rate that its law latched at an onset long ago.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.nonlinear.recurrence import LONGEST
+from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
+from jointplay.solver.runs.study.indicators import (
+    FEWEST_FOR_RECURRENCE,
+    FEWEST_FOR_SPECTRUM,
+    RECURS,
+)
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.references import clearances, tangent_obstacle
+
+
+def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[str]:
+    """Yield what indicators cannot tell.
+
+    found : the indicators of a point by name, those that were chosen and could be computed.
+    sections : number of sections that they were found from.
+    """
+    exponent, error = (found.get(name, math.nan) for name in ("lyapunov", "lyapunov_error"))
+    if "lyapunov" not in found:
+        pass
+    elif math.isnan(exponent):
+        obstacle = tangent_obstacle(scene) or "The tangent grew beyond all bounds."
+        yield f"there is no exponent: {obstacle[0].lower()}{obstacle[1:].rstrip('.')}"
+    elif math.isinf(exponent):
+        yield "the exponent is not known: the tangent vanished within a period"
+    elif math.isinf(error):
+        yield "the error of the exponent is not known: it needs three recorded periods"
+    if "zero_one" in found and sections < FEWEST_TELLING:
+        yield f"the 0-1 test needs {FEWEST_TELLING} sections to tell, there are {sections}"
+    if "period" in found and sections < FEWEST_FOR_RECURRENCE:
+        yield f"recurrence needs {FEWEST_FOR_RECURRENCE} sections, there are {sections}"
+    elif "period" in found:
+        scale = "finest clearance" if clearances(scene) else "shortest link"
+        yield (
+            f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
+            f" than {RECURS:g} of the {scale} counts as the same"
+        )
+    if math.isnan(found.get("rotation", 0.0)):
+        yield "there is no rotation number: the sections lie on no closed curve"
+    if "flatness" in found and sections < FEWEST_FOR_SPECTRUM:
+        yield f"a spectrum needs {FEWEST_FOR_SPECTRUM} sections, there are {sections}"
+
+
+def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> str:
+    """Say which joints of a lane have been in contact since a time, s, by a law with memory."""
+    at, play = bundle.lane(lane), clearances(scene)
+    lasting = [
+        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].contact.law})"
+        for j, name in enumerate(bundle.kernel.play)
+        if at["mode"][j] > 0.0 and at["onset_time"][j] <= since and at["impact_floor"][j] > 0.0
+    ]
+    if not lasting:
+        return ""
+    return (
+        f"contact lasted throughout in {', '.join(lasting)}, with the impact rate that the law"
+        " latched at the last onset: the motion is the law's, another rate may give another kind"
+    )

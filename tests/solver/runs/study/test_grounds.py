@@ -1,0 +1,50 @@
+"""Grounds of verdicts: what indicators could not tell, and a contact that never ends."""
+
+import math
+from typing import Any
+
+import pytest
+
+from jointplay.solver.nonlinear.verdict import UNDECIDED
+from tests.solver.completed_runs import CASE_3
+from tests.solver.runs.study.test_run import Computed
+
+
+def judged(parameters: dict[str, float], record: int, **more: Any) -> tuple[dict[str, float], str]:
+    """Return indicators of a press and the grounds of its verdict."""
+    scene = {"preset": "seven-bar-press", "parameters": CASE_3 | parameters}
+    job = {"kind": "poincare", "scene": scene, "settle": 1, "record": record, **more}
+    end = Computed({"indicators": "all", **job}).ends[0]
+    return dict(end.indicators), end.reason
+
+
+@pytest.mark.parametrize(
+    ("record", "said"),
+    [
+        (2, ["three recorded periods", "needs 300", "needs 4 sections, there are 2", "needs 16"]),
+        (20, ["needs 300 sections", "periods up to 10 are looked for", "0.001 of the finest"]),
+    ],
+)
+def test_an_indicator_of_too_few_sections_says_why_it_says_nothing(
+    record: int, said: list[str]
+) -> None:
+    found, reason = judged({}, record)
+    assert all(sentence in reason for sentence in said), reason
+    assert math.isnan(found["period"]) == (record < 4)
+    assert math.isnan(found["flatness"]) == (record < 16)
+    assert found["verdict"] == UNDECIDED
+
+
+def test_friction_that_jumps_is_named_where_there_is_no_exponent() -> None:
+    found, reason = judged({"dynamic_velocity": 1e-3, "static_velocity": 1e-3}, 1)
+    assert math.isnan(found["lyapunov"])
+    assert "there is no exponent: friction jumps" in reason
+
+
+def test_a_contact_that_lasts_makes_the_motion_the_laws() -> None:
+    # soft contact at rest in gravity: both journals stay where they fell to
+    _, resting = judged({"speed": 0.5, "speed_crank4": -0.5}, 1)
+    assert "contact lasted throughout in A (" in resting
+    assert "lankarani-nikravesh" in resting
+    _, rattling = judged({"speed": 7.854, "speed_crank4": -7.854}, 4)
+    assert "contact lasted" not in rattling
