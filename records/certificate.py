@@ -35,17 +35,20 @@ def certificate_document(
     known = converged(certificate, time)
     positions = {channel.name: at for at, channel in enumerate(source.channels)}
     described = {channel.name: channel for channel in source.channels}
+    facts = dict(certificate.attributes)
+    kinds = facts.pop("kinds", [None] * len(positions))  # certificates were made without once
     channels = {
         name: {
             "unit": described[name].unit,
             "long_name": described[name].long_name,
+            "bar": kinds[positions[name]],
             **_of_channel(certificate, positions[name], known),
         }
         for name in (positions if names is None else names)
     }
     return {
         "complete": source.complete,
-        **certificate.attributes,
+        **facts,
         **{name: summary.get(name) for name in COST},
         "time": {"unit": "s", "long_name": "time", "values": time.tolist()},
         "channels": channels,

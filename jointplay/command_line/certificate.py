@@ -51,7 +51,11 @@ def headlines(job: "Job") -> Iterator[str]:
     except (NotFound, ResultsNotReady):
         return
     spans = [f"{start:.4g} to {stop:.4g} s" for start, stop in document["converged"]]
-    yield f"converged {', '.join(spans)}"
+    forces = document.get("forces_until")
+    known = "" if forces is None else f", forces to {forces:.4g} s"
+    yield f"converged {', '.join(spans)}{known}"
+    if document["note"] and document.get("lanes"):
+        yield f"note      {document['note']}"
     if (found := document.get("exponent")) is not None:
         error = math.inf if found["error"] is None else found["error"]
         spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"

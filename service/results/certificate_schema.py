@@ -64,6 +64,7 @@ class ChannelCertificate(Described):
     until: float | None = in_unit(
         "s", "Until when its error stays below a small share of its scale."
     )
+    bar: str | None = Field(description="Kind of its estimated error, one of `bars`.")
     error: Values = Field(description="Estimated error at each time, in the channel's unit.")
     extremes: ChannelExtremes
     histogram: Histogram
@@ -74,9 +75,16 @@ class Certificate(Partial):
 
     note: str
     horizon: float | None = in_unit("s", "Until when the trajectory itself is converged.")
+    forces_until: float | None = in_unit(
+        "s", "Until when all forces and accelerations have a small error.", default=None
+    )
     converged: list[Span] = in_unit("s", "Spans in which it is; the first ends at the horizon.")
     criterion: str = Field(default="", description="What converged means.")
     safety: float | None = Field(default=None, description="Factor in the estimated errors.")
+    bars: dict[str, str] = Field(
+        default={},
+        description="What estimated errors of each kind are made of, and where they hold.",
+    )
     exponent: Exponent | None = None
     exponent_note: str = Field(default="", description="Why there is no exponent.")
     energy_residual: float | None = in_unit("J", "What the energy ledger lacks.", default=None)

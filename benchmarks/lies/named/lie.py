@@ -10,6 +10,8 @@ from benchmarks.lies.tables import percent
 
 COVERED = 0.95
 """Least share of errors that bars must cover in a single run."""
+FARTHEST = 3.0
+"""Largest error of all, in bars: what a bar leaves out by chance, it leaves out by little."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Lie:
 def by_bars(job: dict[str, Any], tell: Tell | None = None) -> Found:
     """Judge a job's error bars against the independent program, or against who else tells."""
     verdict = coverage_of(job, tell)
-    true = verdict.ended == "judged" and verdict.covered >= COVERED
+    true = verdict.ended == "judged" and verdict.covered >= COVERED and verdict.worst <= FARTHEST
     said = f"{verdict.ended}, {percent(verdict.covered)} inside, worst {verdict.worst:.3g} bars"
     return Found(true, f"{said} ({verdict.where})")
 

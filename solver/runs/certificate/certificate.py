@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -13,8 +14,17 @@ from jointplay.records.channel import Channel
 from jointplay.solver.kernels.layout import BUNDLE
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.runs.certificate import estimate
-from jointplay.solver.runs.certificate.companions import LADDER, PERTURBED, RUN, Companions
+from jointplay.solver.runs.certificate.companions import (
+    LADDER,
+    PERTURBED,
+    RUN,
+    TIGHTEST,
+    TWIN,
+    Companions,
+)
 from jointplay.solver.runs.certificate.growth import Exponent
+from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
+from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
@@ -23,6 +33,9 @@ from jointplay.solver.scene.references import clearances, tangent_obstacle
 JOURNAL = ("eccentricity_x", "eccentricity_y", "penetration")
 """Channels of a joint with play whose scale is the clearance from side to side, not their range."""
 COORDINATES = ("x", "y", "theta")
+UNLIKE, CHANCE = 0.25, 4.0
+"""Numbers of contacts are unlike where they differ by this share, and by so many times the root of
+both together: what chance makes of impacts that scatter."""
 HARDLY = 1e-3
 """A channel that moves by less than this share of another of its unit is measured by that one."""
 
@@ -58,6 +71,8 @@ class Certificate:
             " at each instant to rounding.",
             "horizon": duration,
             "converged": [[0.0, duration]],
+            "bars": {PRESCRIBED: MEANINGS[PRESCRIBED]},
+            "kinds": [PRESCRIBED] * channels,
         }
         return cls(
             np.zeros(0),
@@ -87,26 +102,36 @@ def certify(
     bundle, time = companions.bundle, companions.instants.time
     rows = bundle.kernel.rows
     names = [channel.name for channel in channels]
-    motion = _motion(scene)
-    columns = np.array([rows.index(name) for name in [*names, *motion]], dtype=np.int64)
+    motion, index = _motion(scene), rows.names.index
+    columns = np.array([index(name) for name in [*names, *motion]], dtype=np.int64)
     values = companions.values(columns)
-    error = estimate.estimated_error(values)
     units = [channel.unit for channel in channels] + list(motion.values())
     scales = _scales(values, [*names, *motion], units, scene)
     count = len(names)
+    safety = estimate.SAFETY if bundle.kernel.tableau.error else estimate.UNCONTROLLED
+    apart = safety * estimate.apart(values)
+    near = estimate.near_claims(apart[:, count:], scales[count:])
+    steep = steepness(companions, safety, columns, values[TWIN - 1], near)
+    error = estimate.around(np.maximum(apart, steep))
     small = estimate.within(error, scales)
     known = estimate.spans(small[:, count:], time)
     edges, share, spread = estimate.histogram(values[:, :, :count], time)
+    until = estimate.until(small[:, :count], time)
+    kinds = kinds_of(channels, rows)
+    forces = [end for end, kind in zip(until, kinds, strict=True) if kind == FORCE]
     energy = ledger_of(bundle, RUN)
     gross = energy["gross_work"]
     facts = {
-        "note": "",
+        "note": _different_contacts(companions),
         "horizon": known[0][1],
+        "forces_until": float(min(forces)) if forces else None,
         "converged": known,
         "criterion": f"the estimated error of each journal's centre is below"
         f" {estimate.CONVERGED:g} of its clearance from side to side, and that of each body's"
         f" position and angle below {estimate.CONVERGED:g} of its range",
-        "safety": estimate.SAFETY,
+        "safety": safety,
+        "bars": {kind: MEANINGS[kind] for kind in MEANINGS if kind in kinds},
+        "kinds": kinds,
         "exponent": None if exponent is None else asdict(exponent),
         "exponent_note": ""
         if exponent is not None
@@ -121,7 +146,7 @@ def certify(
     return Certificate(
         time,
         error[:, :count],
-        estimate.until(small[:, :count], time),
+        until,
         _extremes(companions, names),
         edges,
         share,
@@ -167,6 +192,21 @@ def _extremes(companions: Companions, names: Sequence[str]) -> Floats:
     low = np.array([[peaks[name].minimum for name in names] for peaks in found])
     high = np.array([[peaks[name].maximum for name in names] for peaks in found])
     return np.stack([low.min(0), low.max(0), high.min(0), high.max(0)], axis=1)
+
+
+def _different_contacts(companions: Companions) -> str:
+    """Return a remark where the trajectory and its tightest companion touch unlike often."""
+    own, theirs = (companions.bundle.lane(lane) for lane in (RUN, TIGHTEST))
+    if not own.status == theirs.status == Status.DONE:
+        return ""
+    counts = int(own.run["onsets"]), int(theirs.run["onsets"])
+    chance = CHANCE * math.sqrt(sum(counts))
+    if abs(counts[0] - counts[1]) <= max(chance, UNLIKE * max(counts)):
+        return ""
+    return (
+        f"The trajectory has {counts[0]} contacts, and {counts[1]} at a quarter of its tolerance:"
+        " beyond the horizon its impacts are made by its steps. Ask for a smaller tolerance."
+    )
 
 
 def _violation(largest: Floats | None) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """Seven companions of a trajectory, in the other lanes of its bundle.
 
-Four make a ladder of tolerances; three start a little beside the scene's start, by about the error
-that one step may make. None of them is the trajectory itself: companions of its own tolerance show
-what its own error is like.
+Four make a ladder of tolerances, and of longest steps; two start a little beside the scene's start,
+by about the error that one step may make; one is the trajectory itself, so that what only its own
+steps did is seen, too.
 """
 
 from __future__ import annotations
@@ -32,8 +32,13 @@ LADDER = (RATIO**-2, RATIO**-1, RATIO, RATIO**2)
 """Tolerances of lanes 1 to 4, in the run's own; the first decides what all this costs."""
 TIGHTEST, TIGHTER = 1, 2
 LOOSER = (3, 4)
-PERTURBED = (5, 6, 7)
+PERTURBED = (5, 6)
 """Lanes with the run's own tolerance and another start."""
+SHORTER = 0.9
+"""Ratio of fixed steps from one of them to the next: with the trajectory's own, all onsets would be
+late by the same part of a step."""
+TWIN = 7
+"""The trajectory again, bit for bit, but handed out at the instants of the certificate."""
 SEED = 5
 SHORT = 4.0
 """Runs of fewer periods record extremes in fewer lanes: there each record costs most."""
@@ -71,11 +76,15 @@ class Companions:
             step = problem.step and problem.step * factor ** (1.0 / order)
             rung = replace(coarse, tolerance=problem.tolerance * factor, step=step)
             bundle.load(lane, rung, like=RUN)
+            longest = bundle.lane(RUN)["largest_step"] * factor ** (1.0 / order)
+            bundle.lane(lane)["largest_step"] = longest
         scales = start_scales(problem.scene, bundle.kernel.coordinates, period)
         perturbation = Perturbation(problem.tolerance, SEED)
         for member, lane in enumerate(PERTURBED, start=1):
             beside = LaneStart(perturbed_start(start.state, scales, perturbation, member))
-            bundle.load(lane, replace(coarse, start=beside), like=RUN)
+            step = problem.step and problem.step * SHORTER**member
+            bundle.load(lane, replace(coarse, start=beside, step=step), like=RUN)
+        bundle.load(TWIN, coarse, like=RUN)
         loud = LOUD if problem.duration >= SHORT * period else LOUD_IN_SHORT
         for lane in range(1, BUNDLE):
             if lane not in loud:  # no value is a record

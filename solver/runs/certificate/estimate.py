@@ -1,10 +1,11 @@
 """The estimated error of a trajectory over time, from how far its companions are apart.
 
-At each instant: the largest distance between those that have the run's own tolerance and those
-that have tighter ones, between the latter, and of looser ones from the tightest, by how much looser
-they are. An error changes sign, and a force is wrong where an impact is late: so the largest within
-REACH instants to either side counts. SAFETY makes it cover the true error (docs/certificate.md has
-how often it does).
+At each instant: the largest distance of the trajectory and those that start beside it from one
+another and from tighter ones, between the latter, and of looser ones, by how much looser they are.
+SAFETY makes it cover the true error (docs/certificate.md has how often it does). A law may be so
+steep that channels change by more where the state is as wrong as that: then that counts. An error
+changes sign, and a force is wrong where an impact is late: so the largest within REACH instants to
+either side is taken.
 
 Beyond its horizon a trajectory is one of many that are as good; what they have in common, shares of
 time, is what can be said of the motion.
@@ -22,9 +23,12 @@ from jointplay.solver.runs.certificate.companions import (
     PERTURBED,
     TIGHTER,
     TIGHTEST,
+    TWIN,
 )
 
-SAFETY = 3.0
+SAFETY, UNCONTROLLED = 3.0, 6.0
+"""Estimated errors by what companions are apart; the second where steps are fixed: there errors are
+as late as contacts are, by parts of a step that do not follow its length."""
 REACH = 2
 """Instants."""
 CONVERGED = 0.05
@@ -33,23 +37,28 @@ LASTING = 8
 """Instants."""
 
 
-def estimated_error(values: Floats) -> Floats:
-    """Return the estimated error, (instants, channels), in the channels' units.
+def apart(values: Floats) -> Floats:
+    """Return how far companions are apart, (instants, channels), in the channels' units.
 
     values : (7, instants, channels) of lanes 1 to 7; NaN where one was left behind.
-    Infinite where there are not two left to compare.
+    Infinite where no two of different tolerances are left to compare.
     """
-    compared = [lane - 1 for lane in (TIGHTEST, TIGHTER, *PERTURBED)]
-    same = {lane - 1 for lane in PERTURBED}
-    pairs = [pair for pair in combinations(compared, 2) if not same.issuperset(pair)]
-    distances = [np.abs(values[a] - values[b]) for a, b in pairs]
-    distances += [
-        np.abs(values[lane - 1] - values[TIGHTEST - 1]) / LADDER[lane - 1] for lane in LOOSER
-    ]
+    lanes = dict(enumerate(values, start=1))
+    tightest, twin = lanes[TIGHTEST], lanes[TWIN]
+    alike = {*PERTURBED, TWIN}
+    pairs = combinations((TIGHTEST, TIGHTER, *PERTURBED, TWIN), 2)
+    distances = [np.abs(lanes[a] - lanes[b]) for a, b in pairs if not alike.issuperset((a, b))]
+    for lane in LOOSER:
+        times = LADDER[lane - 1]
+        distances.append(np.abs(lanes[lane] - tightest) / times)
+        distances.append(np.abs(lanes[lane] - twin) / (times - 1.0))
     with warnings.catch_warnings():  # of instants that no lane reached
         warnings.simplefilter("ignore", RuntimeWarning)
-        apart = np.nanmax(distances, axis=0)
-    return SAFETY * around(np.where(np.isnan(apart), np.inf, apart))
+        largest: Floats = np.nanmax(distances, axis=0)
+    largest = np.where(np.isnan(largest), np.inf, largest)
+    for lane in PERTURBED:
+        largest = np.fmax(largest, np.abs(lanes[lane] - twin))
+    return largest
 
 
 def around(apart: Floats) -> Floats:
@@ -67,6 +76,15 @@ def within(error: Floats, scales: Floats) -> Flags:
     error : (instants, channels). scales : (channels,) sizes that errors are compared with.
     """
     return np.asarray(error <= CONVERGED * scales)
+
+
+def near_claims(apart: Floats, scales: Floats) -> Flags:
+    """Return instants, (instants,), whose companions count where the motion may be converged.
+
+    apart : (instants, channels) of the motion. scales : as in `within`.
+    """
+    claimed = within(around(apart), scales).all(axis=1)
+    return np.asarray(around(np.asarray(claimed, np.float64)) > 0.0)
 
 
 def until(small: Flags, time: Floats) -> Floats:

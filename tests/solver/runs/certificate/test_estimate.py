@@ -3,15 +3,23 @@
 import numpy as np
 import pytest
 
-from jointplay.solver.runs.certificate.companions import LADDER
+from jointplay.solver.runs.certificate.companions import (
+    LADDER,
+    LOOSER,
+    TIGHTER,
+    TIGHTEST,
+    TWIN,
+)
 from jointplay.solver.runs.certificate.estimate import (
     BINS,
     CONVERGED,
     LASTING,
     REACH,
     SAFETY,
-    estimated_error,
+    apart,
+    around,
     histogram,
+    near_claims,
     spans,
     until,
     within,
@@ -21,9 +29,15 @@ TIME = np.linspace(0.0, 1.0, 101)
 
 
 def lanes(error: np.ndarray) -> np.ndarray:
-    """Values of seven companions that are wrong in proportion to their tolerance."""
+    """Values of seven companions that are wrong in proportion to their tolerance; the last is the
+    trajectory."""
     shares = np.array([*LADDER, 1.0, 1.0, 1.0])
     return np.sin(TIME)[None, :, None] + shares[:, None, None] * error[None, :, None]
+
+
+def estimated_error(values: np.ndarray) -> np.ndarray:
+    """Estimate where no law is steep."""
+    return SAFETY * around(apart(values))
 
 
 def test_an_error_in_proportion_to_the_tolerance_is_covered_and_not_overrated() -> None:
@@ -42,6 +56,30 @@ def test_a_companion_left_behind_leaves_the_others() -> None:
     estimate = estimated_error(values)[:, 0]
     assert np.isinf(estimate[80:]).all()
     assert np.isfinite(estimate[: 80 - REACH]).all()
+
+
+def test_an_error_of_the_trajectory_alone_is_covered() -> None:
+    values = lanes(np.zeros_like(TIME))
+    values[TWIN - 1, 60] += 1e-3
+    assert estimated_error(values)[60, 0] >= 1e-3
+
+
+def test_where_tighter_companions_were_left_behind_looser_ones_tell_the_error() -> None:
+    error = 1e-6 * np.exp(8.0 * TIME)
+    values = lanes(error)
+    values[[TIGHTEST - 1, TIGHTER - 1]] = np.nan
+    assert (estimated_error(values)[:, 0] >= error).all()
+    values[[lane - 1 for lane in LOOSER]] = np.nan  # what is left has one tolerance
+    assert np.isinf(estimated_error(values)).all()
+
+
+def test_instants_count_that_reach_into_what_is_claimed() -> None:
+    errors = np.zeros((101, 1))
+    errors[60] = 1.0
+    near = near_claims(errors, np.array([1.0]))
+    # instants within REACH of the error claim nothing, but count for those that do
+    assert np.flatnonzero(~near).tolist() == [60]
+    assert not near_claims(errors + 1.0, np.array([1.0])).any()
 
 
 def test_the_horizon_is_the_first_loss_and_later_spans_must_last() -> None:

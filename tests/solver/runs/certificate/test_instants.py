@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from jointplay.solver.kernels.loop.bundle import Bundle
-from jointplay.solver.kernels.loop.runs import Status
-from jointplay.solver.runs.certificate.companions import LADDER, RUN, Companions
+from jointplay.solver.kernels.loop.runs import SAMPLES, Status
+from jointplay.solver.runs.certificate.companions import LADDER, RUN, TWIN, Companions
 from jointplay.solver.runs.certificate.instants import FIRST, Instants
 from tests.solver.runs.test_determinism import PROBLEMS, bundle_of
 
@@ -51,6 +51,29 @@ def test_companions_hand_out_the_instants_however_the_run_is_sliced() -> None:
         # a row has its time as whole periods and the rest
         found = rows[:, 0] * period + rows[:, 1]
         np.testing.assert_allclose(found, companions.instants.time, atol=1e-12)
+
+
+def test_one_companion_is_the_trajectory_bit_for_bit() -> None:
+    step = Instants.over(1.5, 1.0).finest
+    problem = replace(
+        PROBLEMS[4], duration=1.5, tolerance=1e-6, output_step=step, samples=round(1.5 / step) + 1
+    )
+    bundle = bundle_of([problem])
+    companions = Companions.beside(bundle, problem)
+    samples = []
+    while bundle.lane(RUN).running or companions.running:
+        bundle.advance(companions.allowance(10**6))
+        companions.collect()
+        samples.append(bundle.rows(SAMPLES, RUN).copy())
+    own = np.concatenate(samples)[companions.instants.index]
+    assert companions.dense(TWIN).tobytes() == own.tobytes()
+
+
+def test_longest_steps_differ_as_tolerances_do() -> None:
+    bundle = followed(10**6)[0]
+    longest = [bundle.lane(lane).number("largest_step") for lane in (RUN, *range(1, 5))]
+    order = bundle.kernel.tableau.order
+    assert np.divide(longest[1:], longest[0]) ** order == pytest.approx(LADDER)
 
 
 def test_tighter_companions_take_more_steps_and_looser_ones_fewer() -> None:

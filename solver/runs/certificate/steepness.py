@@ -1,0 +1,78 @@
+"""Steepness of the laws: how channels change where the state is as wrong as its bar allows.
+
+Companions that agree in a state to a millionth may all be on one side of a contact's onset, or of
+a ramp of friction, whose forces the truth has not. So channels are evaluated again where the state
+is several times as far from the trajectory's as a companion's is, and as far on the other side.
+"""
+
+import numpy as np
+
+from jointplay.records.arrays import Flags, Floats, Integers
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.runs.certificate.companions import (
+    PERTURBED,
+    RUN,
+    TIGHTER,
+    TIGHTEST,
+    TWIN,
+    Companions,
+)
+
+TOWARDS = (TIGHTEST, TIGHTER, *PERTURBED)
+"""Lanes whose differences from the trajectory are directions."""
+CONTACT = (
+    "penetration",
+    "eccentricity_x",
+    "eccentricity_y",
+    "eccentricity_rate_x",
+    "eccentricity_rate_y",
+)
+"""Channels of a joint with play that tell whether, and how fast, its journal has entered."""
+
+
+def steepness(
+    companions: Companions, safety: float, columns: Integers, values: Floats, wanted: Flags
+) -> Floats:
+    """Return the largest change of each channel, (instants, channels), in the channels' units.
+
+    safety : by how much farther the state moves than companions are from the trajectory's.
+    values : (instants, channels) of the trajectory. wanted : (instants,) where it is looked for.
+    """
+    row = companions.bundle.kernel.row
+    own = companions.dense(TWIN)
+    places, moved = [], []
+    for lane in TOWARDS:
+        theirs = companions.dense(lane)
+        both = np.flatnonzero(wanted[: min(len(own), len(theirs))])
+        apart = safety * (row.states(theirs[both]) - row.states(own[both]))
+        for sense in (1.0, -1.0):
+            places.append(both)
+            moved.append(own[both])
+            row.states(moved[-1])[:] += sense * apart
+    found = _observed(companions.bundle, np.concatenate(moved), columns)
+    largest = np.zeros_like(values)
+    for both, there in zip(
+        places, np.split(found, np.cumsum([len(m) for m in moved])), strict=False
+    ):
+        largest[both] = np.fmax(largest[both], np.abs(there - values[both]))
+    return largest
+
+
+def _observed(bundle: Bundle, moved: Floats, columns: Integers) -> Floats:
+    """Return channels, (count, channels), at states of which some have entered a contact."""
+    rows, row = bundle.kernel.rows, bundle.kernel.row
+    seen = [rows.index(f"{joint}.{name}") for joint in bundle.kernel.play for name in CONTACT]
+    found = bundle.observe(RUN, moved, np.concatenate([columns, seen]).astype(np.int64))
+    values = found[:, : len(columns)]
+    contact = found[:, len(columns) :].reshape(len(moved), -1, len(CONTACT))
+    depth, ex, ey, vx, vy = np.moveaxis(contact, -1, 0)
+    entered = (depth > 0.0) & (moved[:, row.mode : row.impact_rate] <= 0.0)
+    again = entered.any(axis=1)
+    if again.any():
+        with np.errstate(invalid="ignore"):  # a journal at the centre of its bearing enters nothing
+            rate = np.abs(ex * vx + ey * vy) / np.hypot(ex, ey)
+        latched = np.maximum(rate, bundle.lane(RUN)["impact_floor"])
+        np.copyto(moved[:, row.mode : row.impact_rate], 1.0, where=entered)
+        np.copyto(moved[:, row.impact_rate : row.width], latched, where=entered)
+        values[again] = bundle.observe(RUN, moved[again], columns)
+    return values
