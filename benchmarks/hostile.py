@@ -29,9 +29,9 @@ class Answered(NamedTuple):
 
 
 def send(http: httpx.Client, one: Hostile) -> httpx.Response:
-    """Send a body, however long it takes."""
+    """Send a body."""
     head = {"Content-Type": "application/json"}
-    return http.post(one.path, content=one.body, headers=head, timeout=600.0)
+    return http.post(one.path, content=one.body, headers=head)
 
 
 def answered(http: httpx.Client, one: Hostile, api: int) -> Answered:
@@ -59,7 +59,7 @@ def main() -> None:
         mark = {FOLDER_VARIABLE: made}
         with (
             running_service(folder / "data", environment=mark) as url,
-            httpx.Client(base_url=url, trust_env=False) as http,
+            httpx.Client(base_url=url, trust_env=False, timeout=600.0) as http,
         ):
             (api,) = running(folder, "api")
             for one in hostile_bodies():

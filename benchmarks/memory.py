@@ -160,7 +160,7 @@ def main() -> None:
         mark = {FOLDER_VARIABLE: str(folder)}
         with (
             running_service(folder / "data", environment=mark) as url,
-            httpx.Client(base_url=url, trust_env=False, timeout=30.0) as http,
+            httpx.Client(base_url=url, trust_env=False, timeout=600.0) as http,
         ):
             table = Table(folder)
             table.row("start")

@@ -63,6 +63,6 @@ def estimate_job(
     on this machine; the pace at the end of it is taken for the rest.
     """
     found = checker.check(check_job, body)
-    new = found.jobs[0]
+    (new,) = found.jobs
     cached = found.reuse and catalogue.identical(new) is not None
     return Estimate(**prober.cost_of(new.spec), cached=cached)

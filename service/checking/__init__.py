@@ -4,7 +4,8 @@ What is long, or has many bodies, would hold up every other request, and the mem
 would never be given back. Those processes can be ended, and end by themselves when idle.
 """
 
-from collections.abc import Callable, Sequence
+import pickle
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
 from jointplay.records.failure import LimitExceeded
@@ -13,6 +14,7 @@ from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlo
 from jointplay.service.batches.admission import admit_batch
 from jointplay.service.idempotency import fingerprint
 from jointplay.service.jobs.submission import checked
+from jointplay.service.memory import give_back_soon
 from jointplay.service.problems import RequestRefused, unavailable
 from jointplay.solver.kernels.record.equations import SURELY_SHORT
 from jointplay.storage.catalogue.records import NewJob
@@ -23,11 +25,27 @@ SHORT = 32 * 1024
 _MODULE = "jointplay.service.checking"
 
 
+class PackedJobs(Collection[NewJob]):
+    """The jobs of a batch, each unpacked when its turn comes: 10 000 would take 60 MB."""
+
+    def __init__(self, jobs: Collection[NewJob]) -> None:
+        self._packed = [pickle.dumps(job) for job in jobs]
+
+    def __len__(self) -> int:
+        return len(self._packed)
+
+    def __iter__(self) -> Iterator[NewJob]:
+        return (pickle.loads(packed) for packed in self._packed)  # noqa: S301 - packed above
+
+    def __contains__(self, job: object) -> bool:
+        return any(job == one for one in self)
+
+
 @dataclass(frozen=True)
 class Checked:
     """Jobs that can be computed, of one document."""
 
-    jobs: Sequence[NewJob]
+    jobs: Collection[NewJob]
     fingerprint: str
     """Of the document and where it was sent; empty if nobody asked for it."""
     reuse: bool = False
@@ -43,13 +61,13 @@ Check = Callable[[object, str, Settings], Checked]
 def check_job(document: object, path: str, settings: Settings) -> Checked:
     """Check one job; raises what `checked` does."""
     new, reuse = checked(document, settings)
-    return Checked([new], fingerprint(path, document), reuse=reuse)
+    return Checked((new,), fingerprint(path, document), reuse=reuse)
 
 
 def check_batch(document: object, path: str, settings: Settings) -> Checked:
     """Check many jobs; raises what `admit_batch` does."""
     jobs, label = admit_batch(document, settings)
-    return Checked(jobs, fingerprint(path, document), label=label)
+    return Checked(PackedJobs(jobs), fingerprint(path, document), label=label)
 
 
 class Checker:
@@ -93,6 +111,7 @@ class Checker:
             raise LimitExceeded.at("", sentence) from None
         except NoAnswer:
             raise unavailable("The document could not be checked.", 5) from None
+        give_back_soon()
         if isinstance(answer, RequestRefused):
             raise answer
         return answer

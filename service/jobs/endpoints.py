@@ -76,8 +76,9 @@ def _submit(
     body: bytes,
 ) -> Submitted:
     found = checker.check(check_job, body, repeatable.path)
+    (new,) = found.jobs
     with repeatable.key_for(found.fingerprint) as key:
-        submitted = catalogue.submit(found.jobs[0], key, reuse=found.reuse)
+        submitted = catalogue.submit(new, key, reuse=found.reuse)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted

@@ -1,20 +1,16 @@
 """The HTTP process, with bounds on what clients may hold."""
 
 import argparse
-import ctypes
 import gc
 import socket
-from contextlib import suppress
 
 import uvicorn
 from fastapi import FastAPI
 
+from jointplay.service.memory import keep_nothing_large
+
 LONGEST_HEAD = 256 * 1024
 """Bytes of a request's line and headers: 20 000 characters of a query, each of up to nine bytes."""
-_M_MMAP_THRESHOLD = -3  # of malloc.h
-_LARGE = 128 * 1024
-"""Bytes from which memory is the system's again as soon as it is free. Otherwise glibc raises this
-limit to the largest piece that was ever freed, a body of megabytes, and keeps what is smaller."""
 
 
 def main() -> None:
@@ -24,8 +20,7 @@ def main() -> None:
     parser.add_argument("--port", type=int, default=8000)
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
     arguments = parser.parse_args()
-    with suppress(AttributeError, OSError):  # another C library than glibc
-        ctypes.CDLL(None).mallopt(_M_MMAP_THRESHOLD, _LARGE)
+    keep_nothing_large()
     configuration = uvicorn.Config(
         _application,
         factory=True,

@@ -4,7 +4,7 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import AbstractContextManager
 from functools import update_wrapper
 from typing import Concatenate, ParamSpec, TypeVar
@@ -150,7 +150,11 @@ class Catalogue:
             return submission.submit(unit, requests, lambda: self._identifiers.next(now))
 
     def submit_batch(
-        self, jobs: Sequence[NewJob], *, label: str | None = None, key: SubmissionKey | None = None
+        self,
+        jobs: Collection[NewJob],
+        *,
+        label: str | None = None,
+        key: SubmissionKey | None = None,
     ) -> SubmittedBatch:
         """Accept many jobs or none; they survive a power cut once this returns.
 

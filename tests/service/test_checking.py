@@ -34,7 +34,8 @@ def outcome(checker, document, padding=0):
     body = json.dumps(document).encode() + b" " * padding
     what = check_batch if "jobs" in document else check_job
     try:
-        return checker.check(what, body, "/v1/jobs")
+        found = checker.check(what, body, "/v1/jobs")
+        return list(found.jobs), found.fingerprint, found.reuse, found.label
     except Exception as error:  # noqa: BLE001 - compared
         refused = refusal(error)
         return refused.kind, refused.detail, refused.errors
