@@ -49,4 +49,8 @@ def reproduce(
         raise Stopped("a process that computed a part of it died.", Exit.FAILED) from None
     runs = output / "runs"
     line = f"the report is {page}; results of all jobs are in {runs}/"
-    tell({"report": str(page), "runs": str(runs)}, [line], as_json=as_json)
+    forces = (
+        "for forces take seven-bar-press-fitted: right at A, half of the printed ones at B"
+        " (docs/calibration.md)"
+    )
+    tell({"report": str(page), "runs": str(runs)}, [line, forces], as_json=as_json)

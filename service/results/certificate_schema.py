@@ -86,7 +86,9 @@ class Certificate(Partial):
         description="What estimated errors of each kind are made of, and where they hold.",
     )
     exponent: Exponent | None = None
-    exponent_note: str = Field(default="", description="Why there is no exponent.")
+    exponent_note: str = Field(
+        default="", description="Why there is no exponent, or what its error counts."
+    )
     energy_residual: float | None = in_unit("J", "What the energy ledger lacks.", default=None)
     gross_work: float | None = in_unit("J", "All works without their signs.", default=None)
     energy_error: float | None = Field(default=None, description="Residual by gross work.")
