@@ -52,7 +52,11 @@ def demo(
         _fetch_figures(cases, jobs, output)
     rows = rows_of(cases, peaks)
     facts = {"source": scene["source"], "figures": str(output), "comparison": rows}
-    lines = [f"everything is stopped\n\nsource: {scene['source']}", *table(rows)]
+    lines = [
+        f"everything is stopped\n\nsource: {scene['source']}",
+        scene["description"],
+        *table(rows),
+    ]
     tell(facts, [*lines, f"figures are in {output}/"], as_json=as_json)
 
 

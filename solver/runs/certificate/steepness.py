@@ -64,7 +64,7 @@ def _observed(bundle: Bundle, moved: Floats, columns: Integers) -> Floats:
     seen = [rows.index(f"{joint}.{name}") for joint in bundle.kernel.play for name in CONTACT]
     found = bundle.observe(RUN, moved, np.concatenate([columns, seen]).astype(np.int64))
     values = found[:, : len(columns)]
-    contact = found[:, len(columns) :].reshape(len(moved), -1, len(CONTACT))
+    contact = found[:, len(columns) :].reshape(len(moved), len(bundle.kernel.play), len(CONTACT))
     depth, ex, ey, vx, vy = np.moveaxis(contact, -1, 0)
     entered = (depth > 0.0) & (moved[:, row.mode : row.impact_rate] <= 0.0)
     again = entered.any(axis=1)
