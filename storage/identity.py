@@ -3,8 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from jointplay.storage.catalogue.records import Job, JobState
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies.reader import StudyReader
 
 
 def require_results_of(job: Job, attributes: Mapping[str, Any], name: str) -> None:
@@ -37,3 +40,23 @@ def require_results_of(job: Job, attributes: Mapping[str, Any], name: str) -> No
     steps = (attributes.get("summary") or {}).get("steps")
     if None not in (steps, job.steps) and steps != job.steps:
         raise CorruptStore(f"{name} holds a run of {steps} steps, and the job took {job.steps}")
+
+
+def growing_study(settings: Settings, catalogue: Catalogue, job: str) -> StudyReader:
+    """Return the reader of a study that is not sealed.
+
+    Raises
+    ------
+    NotAStore
+        There is none yet.
+    CorruptStore
+        Files are not what was stored, or hold less than the catalogue knows of.
+    """
+    ended = {
+        block.index: block.count if block.state is BlockState.done else block.watermark
+        for block in catalogue.blocks(job)
+        if block.count
+    }
+    reader = StudyReader(settings.running_study(job))
+    reader.require({index: count for index, count in ended.items() if count})
+    return reader

@@ -2,11 +2,11 @@
 
 import logging
 import shutil
-from contextlib import suppress
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
 from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.packed.running import remove
 from jointplay.storage.settings import Settings
 from jointplay.worker.passing import PASSING
 
@@ -29,20 +29,12 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
             settings.place.remove(settings.results_prefix(job))
             if (folder := settings.running_folder(job)).exists():  # it ended without results
                 shutil.rmtree(folder)
-            remove_running(settings, job)
+            remove(settings.running_folder(job))
             catalogue.mark_removed([job])
         except PASSING as error:
             _log.warning("the results of job %s cannot be removed: %s", job, error)
             continue
         _log.info("removed the results of job %s", job)
-
-
-def remove_running(settings: Settings, job: str) -> None:
-    """Remove what a job needed while it ran, as far as it can be, and the folder above if empty."""
-    folder = settings.running_folder(job)
-    shutil.rmtree(folder, ignore_errors=True)
-    with suppress(OSError):  # other jobs are in it
-        folder.parent.rmdir()
 
 
 def withdraw(catalogue: Catalogue, settings: Settings, claim: Claim) -> None:
@@ -56,6 +48,6 @@ def withdraw(catalogue: Catalogue, settings: Settings, claim: Claim) -> None:
             settings.place.remove(settings.sealed_run(job.id, attempt).key)
         sealed = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
         if any(results.exists() for results in sealed):
-            remove_running(settings, job.id)
+            remove(settings.running_folder(job.id))
     except (CatalogueError, OSError) as error:
         _log.warning("what attempt %d of %s left stays: %s", attempt, claim.job.id, error)

@@ -10,13 +10,13 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, IncompleteStudy, NotAStore
 from jointplay.storage.packed.reading import Packed
+from jointplay.storage.packed.running import remove
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.store import discard_others, seal
 from jointplay.worker.execute import Outcome, Report, execute
-from jointplay.worker.removal import remove_running
 from jointplay.worker.study_block import layout_of, run_block
 
 _log = logging.getLogger(__name__)
@@ -79,7 +79,7 @@ class SimulationWork:
             for attempt in range(1, self._block.attempt):
                 lost = self._sealed(attempt)
                 lost.place.remove(lost.key)
-            remove_running(self._settings, self._block.job)
+            remove(self._settings.running_folder(self._block.job))
 
     def _sealed(self, attempt: int) -> StoredObject:
         return self._settings.sealed_run(self._block.job, attempt)
@@ -165,7 +165,7 @@ class SealWork:
 
     def tidy(self) -> None:
         """Remove what was needed only while the study ran."""
-        remove_running(self._settings, self._job)
+        remove(self._settings.running_folder(self._job))
 
 
 _last_study: tuple[str, Study, StudyLayout] | None = None

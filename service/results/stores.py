@@ -13,9 +13,9 @@ from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, Se
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import BlockState, Job, JobState
+from jointplay.storage.catalogue.records import Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
-from jointplay.storage.identity import require_results_of
+from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.packed import Packed
 from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
@@ -168,26 +168,6 @@ class ResultsOfJob:
         why = f" {self.job.error.detail}" if self.job.error else ""
         sentence = f"Job {self.job.id} is {self.job.state} and computed nothing.{why}"
         raise RequestRefused(kinds.NO_RESULTS, sentence)
-
-
-def growing_study(settings: Settings, catalogue: Catalogue, job: str) -> StudyReader:
-    """Return the reader of a study that is not sealed.
-
-    Raises
-    ------
-    NotAStore
-        There is none yet.
-    CorruptStore
-        Files are not what was stored, or hold less than the catalogue knows of.
-    """
-    ended = {
-        block.index: block.count if block.state is BlockState.done else block.watermark
-        for block in catalogue.blocks(job)
-        if block.count
-    }
-    reader = StudyReader(settings.running_study(job))
-    reader.require({index: count for index, count in ended.items() if count})
-    return reader
 
 
 @lru_cache(maxsize=_OPEN_STORES)

@@ -10,10 +10,11 @@ from hashlib import sha256
 from typing import Final, Self
 
 from jointplay.records.channel import Channel
-from jointplay.service.results.stores import ResultsOfJob, growing_study
+from jointplay.service.results.stores import ResultsOfJob
 from jointplay.solver.runs.study.outputs import OUTPUTS
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.identity import growing_study
 from jointplay.storage.packed import Files
 from jointplay.storage.results.live import LiveStore, loosened
 from jointplay.storage.results.metadata import FILE

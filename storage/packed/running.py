@@ -6,6 +6,7 @@ all columns at one place, such as ``history-3.zip``, which is written once, when
 
 import json
 import os
+import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
@@ -123,6 +124,22 @@ class Running:
         for _ in self.chunks(key):
             pass
 
+    def verify(self) -> None:
+        """Compare all files but those of `PARTS` with their checksums.
+
+        Raises
+        ------
+        NotAStore
+            There are no documents.
+        CorruptStore
+            A file has other bytes than were written.
+        """
+        rows = sorted((self.folder / ROWS).glob("*.zip"))
+        objects = [StoredObject(Folder(str(path.parent)), path.name) for path in rows]
+        for packed in (self.documents, *(Packed(one, self.owner) for one in objects)):
+            for key in packed:
+                packed.read(key)
+
     def chunks(self, key: str) -> Iterator[tuple[str, bytes]]:
         """Yield key and content of all chunks at the place of a key."""
         found = self._pack(key)
@@ -237,6 +254,13 @@ class InMemory:
     def read(self, start: int, stop: int) -> bytes:
         """Return bytes [start, stop)."""
         return self._content[start:stop]
+
+
+def remove(folder: Path) -> None:
+    """Remove what a job needed while it ran, as far as it can be, and the folder above if empty."""
+    shutil.rmtree(folder, ignore_errors=True)
+    with suppress(OSError):  # other jobs are in it
+        folder.parent.rmdir()
 
 
 def _make(folder: Path) -> None:

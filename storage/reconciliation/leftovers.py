@@ -1,8 +1,7 @@
 """Files that nobody will need, and results whose job is not in the catalogue."""
 
 import re
-import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any, Final
 
@@ -11,9 +10,10 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job, NewJob
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.packed import running
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
-from jointplay.storage.reconciliation.results import sealed_results, verified
+from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
 from jointplay.storage.settings import Settings
 
 _DATA: Final = {
@@ -31,6 +31,7 @@ _SEALED: Final = re.compile(
     r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
 )
 _LEFT: Final = "is left over"
+_READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
 
 def leftovers(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
@@ -64,7 +65,8 @@ def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Ite
         if job is None and not key.endswith(PARTIAL):
             yield _without_job(settings, catalogue, StoredObject(place, key), named)
         elif job is None or (_settled(job, catalogue, grace) and _not_due(settings, job, key)):
-            yield Finding("results", (key,), _LEFT, "removed", mend=partial(place.remove, key))
+            remove = partial(place.remove, key)
+            yield _left("results", key, remove, needed=job is not None and _needed(settings, job))
 
 
 def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
@@ -76,14 +78,12 @@ def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> 
             yield Finding("running", (name,), found, advice=f"rm -r '{folder}'")
         elif not _settled(job, catalogue, grace):
             continue
-        elif job.removed is not None or sealed_results(settings, job) is not None:
-            remove = partial(shutil.rmtree, folder, ignore_errors=True)
-            yield Finding("running", (name,), _LEFT, "removed", mend=remove)
+        elif not _needed(settings, job):
+            yield _left("running", name, partial(running.remove, folder))
         else:  # it ended without sealed results: these show what was computed
             for path in sorted(folder.rglob(f"*{PARTIAL}")):
                 name = str(path.relative_to(settings.data))
-                remove = partial(path.unlink, missing_ok=True)
-                yield Finding("running", (name,), _LEFT, "removed", mend=remove)
+                yield _left("running", name, partial(path.unlink, missing_ok=True))
 
 
 def _job_of(catalogue: Catalogue, job_id: str) -> Job | None:
@@ -104,20 +104,33 @@ def _not_due(settings: Settings, job: Job, key: str) -> bool:
     return job.removed is not None or sealed is None or sealed.key != key
 
 
+def _needed(settings: Settings, job: Job) -> bool:
+    """Whether what is left of a job is all that there is: its results are gone, or damaged."""
+    if job.removed is not None:
+        return False
+    return sealed_results(settings, job) is None or damage_of(settings, job) is not None
+
+
+def _left(where: str, name: str, remove: Callable[[], object], *, needed: bool = False) -> Finding:
+    if needed and not name.endswith(PARTIAL):
+        return Finding(where, (name,), f"{_LEFT} of a job without whole results", advice=_READ)
+    return Finding(where, (name,), _LEFT, "removed", mend=remove)
+
+
 def _without_job(
     settings: Settings, catalogue: Catalogue, sealed: StoredObject, named: re.Match[str]
 ) -> Finding:
     """Adopt whole results; whatever else it is, only its owner can say."""
-    found, advice = "belongs to no job", "jointplay show FILE reads it; remove it, or keep it apart"
+    found = "belongs to no job"
     try:
         attributes = verified(sealed)
         new = _job_in(settings, attributes)
     except (NotAStore, CorruptStore, KeyError, TypeError, AttributeError) as error:
         found += f", and cannot be adopted: {error}"
-        return Finding("results", (str(sealed),), found, advice=advice)
+        return Finding("results", (str(sealed),), found, advice=_READ)
     if not attributes["complete"]:
         found += ", and is of a run that was cut short"
-        return Finding("results", (str(sealed),), found, advice=advice)
+        return Finding("results", (str(sealed),), found, advice=_READ)
     steps = (attributes.get("summary") or {}).get("steps")
     mend = partial(
         catalogue.adopt, named["job"], new, attempt=int(named["attempt"] or 1), steps=steps

@@ -6,14 +6,15 @@ from collections.abc import Iterator
 from functools import partial
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Job, JobState
+from jointplay.storage.catalogue.records import BlockState, Job, JobState
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
-from jointplay.storage.identity import require_results_of
+from jointplay.storage.identity import growing_study, require_results_of
 from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.results import manifest
 from jointplay.storage.results.metadata import FILE, Document
+from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 
 WHERE = "results"
@@ -21,11 +22,11 @@ _ANEW = "jointplay show {0} --job > job.json; jointplay submit job.json"
 
 
 def damage(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
-    """Compare the results of every job that has ended, byte by byte, with what was sealed."""
+    """Compare the results of every job that has ended, byte by byte, with what was stored."""
     for job in catalogue.every_job():
         if not job.state.terminal:
             continue
-        found = damage_of(settings, job)
+        found = damage_of(settings, job) or _unsealed_damage(settings, catalogue, job)
         if found == job.damaged:
             mended = None
         elif found is None:
@@ -58,6 +59,30 @@ def damage_of(settings: Settings, job: Job) -> str | None:
         if error.errno != errno.EIO:  # such as permissions, which are the reader's
             raise
         return f"{settings.results_prefix(job.id)}*.zarr.zip cannot be read: {error.strerror}"
+    return None
+
+
+def _unsealed_damage(settings: Settings, catalogue: Catalogue, job: Job) -> str | None:
+    """Return what is wrong with the parts of a job that ended without sealed results."""
+    if job.state is JobState.succeeded or sealed_results(settings, job) is not None:
+        return None
+    blocks = catalogue.blocks(job.id)
+    if not any(block.watermark or block.state is BlockState.done for block in blocks):
+        return None  # nothing was computed
+    try:
+        if any(block.count == 0 for block in blocks):  # the one that seals a study
+            study = growing_study(settings, catalogue, job.id)
+            require_results_of(job, study.attributes, str(study.files))
+            settings.running_study(job.id).verify()
+        else:
+            (block,) = blocks
+            attempt = int((block.checkpoint or "").rpartition("-a")[2] or job.attempt)
+            files = settings.running_run(job.id, attempt)
+            run = ResultReader(files, block.watermark)
+            require_results_of(job, run.attributes, str(files))
+            files.verify()
+    except (NotAStore, CorruptStore) as error:
+        return str(error)
     return None
 
 

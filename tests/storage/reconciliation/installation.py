@@ -98,8 +98,7 @@ class Installed:
         shutil.rmtree(self.settings.running_folder(job))
 
     def sealed(self, label: str) -> Path:
-        found = [*(self.settings.data / "results").glob(f"*/{self.jobs[label]}-*")]
-        return found[0]
+        return min((self.settings.data / "results").glob(f"*/{self.jobs[label]}-*"))
 
     def running(self, label: str) -> Path:
         return self.settings.running_folder(self.jobs[label])

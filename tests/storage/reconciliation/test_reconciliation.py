@@ -54,6 +54,18 @@ def damage_an_incomplete_run(installed: Installed) -> None:
     path.write_bytes(path.read_bytes()[:-1])
 
 
+def damage_a_part(installed: Installed) -> None:
+    (path,) = (installed.running("cut short") / "study" / "parts").iterdir()
+    path.write_bytes(path.read_bytes()[:-1])
+
+
+def damage_the_documents(installed: Installed) -> None:
+    path = installed.running("cut short") / "study" / "documents.zip"
+    content = bytearray(path.read_bytes())
+    content[100] ^= 1
+    path.write_bytes(content)
+
+
 def restore(installed: Installed) -> None:
     installed.catalogue.mark_damaged(installed.jobs["swept"], "it was")
 
@@ -114,6 +126,8 @@ MENDED = {
     remove: ("results", "is gone", "marked"),
     exchange: ("results", "holds the results of another job", "marked"),
     damage_an_incomplete_run: ("results", "is cut off", "marked"),
+    damage_a_part: ("results", "cannot be read", "marked"),
+    damage_the_documents: ("results", "has other bytes", "marked"),
     restore: ("results", "are whole", "no longer marked"),
     leave_a_fenced_attempt: ("results", "is left over", "removed"),
     leave_a_partial_result: ("results", "is left over", "removed"),
@@ -211,6 +225,20 @@ def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> 
     found = installed.mend()
     assert [one.mend for one in found] == [None, None]
     assert copy.exists()
+
+
+@pytest.mark.parametrize("loss", [flip, remove])
+def test_what_is_left_of_a_job_without_whole_results_is_kept(
+    installed: Installed, loss: Break
+) -> None:
+    """A fenced attempt's results may be the only ones that are whole."""
+    leave_a_fenced_attempt(installed)
+    loss(installed)
+    installed.mend()
+    late = next((installed.settings.data / "results").glob("*/*-a2.zarr.zip"))
+    (finding,) = [one for one in installed.look() if late.name in one.subjects[0]]
+    assert finding.mend is None
+    assert "jointplay show" in str(finding.advice)
 
 
 def test_a_job_that_nothing_will_end_is_left_to_the_user(installed: Installed) -> None:
