@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.lies.named.exponents import LIES, Lie, bouncing_ball, job
+from jointplay.solver.kinds import Study, admit
 from jointplay.solver.nonlinear.verdict import CHAOTIC, UNDECIDED
 from jointplay.solver.runs import budget
 from jointplay.solver.runs.study.run import StudyRun
@@ -68,6 +69,20 @@ def test_an_exponent_that_its_steps_made_gives_no_verdict() -> None:
 def test_the_true_exponent_is_within_three_errors(lie: Lie) -> None:
     found = lie.judge()
     assert found.true, found.said
+
+
+def test_progress_counts_the_stretch_in_smaller_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(budget, "FIRST", 311)
+    monkeypatch.setattr(budget, "LARGEST", 311)
+    study = admit({**DIAGRAM, "values": [1e-2], "indicators": ["lyapunov"]})
+    assert isinstance(study, Study)
+    progress = [(piece.fraction, len(piece.rows)) for piece in StudyRun(study, 0).slices()]
+    fractions = [fraction for fraction, _ in progress]
+    assert fractions == sorted(fractions)
+    recorded = max(fraction for fraction, rows in progress if rows)
+    # nine periods, and eight behind them of two and a half times as many steps
+    assert recorded == pytest.approx(9.0 / (9.0 + 8.0 * 2.5), abs=0.05)
+    assert fractions[-1] == 1.0
 
 
 def test_an_exponent_interrupted_anywhere_has_the_same_bits(
