@@ -88,6 +88,7 @@ def test_a_certificate_says_until_when_each_channel_is_converged(jointplay, runs
     document = json.loads(jointplay("certificate", runs / "a", "--json").out)
     for name, channel in document["channels"].items():
         assert f"{name:32} until {channel['until']:.6g} s\n" in ended.out
+        assert channel["bar"] in document["bars"]
 
 
 def test_the_citation_file_says_what_the_command_says():

@@ -66,10 +66,15 @@ def test_a_highest_value_that_is_too_low_or_invented_is_seen() -> None:
     assert missed(shape, TIME, 1.0, 0.7) > 0.5  # not where it is said to be
 
 
-def test_error_bars_of_a_small_search_hold() -> None:
-    judged = coverage_search.search(8, 12, PRESETS)
+@pytest.mark.parametrize(
+    ("runs", "kinds"),
+    [(12, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+)
+def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
+    judged = coverage_search.search(8, runs, kinds)
     verdicts = [each.verdict for each in judged if each.verdict.ended == "judged"]
-    assert len(verdicts) >= 8
+    assert len(verdicts) >= 2 * runs // 3
     assert min(verdict.covered for verdict in verdicts) >= 0.95
-    text = coverage_search.report(judged)
-    assert "| all |" in text
+    inside = sum(verdict.inside for verdict in verdicts)
+    assert inside >= 0.999 * sum(verdict.errors for verdict in verdicts)
+    assert "| all |" in coverage_search.report(judged)
