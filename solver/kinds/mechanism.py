@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.assembly import (
     Assembly,
     assemble,
     directionless,
+    poses_nearby,
     shortest_link,
 )
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
@@ -92,14 +93,14 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     LimitExceeded
         Its equations in this formulation, if one is given, are too long to compile.
     InvalidInput
-        Redundant constraints, an assembly that cannot close, loops that stay closed.
+        Redundant constraints, an assembly that cannot close, a start where assemblies meet.
     """
     tree = spanning_tree(scene)
     if formulation is not None and tree.coordinates and not tree.closing:
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer
     assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
-    if assembly.constraints > coordinates:
+    if assembly.constraints > coordinates and not assembly.freedom:
         raise InvalidInput.at(
             "/scene/joints",
             f"The mechanism is over-constrained: {assembly.constraints} constraint"
@@ -128,6 +129,26 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
             ]
         )
     if assembly.redundant_with_play or assembly.redundant:
+        _check_redundant(scene, assembly)
+    if formulation is not None and tree.closing and assembly.freedom_with_play:
+        check_length(scene, tree, formulation)
+    return tree, assembly
+
+
+def _check_redundant(scene: Scene, assembly: Assembly) -> None:
+    """Refuse redundant constraints, unless the ideal mechanism moves and they stay redundant."""
+    ranks = (
+        [rank for _, residual, rank in poses_nearby(scene) if residual <= ASSEMBLED]
+        if assembly.freedom
+        else []
+    )
+    if any(rank > assembly.rank for rank in ranks):
+        raise InvalidInput.at(
+            "/scene/start/angles",
+            "The mechanism starts where it can go on in more than one assembly, so that its motion"
+            " is not determined; give start angles of another pose.",
+        )
+    if not ranks:
         count = max(assembly.redundant, assembly.redundant_with_play)
         raise InvalidInput.at(
             "/scene/joints",
@@ -135,14 +156,6 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
             " constraint equations are redundant; remove a joint or driver, or give one"
             " joint clearance.",
         )
-    if tree.closing and assembly.freedom_with_play:
-        raise InvalidInput.at(
-            "/scene/joints",
-            f"Ideal joints close a loop (at {', '.join(tree.closing)}) that can still move;"
-            " such scenes are not supported yet. Give a joint of each loop a positive"
-            " clearance, or drive the mechanism fully with every clearance zero.",
-        )
-    return tree, assembly
 
 
 def _closes(scene: Scene) -> bool:

@@ -1,6 +1,7 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Final
@@ -23,6 +24,8 @@ LARGEST_TURN = 0.5
 """Largest turn of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
+NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
+"""Poses beside the start: how many, how they are drawn, and how far off, in rad and links."""
 GEOMETRY: Final[Any] = {
     "ground": True,
     "bodies": {"__all__": {"points"}},
@@ -166,16 +169,7 @@ def _assembled(scene: Scene) -> Assembly:
     if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles
         step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
         pose[positions] += step
-    for _ in range(MOST_ITERATIONS):
-        residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
-        if not len(residual) or not np.isfinite(residual).all():
-            break
-        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
-        # a turn of more than half a radian would lead to another assembly; positions follow
-        turn = float(np.abs(step[~positions]).max())
-        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
-        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
-            break
+    _close(ideal, pose, driven, scale)
     residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
 
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
@@ -193,6 +187,47 @@ def _assembled(scene: Scene) -> Assembly:
         freedom_with_play=count - open_rank,
         redundant_with_play=len(open_jacobian) - open_rank,
     )
+
+
+def _close(
+    mechanism: AbsoluteMechanism, pose: Floats, driven: dict[str, float], scale: Floats
+) -> None:
+    """Move a pose to where the constraints hold, by Newton's iteration, if it gets there."""
+    count, still = len(pose), np.zeros_like(pose)
+    angles = np.arange(count) % 3 == 2
+    for _ in range(MOST_ITERATIONS):
+        residual, jacobian = _arrays(mechanism.rows(pose, still, driven), count)
+        if not len(residual) or not np.isfinite(residual).all():
+            break
+        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
+        # a turn of more than half a radian would lead to another assembly; positions follow
+        turn = float(np.abs(step[angles]).max())
+        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
+            break
+
+
+def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
+    """Yield poses of the ideal mechanism beside its start, where it can move there.
+
+    Each with its residual, in lengths of the shortest link, and the rank of the constraints; no
+    pose where the mechanism came back to its start. Directions are drawn, the same each time.
+    """
+    start, length = assemble(scene).pose, shortest_link(scene)
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    driven, still = driver_positions(scene), np.zeros_like(start)
+    scale = np.tile([length, length, 1.0], len(ideal.bodies))
+    _, jacobian = _arrays(ideal.rows(start, still, driven), len(start))
+    _, values, directions = np.linalg.svd(jacobian * scale)
+    free = directions[int((values > RANK_TOLERANCE * values[0]).sum()) :]
+    for deviates in np.random.default_rng(NEARBY_SEED).standard_normal((NEARBY, len(free))):
+        move = deviates @ free
+        move *= ASIDE / np.abs(move).max()
+        pose = start + scale * move
+        _close(ideal, pose, driven, scale)
+        residual, jacobian = _arrays(ideal.rows(pose, still, driven), len(pose))
+        if np.abs((pose - start) / scale).max() > 0.1 * ASIDE:
+            yield pose, float(np.abs(residual).max()) / length, _rank(jacobian * scale)
 
 
 def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:

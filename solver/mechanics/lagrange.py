@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
-from jointplay.solver.mechanics.elimination import solve_symmetric
+from jointplay.solver.mechanics.elimination import solve_semidefinite, solve_symmetric
 from jointplay.solver.mechanics.motion import NOTHING, Forces, Motion, body_motions, forces_between
+from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import has_play
@@ -96,7 +97,11 @@ class LagrangeMechanism:
                     for k in shared:
                         total = total + row.jacobian[k] * inverse_mass[k] * other.jacobian[k]
                     system[i, j] = total
-        multipliers = solve_symmetric(system, right)
+        if spanning_tree(self.scene).closing:  # joints of a loop may hold the same twice
+            kinds = ["angle" if row.part == "angle" else "length" for row in rows]
+            multipliers = solve_semidefinite(system, right, kinds)
+        else:
+            [multipliers] = solve_symmetric(system, [right])
         accelerations = list(free)
         for row, multiplier in zip(rows, multipliers, strict=True):
             for k, entry in row.jacobian.items():

@@ -80,6 +80,8 @@ class Motion:
     held_moment: dict[str, Scalar]
     driver_effort: dict[str, Scalar]
     driver_speed: dict[str, Scalar]
+    multipliers: Sequence[Scalar] = ()
+    """Of joints that close loops, in joint coordinates."""
 
     @property
     def contacts(self) -> dict[str, Contact]:

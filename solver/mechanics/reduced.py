@@ -2,16 +2,19 @@
 
 Only what the scene requires: a driven crank on the ground is a known function of time, an ideal
 joint removes coordinates, a joint with play is a force. With partial velocities J,
-Σ_b (m J·J + I Jω Jω) q̈ = Σ_b J·(m (g - bias) + F) + Jω T.
+Σ_b (m J·J + I Jω Jω) q̈ = Σ_b J·(m (g - bias) + F) + Jω T. Joints that close a loop of ideal
+joints hold by forces, see `solver.mechanics.loops`.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.elimination import solve_symmetric
+from jointplay.solver.mechanics.elimination import Matrix, solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Forces, Motion, forces_between
+from jointplay.solver.mechanics.loops import Exerted, Loops
+from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Motion, forces_between
+from jointplay.solver.mechanics.play import Interaction
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.channels import HOLDING
@@ -54,16 +57,35 @@ class ReducedMechanism:
         forces = forces_between(
             self.numbers, self._ends, self.tree.play, modes, impact_rates, inner
         )
-        loads = _about_references(self.kinematics, forces)
-        accelerations = self._accelerations(loads) if known is None else known
+        loads = _about_references(self.kinematics, forces.interactions)
+        cut = Exerted()
+        multipliers: list[Scalar] = []
+        if self.tree.closing:
+            loops = self.loops()
+            accelerations, multipliers = loops.accelerations(self._generalised(loads))
+            cut = loops.exerted(multipliers)
+            acting = [*forces.interactions, *cut.interactions.values()]
+            loads = _about_references(self.kinematics, acting)
+        elif known is None:
+            accelerations = self._accelerations(loads)
+        if known is not None:
+            accelerations = known
         bodies = self._bodies(accelerations)
         joint_force, moments = self._reactions(loads, bodies)
         for name, found in forces.contacts.items():
             joint_force[name] = found.interaction.force_on_second
-        held = self._held_moments(joint_force, moments)
-        efforts = self._efforts(joint_force, moments)
+        for name, holding in cut.interactions.items():
+            joint_force[name] = holding.force_on_second
+        held = self._held_moments(joint_force, moments) | cut.moments
+        efforts = self._efforts(joint_force, moments, cut.efforts)
         speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
-        return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
+        return Motion(
+            accelerations, bodies, forces, joint_force, held, efforts, speeds, multipliers
+        )
+
+    def loops(self) -> Loops:
+        """Return the equations of joints that close loops."""
+        return Loops(self.kinematics, self._mass_matrix())
 
     def _ends(self, first: str, second: str) -> Ends:
         k = self.kinematics
@@ -77,7 +99,13 @@ class ReducedMechanism:
         )
 
     def _accelerations(self, loads: Loads) -> list[Scalar]:
-        """Solve M q̈ = Q; M from partial velocities, Q by one pass from the leaves inwards."""
+        """Solve M q̈ = Q."""
+        mass_matrix = self._mass_matrix()
+        [found] = solve_symmetric(mass_matrix, [self._generalised(loads)])
+        return found
+
+    def _mass_matrix(self) -> Matrix:
+        """Return M, from partial velocities."""
         k = self.kinematics
         names = self.tree.coordinates
         index = {name: i for i, name in enumerate(names)}
@@ -97,6 +125,11 @@ class ReducedMechanism:
                         entry = entry + body.inertia * share
                     key = (index[first], index[second])
                     mass_matrix[key] = mass_matrix.get(key, 0.0) + entry
+        return mass_matrix
+
+    def _generalised(self, loads: Loads) -> list[Scalar]:
+        """Return Q, by one pass from the leaves inwards."""
+        k = self.kinematics
         gx, gy = self.numbers.gravity
         inertial = {}
         for branch in self.tree.branches:
@@ -104,8 +137,7 @@ class ReducedMechanism:
             bx, by = k.point_bias(branch.body, k.centre(branch.body)).world()
             inertial[branch.body] = (mass * (gx - bx), mass * (gy - by), 0.0)
         generalised = self._project(loads, inertial)
-        right = [generalised.get(name, 0.0) for name in names]
-        return solve_symmetric(mass_matrix, right)
+        return [generalised.get(name, 0.0) for name in self.tree.coordinates]
 
     def _project(self, loads: Loads, extra: Loads) -> dict[str, Scalar]:
         """Return generalised forces of all loads: subtree sums from the leaves to the ground."""
@@ -221,10 +253,17 @@ class ReducedMechanism:
         return held
 
     def _efforts(
-        self, forces: Mapping[str, Pair], moments: Mapping[str, Scalar]
+        self,
+        forces: Mapping[str, Pair],
+        moments: Mapping[str, Scalar],
+        cut: Mapping[str, Scalar],
     ) -> dict[str, Scalar]:
+        """Return efforts of drivers; those of cut joints are known."""
         efforts: dict[str, Scalar] = {}
         for name, driver in self.numbers.drivers.items():
+            if name in cut:
+                efforts[name] = cut[name]
+                continue
             branch = next(b for b in self.tree.branches if b.joint == driver.joint)
             if branch.kind == "revolute":
                 efforts[name] = moments[driver.joint] if branch.outward else -moments[driver.joint]
@@ -236,10 +275,10 @@ class ReducedMechanism:
         return efforts
 
 
-def _about_references(kinematics: Kinematics, forces: Forces) -> Loads:
+def _about_references(kinematics: Kinematics, interactions: Iterable[Interaction]) -> Loads:
     """Return forces (N) and moments (N m) about each body's reference point."""
     sums: dict[str, Load] = {}
-    for acting in forces.interactions:
+    for acting in interactions:
         fx, fy = acting.force_on_second
         for reference, force, moment in (
             (acting.second, (fx, fy), acting.moment_on_second),

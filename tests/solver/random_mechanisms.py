@@ -1,11 +1,17 @@
-"""Mechanisms of any size: random trees of bodies, random instants of scenes, long chains."""
+"""Mechanisms of any size: random trees of bodies, with a loop closed, random instants, chains."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+from hypothesis import assume
 from hypothesis import strategies as st
 
+from jointplay.solver.kernels.loop.start import start_state
+from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
 from tests.solver.readable_mechanics import Instant, at_start
 
@@ -27,8 +33,8 @@ angles = numbers(-3.0, 3.0)
 
 
 @st.composite
-def trees(draw: st.DrawFn) -> Scene:
-    """Draw a scene: a tree of one to five bodies on the ground, perhaps a floating pair.
+def trees(draw: st.DrawFn, fewest: int = 1, kinds: tuple[str, ...] = KINDS) -> Scene:
+    """Draw a scene: a tree of some to five bodies on the ground, perhaps a floating pair.
 
     Every joint has points of its own; either end may come first; half of the joints are driven.
     A floating part hangs on the rest by a joint with play alone. Bodies and joints stand in the
@@ -67,7 +73,7 @@ def trees(draw: st.DrawFn) -> Scene:
         }
         return name
 
-    count = draw(st.integers(1, 5))
+    count = draw(st.integers(fewest, 5))
     floating_from = draw(st.integers(1, 6))
     for i in range(count):
         carriers = ["ground", *bodies]
@@ -95,7 +101,7 @@ def trees(draw: st.DrawFn) -> Scene:
             }
             continue
         carrier = draw(st.sampled_from(carriers))
-        kind = draw(st.sampled_from(KINDS))
+        kind = draw(st.sampled_from(kinds))
         ends = [carrier, name] if draw(st.booleans()) else [name, carrier]
         joints[f"J{i}"] = join(f"J{i}", kind, *ends)
         if kind != "fixed" and draw(st.integers(0, 2)) == 0:
@@ -130,6 +136,70 @@ def instants(draw: st.DrawFn, scenes: st.SearchStrategy[Scene]) -> Instant:
         {name: draw(st.sampled_from([0.0, 1.0])) for name in tree.play},
         {name: draw(numbers(0.01, 2.0)) for name in tree.play},
     )
+
+
+INDEPENDENT = 1e-6
+"""Smallest eigenvalue of J M^-1 J^T, rows scaled to a diagonal of 1, of a loop that is drawn."""
+
+
+@st.composite
+def closed(draw: st.DrawFn) -> Instant:
+    """Draw an instant of a tree in which one more joint closes a loop.
+
+    The joint holds two bodies as they happen to be, and speeds are brought to those that it allows.
+    """
+    drawn = draw(instants(trees(fewest=4, kinds=("revolute", "revolute", "prismatic"))))
+    document, motion = drawn.scene.model_dump(), drawn.reduced()
+    first, second = draw(st.permutations(["ground", *document["bodies"]]))[:2]
+    kind = draw(st.sampled_from(KINDS))
+    one, two = ENDS[kind]
+    place = draw(coordinates)
+    there = draw(coordinates) if kind == "prismatic" else [0.0, 0.0]
+    frames = {"ground": (np.zeros(2), 0.0)}
+    frames |= {n: (np.array(body.position), body.angle) for n, body in motion.bodies.items()}
+
+    def turned(angle: float, vector: Any) -> Any:
+        c, s = math.cos(angle), math.sin(angle)
+        return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
+
+    (origin, angle), (other, other_angle) = frames[first], frames[second]
+    here = origin + turned(angle, place)
+    reached = turned(-other_angle, here + turned(angle, there) - other).tolist()
+    for body, at, point in ((first, "from", place), (second, "to", reached)):
+        owner = document["ground"] if body == "ground" else document["bodies"][body]
+        owner["points"][at] = point
+    joint = {"type": kind, one: f"{first}.from", two: f"{second}.to"}
+    if kind == "prismatic":
+        assume(math.hypot(*there) > 0.1)
+        joint["axis"] = there
+    if kind != "revolute":
+        joint["angle"] = other_angle - angle
+    document["joints"]["Loop"] = joint
+    scene = Scene.model_validate(document)
+    tree = spanning_tree(scene)
+    assume(tree.closing)
+    pose, rates = (
+        np.array([x for n in scene.bodies for x in (*pair(motion.bodies[n]),)])
+        for pair in (
+            lambda body: (*body.position, body.angle),
+            lambda body: (*body.velocity, body.spin),
+        )
+    )
+    state = start_state(scene, tree.coordinates, pose, rates)
+    position, speed = (
+        dict(zip(tree.coordinates, half, strict=True)) for half in np.split(state, 2)
+    )
+    mechanism = ReducedMechanism(tree, view(scene), position, speed, drawn.driven)
+    loops = mechanism.loops()
+    matrix = np.zeros((len(loops.rows), len(loops.rows)))
+    for (i, j), value in loops.matrix.items():
+        matrix[i, j] = matrix[j, i] = value
+    size = np.sqrt(np.diag(matrix))
+    assume(size.min() > 0.0)
+    assume(np.linalg.eigvalsh(matrix / np.outer(size, size)).min() > INDEPENDENT)
+    changes = loops.correction([row.rate for row in loops.rows])
+    allowed = {n: v + change for (n, v), change in zip(speed.items(), changes, strict=True)}
+    return replace(drawn, scene=scene, position=position, speed=allowed)
 
 
 @st.composite

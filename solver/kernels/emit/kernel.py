@@ -19,10 +19,10 @@ from jointplay.solver.kernels.emit.places import DenseRow, places_of
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
     Equations,
+    needed_again,
     record,
     right_hand_side,
     slopes,
-    trigonometry,
 )
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.record.recorder import Expression
@@ -88,9 +88,10 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     drivers = len(equations.drivers)
     ledger = len(equations.ledger)
     stepping.allocate(layout, states, ledger, joints, tableau.stages)
-    angles = trigonometry(equations)
-    layout.add_block("trigonometry", len(angles))
-    known = {node: f"trigonometry{i}" for i, node in enumerate(angles)}
+    again = needed_again(equations)
+    layout.add_block("again", len(again))
+    known = {node: f"again{i}" for i, node in enumerate(again)}
+    layout.add_block("correction", len(equations.corrections))
     if isinstance(tableau, Rosenbrock):
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
@@ -113,7 +114,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         ("potential", equations.channels["energy.potential"]),
         ("stored", equations.channels["stored"]),
     ]
-    evaluated = right_hand_side(equations) + [(known[node], node) for node in angles]
+    evaluated = right_hand_side(equations) + [(known[node], node) for node in again]
     scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
     source = "\n\n".join(
         [

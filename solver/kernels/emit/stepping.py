@@ -9,7 +9,7 @@ from functools import reduce
 from itertools import count
 
 from jointplay.solver.integrators import Method
-from jointplay.solver.kernels.emit import enclosure
+from jointplay.solver.kernels.emit import closing, enclosure
 from jointplay.solver.kernels.emit.emit import (
     RETURNING,
     FixedNodes,
@@ -99,6 +99,8 @@ class StepRecorder:
         `energies` : what gravity and contacts store, at the stage.
         """
         parts = [*self._steps(), self._judge(), self._attempt(), self._remember()]
+        if self.equations.corrections:
+            parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])
 
     def _function(self, name: str, outputs: Outputs) -> str:
@@ -205,10 +207,12 @@ class StepRecorder:
     def _squared_error(self) -> Expression:
         """Square of the step's error, in tolerances."""
         squared = self._sum_of_squares(self.tableau.error)
-        if not self.tableau.coarse_error:
-            return squared
-        coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
-        return squared * (squared / (squared + coarse))
+        if self.tableau.coarse_error:
+            coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
+            squared = squared * (squared / (squared + coarse))
+        if self.equations.corrections:
+            squared = squared + closing.drift(self.variable, self.coordinates)
+        return squared
 
     def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
         """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
@@ -234,6 +238,8 @@ class StepRecorder:
     def _attempt(self) -> str:
         """Attempt a step; the largest flag of a lane."""
         calls = [f"    {call}" for call in self._calls()]
+        if self.equations.corrections:  # where the step ends, before its slopes are evaluated
+            calls.insert(-1, "    project(W)")
         return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
 
     def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
@@ -313,6 +319,10 @@ class StepRecorder:
         for i in range(self.states):
             slope = self._sum(weights, (self._slope(s, i) for s in count(1)))
             outputs.append((f"stage{i}", v(f"y{i}") + step * slope))
+        ramp = theta * theta * (3.0 - 2.0 * theta)
+        for i in range(len(self.equations.corrections)):
+            name, unclosed = outputs[1 + i]
+            outputs[1 + i] = (name, unclosed + ramp * v(f"correction{i}"))
         for j in range(self.joints):
             outputs.append((f"mode{j}", v(f"mode{j}")))
             outputs.append((f"impact_rate{j}", v(f"impact_rate{j}")))

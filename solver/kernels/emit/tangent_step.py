@@ -39,6 +39,7 @@ class TangentRecorder:
 
     def __init__(self, equations: Equations, kinks: int, layout: Layout) -> None:
         self.states, self.coordinates = equations.states, len(equations.coordinates)
+        self.closed = equations.loops is not None
         self.kinks, self.layout = kinks, layout
         self.recorder = Recorder()
 
@@ -50,7 +51,10 @@ class TangentRecorder:
         and ``accept`` tells which lanes take it.
         """
         calls = [line for s in range(STAGES) for line in (f"carry_{s}(W)", "carried_slopes(W)")]
-        body = "\n    ".join(["def tangent_step(W):", "kinks(W)", *calls, "arrive(W)"])
+        calls.append("arrive(W)")
+        if self.closed:
+            calls.append("hold_tangent(W)")
+        body = "\n    ".join(["def tangent_step(W):", "kinks(W)", *calls])
         parts = [self._begin(), *(self._carry(s) for s in range(1, STAGES)), self._arrive()]
         return "\n\n".join([*parts, f"{DECORATOR}\n{body}\n"])
 

@@ -28,6 +28,7 @@ from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.recorder import Expression
+from jointplay.solver.quantities.scalars import select_positive
 from jointplay.solver.scene.document import Scene
 
 
@@ -67,6 +68,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
             HEADER,
             kinks.kink_function(bends, layout, fixed),
             slope_function(equations, bends, layout, fixed),
+            *([] if equations.loops is None else [hold_function(equations, layout, fixed)]),
             tangent_step.TangentRecorder(equations, len(bends), layout).source(),
             gap_function(equations, layout, fixed),
         ]
@@ -110,6 +112,28 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
     # the slopes of coordinates are the carried speeds
     tape.store([(f"carried_slope{i}", derivative(rate)) for i, rate in equations.slopes])
     return tape.function("carried_slopes")
+
+
+def hold_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of hold_tangent(W): in lanes that accept, the tangent keeps loops closed.
+
+    At the state in the base's stage; the change is the least that takes away the derivatives of the
+    loops' equations, and of their rates, along the tangent.
+    """
+    recorder, loops = equations.recorder, equations.loops
+    assert loops is not None  # noqa: S101  (asked before)
+    count = len(equations.coordinates)
+    tangent = [recorder.variable(f"tangent{i}") for i in range(2 * count)]
+    changes = loops.correction(loops.along(tangent[:count]))
+    turned = [recorder.lift(old + new) for old, new in zip(tangent, changes, strict=False)]
+    along = Derivative({f"stage{i}": w for i, w in enumerate([*turned, *tangent[count:]])})
+    changes += loops.correction([along(recorder.lift(row.rate)) for row in loops.rows])
+    taken = recorder.variable("accept")
+    outputs = [
+        (f"tangent{i}", select_positive(taken, old + new, old))
+        for i, (old, new) in enumerate(zip(tangent, changes, strict=True))
+    ]
+    return lane_function("hold_tangent", outputs, layout, fixed)
 
 
 def gap_function(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:

@@ -13,11 +13,16 @@ from jointplay.solver.scene.references import tangent_obstacle
 
 Floats = NDArray[np.float64]
 
+CLOSING_STEPS = 8
+"""Newton steps that close the loops of a given start."""
+
 
 def begin(lane: Lane, problem: LaneProblem) -> None:
     """Evaluate a lane's start: first slopes, contacts that begin closed, first records."""
     module, start = lane.kernel.module, problem.start
     lane["stage"] = lane["y"]
+    if start is not None and lane.kernel.equations.loops is not None:
+        _close_loops(lane)
     floor = lane["impact_floor"]
     lane["mode"], lane["impact_rate"] = 0.0, floor
     module.right_hand_side(lane.work)
@@ -46,6 +51,17 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
         _start_tangent(lane, problem.scene)
 
 
+def _close_loops(lane: Lane) -> None:
+    """Move a start to where loops are closed, and leave the stages of other lanes alone."""
+    stages = lane.work[lane.kernel.layout.block("stage")]
+    others = stages.copy()
+    for _ in range(CLOSING_STEPS):
+        lane.kernel.module.project(lane.work)
+    lane["y"] = lane["stage"]
+    stages[:] = others
+    lane["stage"] = lane["y"]
+
+
 def _start_tangent(lane: Lane, scene: Scene) -> None:
     """Give a lane its first tangent; its state is in the stage still.
 
@@ -55,5 +71,12 @@ def _start_tangent(lane: Lane, scene: Scene) -> None:
     start_tangent(lane.index, lane.places[0], lane.work)
     lane.tangents.module.kinks(lane.work)
     lane["kink_start"] = lane["kink_end"]
+    if lane.kernel.equations.loops is not None:
+        accepting = lane.work[lane.places[0]["accept"]]
+        others = accepting.copy()
+        accepting[:] = 0.0
+        lane["accept"] = 1.0
+        lane.tangents.module.hold_tangent(lane.work)
+        accepting[:] = others
     if tangent_obstacle(scene):
         lane["tangent"] = math.nan

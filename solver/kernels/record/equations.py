@@ -12,11 +12,14 @@ from jointplay.solver.kernels.record.recorder import (
     too_many,
 )
 from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
+from jointplay.solver.mechanics.loops import Loops, closing_rows
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import form, view
+from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import inner_states
 
@@ -49,6 +52,12 @@ class Equations:
     """Motion of each joint's journal in its bearing, as `MOTION` says."""
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
+    loops: Loops | None
+    """Joints that close loops, at the stage; none in an open scene."""
+    multipliers: tuple[Expression, ...]
+    """Of their rows."""
+    corrections: tuple[Expression, ...]
+    """What brings coordinates and speeds back where loops are closed; none in an open scene."""
 
     @property
     def states(self) -> int:
@@ -99,6 +108,7 @@ def record(
     rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.play)}
 
     mechanism: LagrangeMechanism | ReducedMechanism
+    loops, corrections = None, []
     if lagrange:
         mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[speeds], driven)
         motion = observed = mechanism.motion(modes, rates, inner)
@@ -109,6 +119,9 @@ def record(
         motion = mechanism.motion(modes, rates, inner)
         known = [recorder.variable(f"slope{count + i}") for i in range(count)]
         observed = mechanism.motion(modes, rates, inner, known)
+        if tree.closing:
+            loops = mechanism.loops()
+            corrections = _corrections(mechanism, loops)
     lift = recorder.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
     windings = {} if lagrange else _windings(scene, tree, recorder)
@@ -136,7 +149,24 @@ def record(
             for found in motion.contacts.values()
         ),
         channels,
+        loops,
+        tuple(lift(multiplier) for multiplier in motion.multipliers),
+        tuple(lift(correction) for correction in corrections),
     )
+
+
+def _corrections(mechanism: ReducedMechanism, loops: Loops) -> list[Scalar]:
+    """Return one Newton step of the coordinates, and then of the speeds, that closes loops.
+
+    Both with the Jacobian before: at what one step of integration leaves, its error is as small as
+    the drift, so that what remains is the drift's square.
+    """
+    k = mechanism.kinematics
+    moves = loops.correction([row.value for row in loops.rows])
+    position = {n: q + move for (n, q), move in zip(k.position.items(), moves, strict=True)}
+    speed = {name: k.speed[name] for name in k.tree.coordinates}
+    moved = Kinematics(k.tree, k.numbers, position, speed, k.driven)
+    return [*moves, *loops.correction([row.rate for row in closing_rows(moved)])]
 
 
 def _path(
@@ -187,14 +217,15 @@ def right_hand_side(equations: Equations) -> list[tuple[str, Expression]]:
     return outputs
 
 
-def trigonometry(equations: Equations) -> list[Expression]:
-    """Return the sines and cosines in the right-hand side: what observing needs again."""
+def needed_again(equations: Equations) -> list[Expression]:
+    """Return what observing needs of the right-hand side: sines, cosines, multipliers."""
     functions = equations.recorder.functions
-    return [
+    angles = [
         node
         for node in reachable(expression for _, expression in right_hand_side(equations))
         if node.index in functions and functions[node.index].name in ("sin", "cos")
     ]
+    return [*angles, *(node for node in equations.multipliers if not node.fixed)]
 
 
 SURELY_SHORT = 7
@@ -215,11 +246,16 @@ def statements(scene: Scene, tree: Tree, formulation: str) -> int:
     key = (form(scene), tree, formulation)
     if key in _lengths:
         return _lengths[key]
-    # a third of what is recorded may never be used
-    equations = record(scene, tree, formulation, Recorder(2 * MOST_STATEMENTS))
-    total = 0
-    for expressions in ([e for _, e in slopes(equations)], equations.channels.values()):
-        count = len(reachable(expressions))
+    # a third of what is recorded may never be used; closing loops records half as much again
+    most = (3 if tree.closing else 2) * MOST_STATEMENTS
+    equations = record(scene, tree, formulation, Recorder(most))
+    found = frozenset(needed_again(equations)) if tree.closing else frozenset()
+    total = len(reachable(equations.corrections))
+    for expressions, known in (
+        ([e for _, e in slopes(equations)], frozenset()),
+        (equations.channels.values(), found),
+    ):
+        count = len(reachable(expressions, known))
         if count > MOST_STATEMENTS:
             raise too_many(count)
         total += count

@@ -2,7 +2,8 @@
 
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
 from jointplay.solver.laws.force.spring_damper import SpringDamper
+from jointplay.solver.laws.force.torque import Torque
 
-ELEMENTS: dict[str, type[ForceElement]] = {"spring-damper": SpringDamper}
+ELEMENTS: dict[str, type[ForceElement]] = {"spring-damper": SpringDamper, "torque": Torque}
 
 __all__ = ["ELEMENTS", "Effect", "Ends", "ForceElement"]

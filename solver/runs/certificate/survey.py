@@ -13,7 +13,10 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.kinematics import Kinematics
+from jointplay.solver.mechanics.loops import ClosingRow, closing_rows
+from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.runs.certificate.certificate import Certificate, certify
 from jointplay.solver.runs.certificate.companions import RUN, Companions
@@ -24,11 +27,14 @@ from jointplay.solver.scene.document import Scene
 class Violation:
     """The largest violation of a scene's constraints at all dense states seen so far."""
 
-    def __init__(self, scene: Scene, row: DenseRow) -> None:
+    def __init__(self, scene: Scene, formulation: str, row: DenseRow) -> None:
         self.row = row
         self.numbers = view(scene)
         self.drivers: Sequence[str] = tuple(scene.drivers)
-        self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=False)
+        self.tree = spanning_tree(scene)
+        self.absolute: AbsoluteMechanism | None = None
+        if formulation == "lagrange":
+            self.absolute = AbsoluteMechanism(scene, self.numbers, close_play=False)
         self.largest = np.zeros(2)
         """Largest violation of positions, m, and of angles, rad."""
 
@@ -41,13 +47,21 @@ class Violation:
             name: angles[:, k] + self.numbers.drivers[name].speed * rows[:, TIME]
             for k, name in enumerate(self.drivers)
         }
-        half = 3 * len(self.mechanism.bodies)
-        states = self.row.states(rows).T
-        q, v = states[:half], states[half : 2 * half]
-        for row in self.mechanism.rows(list(q), list(v), driven):
+        for row in self._rows(list(self.row.states(rows).T), driven):
             kind = 1 if row.part == "angle" else 0
             worst = float(np.max(np.abs(row.value)))
             self.largest[kind] = max(self.largest[kind], worst)
+
+    def _rows(
+        self, states: list[Floats], driven: Mapping[str, Floats]
+    ) -> Sequence[Row] | Sequence[ClosingRow]:
+        if self.absolute is not None:
+            half = 3 * len(self.absolute.bodies)
+            return self.absolute.rows(states[:half], states[half : 2 * half], driven)
+        names = self.tree.coordinates
+        position = dict(zip(names, states, strict=False))
+        speed = dict(zip(names, states[len(names) :], strict=False))
+        return closing_rows(Kinematics(self.tree, self.numbers, position, speed, driven))
 
 
 class Survey:
@@ -58,8 +72,9 @@ class Survey:
         self.bundle, self.problem = bundle, problem
         self.tangents = compile_tangents(bundle.kernel)
         self.companions = Companions.beside(bundle, problem)
-        lagrange = formulation == "lagrange"
-        self.violation = Violation(problem.scene, bundle.kernel.row) if lagrange else None
+        self.violation: Violation | None = None
+        if formulation == "lagrange" or spanning_tree(problem.scene).closing:
+            self.violation = Violation(problem.scene, formulation, bundle.kernel.row)
         self.windows: Windows | None = None
         self.goes_on = True
         """True while something is left to compute."""

@@ -10,6 +10,7 @@ import pytest
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
+from tests.solver.closed_loops import four_bars, parallel_cranks
 
 JOB: dict[str, Any] = {
     "kind": "simulate",
@@ -257,13 +258,42 @@ def test_a_bad_scene_is_refused_at_its_field(case: str) -> None:
     assert_points(refused.value, pointer, words)
 
 
+def of_scene(scene: dict[str, Any]) -> dict[str, Any]:
+    return {"kind": "simulate", "scene": scene, "duration": 1.0}
+
+
 @pytest.mark.parametrize("joint", ["A", "B"])
-def test_a_loop_that_stays_closed_and_moves_is_refused_for_now(joint: str) -> None:
+def test_a_loop_may_stay_closed_and_move(joint: str) -> None:
     document = copy.deepcopy(JOB)
     document["scene"]["parameters"] = {f"clearance_{joint}": 0.0}
+    assert admit(document).joints == ("B" if joint == "A" else "A",)
+
+
+@pytest.mark.parametrize("count", [3, 5])
+def test_constraints_may_be_redundant_where_they_stay_so(count: int) -> None:
+    assert admit(of_scene(parallel_cranks(count))).joints == ()
+
+
+def test_a_start_where_assemblies_meet_is_refused() -> None:
+    scene = four_bars(1, 1.0)
+    scene["start"]["angles"] = {"B0": 0.0, "B1": 0.0, "C0": 0.0}
     with pytest.raises(InvalidInput) as refused:
-        admit(document)
-    assert_points(refused.value, "/scene/joints", "loop")
+        admit(of_scene(scene))
+    assert_points(refused.value, "/scene/start/angles", "more than one assembly")
+
+
+def test_a_structure_that_gives_way_only_by_its_first_derivatives_is_refused() -> None:
+    rod = {"mass": 1.0, "inertia": 0.1, "points": {"a": [-0.5, 0.0], "b": [0.5, 0.0]}}
+    ends = ("ground.a", "one.a"), ("one.b", "two.a"), ("two.b", "ground.b")
+    joints = {
+        f"J{i}": {"type": "revolute", "bearing": first, "journal": second}
+        for i, (first, second) in enumerate(ends)
+    }
+    ground = {"points": {"a": [0.0, 0.0], "b": [2.0, 0.0]}}
+    scene = {"name": "taut", "ground": ground, "bodies": {"one": rod, "two": rod}, "joints": joints}
+    with pytest.raises(InvalidInput) as refused:
+        admit(of_scene(scene))
+    assert_points(refused.value, "/scene/joints", "over-constrained")
 
 
 @pytest.mark.parametrize("document", [None, [], "job", 3.0, {}, {"scene": []}, {"scene": None}])

@@ -12,6 +12,7 @@ from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.force import ELEMENTS, Ends
 from jointplay.solver.laws.force.spring_damper import SpringDamper
+from jointplay.solver.laws.force.torque import Torque
 from tests.solver.completed_runs import Run, run
 from tests.solver.laws.specification import ElementSpecification
 
@@ -33,8 +34,19 @@ class TestSpringDamper(ElementSpecification):
     )
 
 
+class TestTorque(ElementSpecification):
+    model = Torque
+    elements = st.builds(
+        Torque,
+        type=st.just("torque"),
+        first=st.just("ground.O"),
+        second=st.just("mass.eye"),
+        moment=st.floats(-1e3, 1e3),
+    )
+
+
 def test_every_element_in_the_roster_is_specified() -> None:
-    assert set(ELEMENTS.values()) == {TestSpringDamper.model}
+    assert set(ELEMENTS.values()) == {TestSpringDamper.model, TestTorque.model}
 
 
 def oscillator(**element: Any) -> dict[str, Any]:
@@ -153,6 +165,36 @@ def test_the_driver_of_an_ideal_mechanism_works_against_a_spring() -> None:
     np.testing.assert_allclose(found["spring.force"], tension, rtol=1e-10)
     # the motor supplies the power that the tension takes: T dL/dt = torque * speed
     np.testing.assert_allclose(found["motor.torque"] * 2.0, tension * rate, atol=1e-9)
+
+
+@formulations
+def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
+    """Two wheels on one axle: each gets the torque, in opposite directions."""
+    moment, inertias = 0.3, {"rotor": 0.2, "stator": 0.5}
+    wheels = {
+        name: {"mass": 1.0, "inertia": inertia, "points": {"O": [0.0, 0.0]}}
+        for name, inertia in inertias.items()
+    }
+    bearings = {
+        f"bearing_{name}": {"type": "revolute", "bearing": "ground.O", "journal": f"{name}.O"}
+        for name in wheels
+    }
+    motor = {"type": "torque", "first": "stator.O", "second": "rotor.O", "moment": moment}
+    scene = {
+        "name": "wheels",
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": wheels,
+        "joints": bearings,
+        "forces": {"motor": motor},
+    }
+    found = computed(scene, 2.0, formulation)
+    for name, sense in (("rotor", 1.0), ("stator", -1.0)):
+        rate = sense * moment / inertias[name]
+        np.testing.assert_allclose(found[f"{name}.theta"], 0.5 * rate * found.time**2, atol=1e-7)
+    work = 0.5 * (moment * 2.0) ** 2 * sum(1.0 / inertia for inertia in inertias.values())
+    energy = found.statistics["energy"]
+    assert energy["element_loss"] == pytest.approx(-work, rel=1e-7)
+    assert energy["kinetic_change"] == pytest.approx(work, rel=1e-7)
 
 
 @pytest.mark.parametrize(

@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.scene.references import ends, has_play
-from tests.solver.random_mechanisms import instants, near_start, trees
+from tests.solver.random_mechanisms import closed, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset
 
 ROUNDING = 1e-9
 """Relative to the largest term. Masses, inertias and lever arms of the drawn mechanisms differ by
 at most 1e3 and five bodies in a chain multiply condition numbers to about 1e6 times 2e-16."""
 
-anywhere = instants(trees())
+anywhere = st.one_of(instants(trees()), closed())
 presets_near_start = st.one_of(
     near_start(preset("seven-bar-press", friction=0.1), 1e-3),
     near_start(preset("slider-crank"), 1e-3),
@@ -33,6 +33,8 @@ def numbers_of(motion: Motion) -> dict[str, np.ndarray]:
         found[f"{name} acceleration"] = np.array([*body.acceleration, body.angular_acceleration])
     for name, force in motion.joint_force.items():
         found[f"{name} force"] = np.array(force)
+    for name, moment in motion.held_moment.items():
+        found[f"{name} moment"] = np.array([moment])
     for name, effort in motion.driver_effort.items():
         found[f"{name} effort"] = np.array([effort])
     for name, contact in motion.contacts.items():

@@ -12,6 +12,11 @@ CASES: dict[str, tuple[str, float, dict[str, Any], str]] = {
     "bouncing": ("bouncing-journal", 0.2, {"velocity_x": 0.1, "spin": 30.0}, "reduced"),
     "slider-crank": ("slider-crank", 0.024, {}, "reduced"),
     "press": ("seven-bar-press", 0.5, CASE_3, "reduced"),
+    "press with one loop closed": ("seven-bar-press", 0.5, {"clearance_B": 0.0}, "reduced"),
+    "squeezer": ("andrews-squeezer", 0.05, {}, "reduced"),
+    "double four-bar": ("double-four-bar", 3.0, {}, "reduced"),
+    "quick return": ("quick-return", 0.3, {}, "reduced"),
+    "leg": ("jansen-leg", 0.5, {}, "reduced"),
     "press in absolute coordinates": ("seven-bar-press", 0.5, CASE_3, "lagrange"),
     "press with a step of friction": (
         "seven-bar-press",

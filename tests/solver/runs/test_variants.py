@@ -209,6 +209,10 @@ def test_both_formulations_give_the_same_run_across_periods(name: str) -> None:
         "slider-crank": 0.003,
         "bouncing-journal": 0.03,
         "pendulum": 3.0,
+        "andrews-squeezer": 0.01,
+        "double-four-bar": 1.0,
+        "quick-return": 0.05,
+        "jansen-leg": 0.05,
     }[name]
     parameters: dict[str, float] = {}
     if name.startswith("seven-bar-press"):

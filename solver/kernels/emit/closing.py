@@ -1,0 +1,42 @@
+"""Closes loops where a step ends, and says whether the step had to be moved too far for that."""
+
+from collections.abc import Callable
+
+from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.recorder import Expression
+
+MOVED = 0.01
+"""Share of a step's way by which closing loops may move its end."""
+
+
+def source(equations: Equations, layout: Layout, fixed: FixedNodes) -> str:
+    """Return the source of project(W): moves the stage to where loops are closed.
+
+    ``correction`` keeps by how much; dense output ends at the projected stage with it.
+    """
+    outputs: list[tuple[str, Expression]] = []
+    for i, correction in enumerate(equations.corrections):
+        stage = equations.recorder.variable(f"stage{i}")
+        outputs += [(f"correction{i}", correction), (f"stage{i}", stage + correction)]
+    return lane_function("project", outputs, layout, fixed)
+
+
+def drift(v: Callable[[str], Expression], coordinates: int) -> Expression:
+    """Return the square of how far the step's end was moved: in tolerances, at most one.
+
+    Or in shares of the step's own way: where assemblies meet, rounding alone moves it by more than
+    a small tolerance, but a step that ends in another assembly was moved far.
+    """
+    total: Expression = 0.0 * v("tried")
+    for first, speeds_to_states in ((0, v("tried")), (coordinates, 1.0)):
+        moved: Expression = 0.0 * v("tried")
+        way: Expression = moved
+        for i in range(coordinates):
+            weight = (v("full") / v("fastest")) * v(f"weight{first + i}")
+            correction = v(f"correction{first + i}") * weight
+            motion = speeds_to_states * v(f"stage{coordinates + i}") * weight
+            moved, way = moved + correction * correction, way + motion * motion
+        total = total + moved / (1.0 + MOVED * MOVED * way)
+    return total

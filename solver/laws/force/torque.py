@@ -1,0 +1,29 @@
+"""A constant torque between two bodies."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
+
+
+class Torque(ForceElement):
+    """M = constant, on the second point's body; its opposite acts on the first's.
+
+    Assumes that it keeps its value at any speed and angle; where the points are does not matter.
+    Fails for motors and brakes near the speeds where their characteristics bend: nothing holds the
+    speed that it gives.
+
+    Source: the definition of a couple's work, dW = M dθ; Goldstein 1980, Classical Mechanics, 1.1.
+    """
+
+    type: Literal["torque"]
+    moment: Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("moment", "N m", "moment on the second point's body"),
+    )
+
+    def effect(self, ends: Ends) -> Effect:
+        """Return the moment; what it puts in is a loss below zero."""
+        power = self.moment * (ends.spins[1] - ends.spins[0])
+        return Effect((0.0, 0.0), {"moment": self.moment}, loss=-power, moment=self.moment)
