@@ -50,7 +50,7 @@ class Checked:
 
     jobs: Collection[NewJob]
     fingerprint: str
-    """Of the document and where it was sent; empty if nobody asked for it."""
+    """Digest of the document and where it was sent; empty if nobody asked for it."""
     reuse: bool = False
     """Whether an identical job will do."""
     label: str = ""

@@ -71,7 +71,7 @@ def load(source: str) -> ModuleType:
 
 @dataclass
 class Spent:
-    """What this process has spent so far: `seconds` of processor time on compiling sources."""
+    """Cost of this process so far: `seconds` of processor time on compiling sources."""
 
     seconds: float = 0.0
 

@@ -24,7 +24,7 @@ _live = _block.c.state.in_((BlockState.queued, BlockState.running))
 
 @dataclass(frozen=True)
 class Patience:
-    """How long things may take before something is wrong, s, and losses that a block may have."""
+    """Times that things may take before something is wrong, s, and losses that a block may have."""
 
     lease: float
     republish_after: float

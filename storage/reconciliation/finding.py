@@ -7,7 +7,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Finding:
-    """What is wrong with what, and what comes of it.
+    """Something that is wrong, with what, and what comes of it.
 
     `mended` says what `mend` does to it, as a participle; `advice` what is left to the user, most
     often a command.
