@@ -1,24 +1,13 @@
 """What a finished job computed, read over HTTP; and what is answered while it is not finished."""
 
-from typing import Any
-
-import httpx
 import pytest
 
 from jointplay.records.job import JobError
 from jointplay.service.results import schemas
 from jointplay.storage.catalogue.records import BlockState
+from tests.service.answers import get
 
 RESULTS = ["history", "peaks", "poincare", "impacts", "statistics", "figures", "figures/orbit.png"]
-
-
-def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[str, Any]:
-    answer = http.get(path, params=query)
-    assert answer.status_code == status, answer.text
-    kind = "application/json" if status < 400 else "application/problem+json"
-    assert answer.headers["Content-Type"] == kind
-    document: dict[str, Any] = answer.json()
-    return document
 
 
 @pytest.mark.parametrize(

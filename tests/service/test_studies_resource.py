@@ -1,27 +1,14 @@
-"""Studies read over HTTP: while they wait, run, when they are done, and what is refused."""
-
-from typing import Any
+"""Studies read over HTTP when they are done, and what is refused."""
 
 import httpx
 import numpy as np
 import pytest
-import zarr
 
-from jointplay.records.job import JobError
 from jointplay.service.studies import schemas
-from jointplay.storage.catalogue.records import BlockState
-from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, known_section
+from tests.service.answers import get
+from tests.service_in_thread import BIFURCATION, known_section
 
 OBSERVED = "A.eccentricity_x"
-
-
-def get(http: httpx.Client, path: str, status: int = 200, **query: Any) -> dict[str, Any]:
-    answer = http.get(path, params=query)
-    assert answer.status_code == status, answer.text
-    kind = "application/json" if status < 400 else "application/problem+json"
-    assert answer.headers["Content-Type"] == kind
-    document: dict[str, Any] = answer.json()
-    return document
 
 
 def column_of(http: httpx.Client, job: str, observable: str) -> int:
@@ -146,16 +133,6 @@ def test_a_sweep_has_the_statistics_that_it_was_asked_for(http, finished_sweep):
     assert found["B.contact_share"]["long_name"].startswith("share of the time in contact")
 
 
-def test_statistics_of_a_running_sweep_are_arrays_with_units(http, service_url, worker):
-    job = worker.submit(**SWEEP)
-    worker.compute(worker.start(job), points=3)
-    store = zarr.open_group(f"{service_url}/v1/jobs/{job}/zarr", mode="r", zarr_format=3)
-    mean = store["statistics/A.normal_force.mean"]
-    assert mean.attrs["units"] == "N"
-    assert mean[:3].tolist() == [0.0, 0.5, 1.0]
-    assert np.isnan(mean[3:]).all()
-
-
 def test_many_points_come_in_pages(http, worker, monkeypatch):
     monkeypatch.setattr("jointplay.service.studies.queries.MOST_VALUES", 100)
     job = worker.finished_study(**BIFURCATION)
@@ -182,47 +159,6 @@ def test_continuation_in_both_directions_says_which_point_is_which(http, worker)
     assert found["directions"] == ["forward"] * 20 + ["backward"] * 20
     values = found["values"]["clearance"]["values"]
     assert values[:20] == values[20:]
-
-
-def test_a_study_can_be_read_while_it_runs(http, worker):
-    job = worker.submit(**BIFURCATION)
-    waiting = get(http, f"/v1/jobs/{job}/bifurcation", 409)
-    assert "first ones are computed" in waiting["detail"]
-    worker.compute(worker.start(job, 1), points=3, sections=2)
-    found = get(http, f"/v1/jobs/{job}/bifurcation", observable=OBSERVED)
-    assert found["complete"] is False
-    assert found["status"] == ["waiting"] * 8 + ["done"] * 2 + ["running"] + ["waiting"] * 9
-    assert [len(row) for row in found["sections"]["values"]] == [0] * 8 + [6, 6, 2] + [0] * 9
-    assert found["indicators"]["lyapunov"]["values"][9:11] == [0.9, None]
-    assert http.get(f"/v1/jobs/{job}/figures/bifurcation.png").content.startswith(b"\x89PNG")
-    claim = worker.start(job, 0)
-    worker.compute(claim)
-    worker.finish(claim, BlockState.done)
-    found = get(http, f"/v1/jobs/{job}/bifurcation", observable=OBSERVED)
-    assert found["status"] == ["done"] * 10 + ["running"] + ["waiting"] * 9
-
-
-@pytest.mark.parametrize("ending", ["cancelled", "failed"])
-def test_a_study_that_ended_early_keeps_what_it_has(http, worker, ending):
-    job = worker.submit(**BIFURCATION)
-    claim = worker.start(job, 0)
-    worker.compute(claim, points=3)
-    error = JobError("platform", "storage", "The disk is full.")
-    if ending == "cancelled":
-        http.post(f"/v1/jobs/{job}/cancel")
-        worker.finish(claim, BlockState.cancelled)
-    else:
-        worker.finish(claim, BlockState.failed, error)
-    assert get(http, f"/v1/jobs/{job}")["state"] == ending
-    found = get(http, f"/v1/jobs/{job}/bifurcation")
-    assert found["complete"] is False
-    assert found["status"][:4] == ["done", "done", "done", "waiting"]
-
-
-def test_a_study_cancelled_before_it_began_has_no_results(http, worker):
-    job = worker.submit(**SWEEP)
-    http.post(f"/v1/jobs/{job}/cancel")
-    assert get(http, f"/v1/jobs/{job}/sweep", 404)["type"] == "/problems/no-results"
 
 
 @pytest.mark.parametrize(
@@ -348,12 +284,3 @@ def test_an_accuracy_study_tells_what_each_run_costs_and_recommends_one(http, fi
     assert [figure["name"] for figure in figures] == ["work-precision"]
     assert http.get(figures[0]["png"]).content.startswith(b"\x89PNG")
     assert b"<svg" in http.get(figures[0]["svg"]).content
-
-
-def test_an_accuracy_study_is_read_as_far_as_it_is_measured(http, worker):
-    job = worker.submit(**ACCURACY_STUDY)
-    assert get(http, f"/v1/jobs/{job}/accuracy", 409)["type"] == "/problems/results-not-ready"
-    worker.compute(worker.start(job), points=4)
-    found = get(http, f"/v1/jobs/{job}/accuracy")
-    assert (found["complete"], len(found["points"]), found["advice"]) == (False, 2, None)
-    assert http.get(f"/v1/jobs/{job}/figures/work-precision.png").is_success

@@ -53,8 +53,9 @@ class MadeUpStudy:
         self.steps = random.integers(1, 100, points).astype(float)
         self.exponents = random.normal(size=points)
 
-    def slices(self, index, step=3, lanes=8):
+    def slices(self, index, step=None, lanes=8):
         """Compute a block as lanes do: several points at a time, each at its own pace."""
+        step = step or max(3, self.layout.record // 50)
         first, count = self.layout.blocks[index]
         waiting = list(range(first, first + count))
         reached = {}

@@ -1,0 +1,54 @@
+"""Jobs that are admitted: every default filled in, and one digest for one computation."""
+
+from typing import Any
+
+import pytest
+
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene import presets
+
+JOB: dict[str, Any] = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press", "parameters": {}},
+    "duration": 2.0,
+}
+
+
+@pytest.mark.parametrize("name", presets.names())
+def test_admission_fills_in_everything_and_is_idempotent(name: str) -> None:
+    first = admit({"kind": "simulate", "scene": {"preset": name}, "duration": 1.0})
+    again = admit(first.job)
+    assert again == first
+    declared = presets.document(name)["parameters"]
+    assert first.job["scene"]["parameters"].keys() == declared.keys()
+    assert first.job["tolerance"] == 1e-6
+    assert first.job["output_step"] == 1.0 / 2000
+    assert first.job["formulation"] == "reduced"
+    assert len(first.job["channels"]) == len(first.channels)
+
+
+def test_the_digest_ignores_the_label_and_spelled_out_defaults_but_nothing_else() -> None:
+    first = admit(JOB)
+    assert admit({**JOB, "label": "a name"}).digest == first.digest
+    assert admit({**JOB, "accuracy": "standard"}).digest == first.digest
+    assert admit({**JOB, "duration": 2}).digest == first.digest
+    assert admit({**JOB, "tolerance": 1e-7}).digest != first.digest
+    changed = {**JOB, "scene": {"preset": "seven-bar-press", "parameters": {"friction": 0.02}}}
+    assert admit(changed).digest != first.digest
+
+
+def test_a_parameter_overrides_and_follows_as_declared() -> None:
+    def joints(**parameters: float) -> list[float]:
+        scene = {"preset": "seven-bar-press", "parameters": parameters}
+        found = admit({**JOB, "scene": scene}).scene_document()
+        return [found["joints"][j]["clearance"]["radial_clearance"] for j in "AB"] + [
+            found["drivers"][d]["speed"] for d in ("drive1", "drive4")
+        ]
+
+    assert joints(clearance=1e-4, speed=2.0) == [1e-4, 1e-4, 2.0, -2.0]
+    assert joints(clearance=1e-4, clearance_B=2e-4, speed=2.0, speed_crank4=3.0) == [
+        1e-4,
+        2e-4,
+        2.0,
+        3.0,
+    ]
