@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from closed_form_motion import SCENE
-from test_every_figure import drawn_with
+from drawn import drawn_with
 
 from jointplay.figures import Selection
 from jointplay.records.channel import Channel

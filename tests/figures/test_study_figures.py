@@ -1,111 +1,16 @@
-"""What figures of studies show, and the specification that every figure meets, for these too."""
+"""Figures of studies: what they show, and what they refuse."""
 
-import io
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from closed_form_study import accuracy_study, bifurcation, one_point, sweep
+from drawn import drawn_with, stand_apart
 from matplotlib.colors import to_hex
-from PIL import Image
-from test_every_figure import MILLIMETRES_AN_INCH, drawn_with, stand_apart, visible_texts
 
 from jointplay import figures
 from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
 from jointplay.records.channel import Channel
-
-UNITS = {"", "m", "mm", "m/s", "mm/s", "N", "kN", "1/s"}
-CASES = {
-    "bifurcation": (bifurcation(points=60), "bifurcation", None),
-    "with verdicts": (
-        bifurcation(points=60, judged=True, failed=(7, 30), unfinished=range(40, 50)),
-        "bifurcation",
-        None,
-    ),
-    "in both directions": (bifurcation(points=40, judged=True, both=True), "bifurcation", None),
-    "over decades": (
-        bifurcation(points=60, logarithmic=True, low=1e-6),
-        "bifurcation",
-        Selection(channels=("block.x",)),
-    ),
-    "one value": (bifurcation(points=1), "bifurcation", None),
-    "section": (one_point(record=100), "section", None),
-    "section of a value": (bifurcation(points=30), "section", Selection(start=29, stop=30)),
-    "section of an ensemble": (
-        one_point("ensemble", 9, record=50),
-        "section",
-        Selection(channels=("block.x", "block.vx")),
-    ),
-    "sweep": (sweep(failed=(7,), unfinished=range(20, 28)), "sweep", None),
-    "sweep of one point": (sweep((1,)), "sweep", None),
-    "statistic": (sweep(failed=(7,)), "left.normal_force.root_mean_square", None),
-    "statistics": (
-        sweep(),
-        "sweep",
-        Selection(channels=("left.normal_force.root_mean_square", "left.contact_share")),
-    ),
-    "work and precision": (accuracy_study(), "work-precision", None),
-    "work and precision so far": (accuracy_study(13), "work-precision", None),
-    "work and precision without losses": (accuracy_study(lossless=True), "work-precision", None),
-    "map of a statistic": (sweep((8, 6), failed=(3,)), "left.contact_share", None),
-    "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
-}
-
-
-@pytest.fixture(params=CASES.values(), ids=CASES)
-def case(request):
-    return request.param
-
-
-def test_it_is_as_wide_as_a_journal_column(case):
-    source, name, selection = case
-    picture = Image.open(io.BytesIO(figures.render(source, name, "png", selection)))
-    assert picture.width / page.DOTS_PER_INCH * MILLIMETRES_AN_INCH == pytest.approx(85.0, abs=0.1)
-    assert 30.0 < picture.height / page.DOTS_PER_INCH * MILLIMETRES_AN_INCH < 235.0
-
-
-def test_its_axes_say_quantity_and_unit(case):
-    for axes in drawn_with(*case).axes:
-        for label in (axes.get_xlabel(), axes.get_ylabel()):
-            if label:
-                quantity, _, unit = label.replace("\n", " ").partition(" [")
-                assert quantity
-                assert unit.removesuffix("]") in UNITS
-
-
-def test_its_text_is_readable_and_inside_the_page(case):
-    figure = drawn_with(*case)
-    width, height = figure.bbox.size
-    for text in visible_texts(figure):
-        assert text.get_fontsize() >= 6.0
-        box = text.get_window_extent()
-        assert -0.5 <= box.x0 <= box.x1 <= width + 0.5, text.get_text()
-        assert -0.5 <= box.y0 <= box.y1 <= height + 0.5, text.get_text()
-        assert "$" not in text.get_text()  # mathematics that nobody typesets
-
-
-def test_the_numbers_along_its_axes_stand_apart(case):
-    stand_apart(drawn_with(*case))
-
-
-@pytest.mark.parametrize("form", ["png", "svg"])
-def test_the_same_results_give_the_same_bytes(case, form):
-    source, name, selection = case
-    first = figures.render(source, name, form, selection)
-    assert figures.render(source, name, form, selection) == first
-
-
-def test_the_required_channels_are_all_it_reads(case):
-    source, name, selection = case
-    needed = figures.required(source, name, selection)
-    fewer = replace(
-        source,
-        section_values={one: v for one, v in source.section_values.items() if one in needed},
-        extremes={one: v for one, v in source.extremes.items() if one in needed},
-    )
-    assert figures.render(fewer, name, "png", selection) == figures.render(
-        source, name, "png", selection
-    )
 
 
 @pytest.mark.parametrize(
