@@ -4,8 +4,8 @@ import shutil
 import sqlite3
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 
 import pytest
 from one_block import run
@@ -42,7 +42,7 @@ def stored(catalogue: Catalogue, settings: Settings, job: str) -> dict[str, byte
 
 
 @contextmanager
-def held_by_another_program(settings: Settings) -> Iterator[None]:
+def held_by_another_program(settings: Settings, _: Catalogue) -> Iterator[None]:
     other = sqlite3.connect(settings.data / "catalogue.sqlite", isolation_level=None)
     other.execute("BEGIN EXCLUSIVE")
     try:
@@ -50,6 +50,18 @@ def held_by_another_program(settings: Settings) -> Iterator[None]:
     finally:
         other.execute("ROLLBACK")
         other.close()
+
+
+@contextmanager
+def out_of_reach(settings: Settings, catalogue: Catalogue) -> Iterator[None]:
+    """Lose the connections to the database, which cannot be made anew while the block runs."""
+    file = settings.data / "catalogue.sqlite"
+    catalogue.close()
+    shutil.move(file, settings.data / "elsewhere.sqlite")
+    file.mkdir()
+    yield
+    file.rmdir()
+    shutil.move(settings.data / "elsewhere.sqlite", file)
 
 
 def test_results_that_cannot_be_written_are_tried_again(
@@ -98,8 +110,12 @@ def test_a_full_disk_is_waited_for_with_ever_longer_pauses(
     stored(catalogue, settings, job)
 
 
-def test_a_catalogue_held_by_another_program_is_waited_for(
-    catalogue: Catalogue, settings: Settings, admission: Admission
+@pytest.mark.parametrize("lost", [held_by_another_program, out_of_reach])
+def test_a_catalogue_that_does_not_answer_is_waited_for(
+    catalogue: Catalogue,
+    settings: Settings,
+    admission: Admission,
+    lost: Callable[[Settings, Catalogue], AbstractContextManager[None]],
 ) -> None:
     job = submit(catalogue, admission)
     claim = catalogue.claim_block(f"{job}-0", "this process", settings.lease)
@@ -107,7 +123,7 @@ def test_a_catalogue_held_by_another_program_is_waited_for(
     computing = threading.Thread(
         target=BlockRun(catalogue, settings, claim, threading.Event()).run, daemon=True
     )
-    with held_by_another_program(settings):
+    with lost(settings, catalogue):
         computing.start()
         while not settings.sealed_run(job, 1).exists():  # it computes all of it meanwhile
             assert computing.is_alive()
