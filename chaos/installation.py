@@ -106,7 +106,8 @@ class Installation:
         """Kill the processes of some roles, or all."""
         kill(self.folder, *roles)
         if self._service is not None and (not roles or "supervisor" in roles):
-            self._service.wait()
+            with self._service:  # waits, and closes its pipes
+                pass
 
     def running(self, *roles: str) -> list[Process]:
         """Return the processes of these roles that run, or all."""

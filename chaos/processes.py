@@ -1,4 +1,7 @@
-"""The processes of one installation, known by a variable that all of them have inherited."""
+"""The processes of one installation, known by a variable that all of them have inherited.
+
+The broker writes its title over its command and variables; it is known by its working directory.
+"""
 
 import contextlib
 import os
@@ -48,10 +51,12 @@ def running(folder: Path, *roles: str) -> list[Process]:
     found: dict[int, tuple[int, str | None]] = {}
     for entry in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):  # it ended meanwhile, or it is another user's
-            if mark in (entry / "environ").read_bytes().split(b"\0"):
+            parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+            if (entry / "cwd").readlink() == folder / "data" / "broker":
+                found[int(entry.name)] = parent, "broker"
+            elif mark in (entry / "environ").read_bytes().split(b"\0"):
                 command = (entry / "cmdline").read_bytes().decode().split("\0")
-                fields = (entry / "stat").read_text().rsplit(")", 1)[1].split()
-                found[int(entry.name)] = int(fields[1]), _role(command)
+                found[int(entry.name)] = parent, _role(command)
     found.pop(os.getpid(), None)
     workers = {pid for pid, (_, role) in found.items() if role == "worker"}
     processes = []
@@ -68,7 +73,7 @@ def _role(command: list[str]) -> str | None:
     for module, role in _MODULES.items():
         if module in command:
             return role
-    return "broker" if "--unixsocket" in command else None
+    return None
 
 
 def kill(folder: Path, *roles: str) -> None:
