@@ -59,6 +59,14 @@ def _note_files(folder: Path) -> None:
 
 def _note_transactions(folder: Path) -> None:
     notes = os.open(folder / COMMITTED, os.O_WRONLY | os.O_APPEND)
+    indices: list[int] = []  # the last is the present one
+
+    def opened() -> int:
+        """Open the index, and never close it: that would end SQLite's locks on it."""
+        path = folder / INDEX
+        if not indices or not os.path.samestat(path.stat(), os.fstat(indices[-1])):
+            indices.append(os.open(path, os.O_RDONLY))
+        return indices[-1]
 
     class Connection(sqlite3.Connection):
         def commit(self) -> None:
@@ -66,8 +74,8 @@ def _note_transactions(folder: Path) -> None:
             if self.execute("PRAGMA synchronous").fetchone() == (_FULL,):
                 first = second = b""
                 while not first or first != second:  # it is just being written
-                    header = (folder / INDEX).read_bytes()[: 2 * INDEX_SIZE]
-                    first, second = header[:INDEX_SIZE], header[INDEX_SIZE:]
+                    copies = os.pread(opened(), 2 * INDEX_SIZE, 0)
+                    first, second = copies[:INDEX_SIZE], copies[INDEX_SIZE:]
                 os.write(notes, first)
 
     sqlite3.dbapi2.connect = partial(sqlite3.connect, factory=Connection)  # type: ignore[assignment]

@@ -91,3 +91,17 @@ with (data / "results" / "synced").open("wb") as file:
     cut_results(installation.folder)
     contents = {path.name: path.read_bytes() for path in results.iterdir()}
     assert contents == {"synced": b"durable", "written": b""}
+
+
+def test_taking_notes_leaves_sqlites_locks_alone(installation: Installation) -> None:
+    """Closing a file ends all locks that a process has on it, whoever took them."""
+    killed(
+        installation,
+        """
+submit()
+index = os.stat(data / "catalogue.sqlite-shm").st_ino
+locks = [one.split() for one in Path("/proc/locks").read_text().splitlines()]
+mine = [one[-2:] for one in locks if one[-4] == str(os.getpid()) and one[-3].endswith(f":{index}")]
+assert ["128", "128"] in mine, "the byte that says that the index is in use"
+""",
+    )
