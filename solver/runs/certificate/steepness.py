@@ -50,10 +50,9 @@ def steepness(
             moved.append(own[both])
             row.states(moved[-1])[:] += sense * apart
     found = _observed(companions.bundle, np.concatenate(moved), columns)
+    ends = np.cumsum([len(both) for both in places])
     largest = np.zeros_like(values)
-    for both, there in zip(
-        places, np.split(found, np.cumsum([len(m) for m in moved])), strict=False
-    ):
+    for both, there in zip(places, np.split(found, ends[:-1]), strict=True):
         largest[both] = np.fmax(largest[both], np.abs(there - values[both]))
     return largest
 
