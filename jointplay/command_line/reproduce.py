@@ -50,7 +50,7 @@ def reproduce(
     runs = output / "runs"
     line = f"the report is {page}; results of all jobs are in {runs}/"
     forces = (
-        "for forces take seven-bar-press-fitted: right at A, half of the printed ones at B"
+        "for forces take the fitted preset: right at A, half of the printed ones at B"
         " (docs/calibration.md)"
     )
     tell({"report": str(page), "runs": str(runs)}, [line, forces], as_json=as_json)
