@@ -52,7 +52,6 @@ class ResultWriter:
         StoreExists
             There is a store in it already.
         """
-        path = Path(path)
         if (path / DOCUMENTS).exists():
             raise StoreExists(f"{path} holds results already; choose another folder")
         writer = cls(path, layout)
