@@ -1,4 +1,5 @@
 from tests.service_in_thread import (
+    application,
     catalogue,
     finished_accuracy,
     finished_job,
@@ -12,6 +13,7 @@ from tests.service_in_thread import (
 )
 
 __all__ = [
+    "application",
     "catalogue",
     "finished_accuracy",
     "finished_job",

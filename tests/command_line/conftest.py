@@ -6,6 +6,7 @@ import pytest
 
 from jointplay.command_line.application import run
 from tests.service_in_thread import (
+    application,
     catalogue,
     finished_accuracy,
     finished_job,
@@ -18,6 +19,7 @@ from tests.service_in_thread import (
 )
 
 __all__ = [
+    "application",
     "catalogue",
     "finished_accuracy",
     "finished_job",

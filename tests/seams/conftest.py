@@ -10,9 +10,9 @@ from jointplay.client import Client, Job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
-from tests.service_in_thread import catalogue, http, service_url, settings
+from tests.service_in_thread import application, catalogue, http, service_url, settings
 
-__all__ = ["catalogue", "http", "platform", "service_url", "settings"]
+__all__ = ["application", "catalogue", "http", "platform", "service_url", "settings"]
 
 
 class Platform:
