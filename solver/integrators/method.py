@@ -3,6 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+LONGEST_SIGHT = 5
+"""Order up to which error control keeps steps so short that their ends tell what is between."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Method:
@@ -47,6 +50,11 @@ class Method:
     def fixed_step(self) -> bool:
         """Whether there is no error estimate: steps are as long as asked, onsets not located."""
         return not self.error
+
+    @property
+    def watched_closely(self) -> bool:
+        """Whether a step of a contact may be so long that it has extremes that its ends hide."""
+        return self.fixed_step or self.order > LONGEST_SIGHT
 
     @property
     def stages(self) -> int:

@@ -136,6 +136,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         "joints": joints,
         "drivers": drivers,
         "rows": rows.scanned,
+        "watched_closely": int(tableau.watched_closely),
     }
     return Kernel(
         load(source),

@@ -50,8 +50,9 @@ class DenseRow:
         return rows[..., self.state : self.mode]
 
 
-COUNTS = ("states", "ledger", "joints", "drivers", "rows")
-"""Numbers of states, terms of the ledger, joints with play, drivers, and scanned channels."""
+COUNTS = ("states", "ledger", "joints", "drivers", "rows", "watched_closely")
+"""Numbers of states, terms of the ledger, joints with play, drivers, and scanned channels; whether
+steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound

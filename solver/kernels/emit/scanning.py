@@ -8,7 +8,7 @@ Before the second step there is no change before: it is NaN, and no candidate.
 from jointplay.solver.kernels.emit.emit import Tape
 from jointplay.solver.kernels.lanes import WIDTHS
 from jointplay.solver.kernels.layout import Layout
-from jointplay.solver.kernels.record.recorder import Recorder
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.quantities.scalars import minimum, select_positive
 
 BLOCKS = ("channel", "previous", "change", "highest", "lowest")
@@ -16,12 +16,13 @@ BLOCKS = ("channel", "previous", "change", "highest", "lowest")
 BYTES = 8 * min(WIDTHS.values())
 """Marks in a slot, one byte for each row, whose bits are the lanes, at any width."""
 
-LOPSIDED, SPARE = 0.3, 0.02
-"""Reach of an extreme beyond the step end between the changes r (before) and c (after).
+REACH, SPARE = 3.0, 0.03
+"""How far an extreme is looked for beyond the step end between two steps.
 
-A parabola reaches (r + c)² / (8 (|r| + |c|)) beyond, nothing where the changes are equal and
-opposite; a sine sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. LOPSIDED
-covers that with room for unequal steps, SPARE the even case."""
+The parabola through three step ends reaches (r q² + c)² / (4 q (q + 1) |c - r q|) beyond the middle
+one, if the changes are r (before) and c (after) and the second step is q times as long; a sine
+sampled every 1.5 rad, the limit of stability, up to 1.6 times as far. REACH covers that, SPARE the
+even case."""
 
 
 def allocate(layout: Layout, rows: int, rest: int) -> None:
@@ -33,6 +34,12 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
     layout.add_block("channel", rows + rest)
     for block in (*BLOCKS[1:], "highest_time", "lowest_time"):
         layout.add_block(block, rows)
+
+
+def reach(step: Expression, before: Expression) -> list[tuple[str, Expression]]:
+    """Return what all rows need of the lengths of this step and of the one before."""
+    longer = step / before
+    return [("lengthening", longer), ("reach", 0.25 * REACH / (longer * (longer + 1.0)))]
 
 
 def source(layout: Layout, rows: int) -> str:
@@ -49,9 +56,11 @@ def _scan(name: str, layout: Layout, rows: int) -> str:
     value, before, rose, highest, lowest = (recorder.variable(f"{block}0") for block in BLOCKS)
     change = value - before
     nearest = minimum(highest - before, before - lowest)
-    both, uneven = abs(rose - change), rose + change  # the signs differ where it turned
-    found = LOPSIDED * uneven * uneven + (SPARE * both - nearest) * both
-    found = select_positive(rose * change, 0.0, found)
+    longer, far = recorder.variable("lengthening"), recorder.variable("reach")
+    onwards = longer * rose
+    both, uneven = abs(onwards - change), longer * onwards + change
+    found = far * uneven * uneven + (SPARE * both - nearest) * both
+    found = select_positive(rose * change, 0.0, found)  # signs differ where it turned
     if name == "scan_some":
         accepted = recorder.variable("accept")
         value = select_positive(accepted, value, before)

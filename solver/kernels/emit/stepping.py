@@ -9,7 +9,7 @@ from functools import reduce
 from itertools import count
 
 from jointplay.solver.integrators import Method
-from jointplay.solver.kernels.emit import closing, enclosure
+from jointplay.solver.kernels.emit import closing, enclosure, scanning
 from jointplay.solver.kernels.emit.emit import (
     RETURNING,
     FixedNodes,
@@ -31,7 +31,7 @@ SMALLEST_ERROR = 1e-16
 
 def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
-    layout.add("time", "step", "tried", "arrival", "stage_time", "theta")
+    layout.add("time", "step", "tried", "arrival", "stage_time", "theta", "lengthening", "reach")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
     layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
     layout.add_block("y", states)
@@ -189,6 +189,7 @@ class StepRecorder:
             ("flag", flag),
             ("next_step", next_step),
             ("new_memory", magnitude),
+            *scanning.reach(v("tried"), v(before("tried"))),
         ]
         tape = Tape(self.layout)
         tape.store(outputs)

@@ -35,7 +35,7 @@ from jointplay.solver.kernels.loop.events import (
     record_crossings,
     record_event,
 )
-from jointplay.solver.kernels.loop.inner_peaks import look_at_last_step, look_at_passages
+from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_inside
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.peaks import end_peaks, refine_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
@@ -183,15 +183,16 @@ def look_closer(
     spare: np.ndarray,
     runs: np.ndarray,
     table: np.ndarray,
-    channels_within: LaneFunction,
     channels_around: LaneFunction,
+    channels_within: LaneFunction,
 ) -> None:
-    """Seek extremes where a journal passes the centre of its bearing, and where a run ends."""
+    """Seek extremes that no scan of step ends finds."""
     for lane in range(LANES):
         flag, run = int(work[at.flag, lane]), runs[lane]
-        if work[at.accept, lane] > 0.0 and flag & (PASSING | DUE):
-            look_at_passages(lane, run, at, work, spare, table, channels_within, channels_around)
-            look_at_last_step(lane, run, at, work, spare, table, channels_within, channels_around)
+        wanted = at.watched_closely or flag & (PASSING | DUE)
+        if wanted and work[at.accept, lane] > 0.0:
+            look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
+            look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
 
 
 @deferred(int64(ADDRESSES, PLACES, WORK, WORK, RUNS, BUFFERS, int64, int64))
@@ -260,8 +261,8 @@ def advance(
                 if work[at.accept, lane] > 0.0 and may_cross(lane, run, at, work):
                     quiet = False
                     full |= record_crossings(lane, run, at, work, spare, rows, call.channels_within)
-        if watch and not quiet:
-            look_closer(at, work, spare, runs, table, call.channels_within, call.channels_around)
+        if watch and (at.watched_closely or not quiet):
+            look_closer(at, work, spare, runs, table, call.channels_around, call.channels_within)
         if watch:
             candidates = call.scan(work) if quiet else call.scan_some(work)
             for lane in range(LANES if candidates > 0 else 0):

@@ -88,7 +88,13 @@ class Bundle:
             _Group(
                 aligned_zeros(size, LANES),
                 self.runs[first : first + LANES],
-                Buffers.of(LANES, ROWS_AT_ONCE, kernel.row.width, tangents=tangents is not None),
+                Buffers.of(
+                    LANES,
+                    ROWS_AT_ONCE,
+                    kernel.row.width,
+                    kernel.rows.scanned,
+                    tangents=tangents is not None,
+                ),
             )
             for first in range(0, BUNDLE, LANES)
         ]
@@ -158,6 +164,7 @@ class Bundle:
         for kind in (SAMPLES, SECTIONS):
             look_ahead(kind, *arguments)
         plan(*arguments)
+        lane["next_due"] = -math.inf  # the first step is looked at, whatever is due in it
 
     @property
     def attempts(self) -> int:

@@ -1,33 +1,43 @@
-"""Extremes inside steps that no scan of step ends finds: where journals pass, where runs end."""
+"""Extremes inside steps that no scan of step ends finds.
+
+Where a run begins or ends there is no step beside that would tell that a channel turned; where a
+journal passes the centre of its bearing its normal whips round; and in long steps of a contact,
+which a method of high order or of fixed steps takes, anything may happen.
+"""
 
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import (
-    POINTS,
-    SHARES,
-    TIMES,
-    VALUES,
-    compare_times,
-    compare_values,
-)
+from jointplay.solver.kernels.loop.extreme import PLACES, highest
 from jointplay.solver.kernels.loop.passages import (
     NARROWEST,
     closest_approach,
     distance_and_speed,
     orbiting_at_end,
     passes,
-    place_about,
 )
+from jointplay.solver.kernels.loop.peaks import look_at_extremes
 from jointplay.solver.kernels.loop.runs import Run
-from jointplay.solver.kernels.loop.seeking import seek, time_at
+from jointplay.solver.kernels.loop.seeking import is_done
+from jointplay.solver.kernels.loop.windows import (
+    IN_THIS,
+    ROW,
+    SENSE,
+    SPACING,
+    START,
+    STRIDE,
+    VALUES,
+    WINDOWS,
+)
 
 BETWEEN = 0.02
 """Share of the spread of a channel's values by which it may exceed them between instants."""
 SLACK = 0.1
 """Share of a journal's speed by which the slip at a passage may exceed what is expected."""
+WIDTHS = 2.0
+"""Widths of a passage to either side in which extremes are sought."""
 
 
 @kernel()
@@ -38,10 +48,10 @@ def look_at_passages(
     work: np.ndarray,
     spare: np.ndarray,
     table: np.ndarray,
-    channels_within: LaneFunction,
     channels_around: LaneFunction,
+    channels_within: LaneFunction,
 ) -> None:
-    """Seek extremes where a journal passes the centre of its bearing: its normal whips round there.
+    """Seek extremes where a journal passes the centre of its bearing.
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """
@@ -50,21 +60,15 @@ def look_at_passages(
             continue
         share, width = closest_approach(j, lane, at, work)
         if NARROWEST < share < 1.0 - NARROWEST and may_be_fastest(j, share, width, lane, at, work):
+            low, high = max(share - WIDTHS * width, 0.0), min(share + WIDTHS * width, 1.0)
+            place_evenly(low, high, at, spare)
+            channels_within(work, spare, lane)
+            waiting = 0
             for row in (work[at.slip_row + j, lane], work[at.penetration_row + j, lane]):
-                look_inside(
-                    share,
-                    width,
-                    int(row),
-                    int(row) + 1,
-                    lane,
-                    run,
-                    at,
-                    work,
-                    spare,
-                    table,
-                    channels_within,
-                    channels_around,
+                waiting = look_at_instants(
+                    int(row), waiting, low, high, lane, run, at, work, spare, table
                 )
+            look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
 @kernel()
@@ -87,80 +91,83 @@ def may_be_fastest(
 
 
 @kernel()
-def look_at_last_step(
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_within: LaneFunction,
-    channels_around: LaneFunction,
-) -> None:
-    """Seek extremes in a step that ends the run: no later one would tell that a channel turned."""
-    if work[at.arrival, lane] >= work[at.end, lane]:
-        look_inside(
-            0.0,
-            0.0,
-            0,
-            at.rows,
-            lane,
-            run,
-            at,
-            work,
-            spare,
-            table,
-            channels_within,
-            channels_around,
-        )
-
-
-@kernel()
 def look_inside(
-    share: float,
-    width: float,
-    first: int,
-    behind: int,
     lane: int,
     run: Run,
     at: Places,
     work: np.ndarray,
     spare: np.ndarray,
     table: np.ndarray,
-    channels_within: LaneFunction,
     channels_around: LaneFunction,
+    channels_within: LaneFunction,
 ) -> None:
-    """Seek extremes of the rows `first` to `behind` inside this step, where `place_about` says."""
-    place_about(share, width, at, spare)
+    """Seek extremes of all channels in a step that begins or ends the run, or is taken in contact.
+
+    The latter only by methods that are `watched_closely`.
+    """
+    first = np.isnan(work[at.change, lane])
+    last = work[at.arrival, lane] >= work[at.end, lane]
+    if not (first or last or (at.watched_closely and touches(lane, at, work))):
+        return
+    place_evenly(0.0, 1.0, at, spare)
     channels_within(work, spare, lane)
-    for r in range(first, behind):
-        for sense in (1.0, -1.0):
-            if not may_be_record(r, sense, lane, at, work, spare):
-                continue
-            for i in range(INSTANTS):
-                table[SHARES + i] = 1.0 + spare[at.theta, i]
-                table[VALUES + i] = spare[at.channel + r, i]
-            table[SHARES + INSTANTS] = 2.0
-            table[VALUES + INSTANTS] = work[at.channel + r, lane]
-            for i in range(POINTS):
-                table[TIMES + i] = time_at(table[SHARES + i], lane, at, work)
-            compare_times(table)
-            compare_values(table)
-            if seek(r, sense, lane, run, at, work, spare, table, channels_around):
-                place_about(share, width, at, spare)
-                channels_within(work, spare, lane)
+    waiting = 0
+    for r in range(at.rows):
+        waiting = look_at_instants(r, waiting, 0.0, 1.0, lane, run, at, work, spare, table)
+    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
 @kernel()
-def may_be_record(
-    r: int, sense: float, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
-) -> bool:
-    """Whether a channel may have a record at or between the instants that were looked at."""
-    low = high = spare[at.channel + r, 0]
+def touches(lane: int, at: Places, work: np.ndarray) -> bool:
+    """Whether a joint is in contact during this step."""
+    found = False
+    for j in range(at.joints):
+        found |= work[at.mode + j, lane] > 0.0
+    return found
+
+
+@kernel()
+def place_evenly(low: float, high: float, at: Places, spare: np.ndarray) -> None:
+    """Place eight instants evenly from one share of a step to another."""
+    for i in range(INSTANTS):
+        spare[at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
+
+
+@kernel()
+def look_at_instants(
+    r: int,
+    waiting: int,
+    low: float,
+    high: float,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    table: np.ndarray,
+) -> int:
+    """Let extremes of a channel between eight even instants count, if they are sharp.
+
+    How many windows wait to be looked at more closely, of all channels.
+    """
+    least = most = spare[at.channel + r, 0]
     for i in range(1, INSTANTS):
-        low = min(low, spare[at.channel + r, i])
-        high = max(high, spare[at.channel + r, i])
-    between = BETWEEN * (high - low)
-    if sense > 0.0:
-        return bool(high + between > work[at.highest + r, lane] and high > low)
-    return bool(low - between < work[at.lowest + r, lane] and high > low)
+        least = min(least, spare[at.channel + r, i])
+        most = max(most, spare[at.channel + r, i])
+    between = BETWEEN * (most - least)
+    for sense in (1.0, -1.0):
+        if sense > 0.0 and most + between <= work[at.highest + r, lane]:
+            continue
+        if sense < 0.0 and least - between >= work[at.lowest + r, lane]:
+            continue
+        best = highest(spare[at.channel + r], 0, INSTANTS, sense)
+        kept = min(max(best - PLACES // 2, 0), INSTANTS - PLACES)
+        w = WINDOWS + STRIDE * waiting
+        table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, 1
+        spacing = (high - low) / (INSTANTS - 1)
+        table[w + START], table[w + SPACING] = low + kept * spacing, spacing
+        for i in range(PLACES):
+            table[w + VALUES + i] = spare[at.channel + r, kept + i]
+        if not is_done(w, lane, run, at, work, table):
+            waiting += 1
+    return waiting

@@ -117,10 +117,7 @@ def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
 
 @kernel()
 def place_about(share: float, width: float, at: Places, spare: np.ndarray) -> None:
-    """Place eight instants of a step about a passage, inside the step; without width, evenly."""
+    """Place eight instants of a step about a passage, inside the step."""
     before, after = min(width, 0.5 * share), min(width, 0.5 * (1.0 - share))
     for i in range(INSTANTS):
-        if width == 0.0:
-            spare[at.theta, i] = i / INSTANTS
-            continue
         spare[at.theta, i] = share + ABOUT[i] * (before if ABOUT[i] < 0.0 else after)

@@ -6,20 +6,22 @@ from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import (
-    MOST_WAITING,
-    POINTS,
-    SHARES,
-    STRIDE,
-    TIMES,
-    VALUES,
-    WAITING,
-    compare_times,
-    compare_values,
-    extreme,
-)
 from jointplay.solver.kernels.loop.runs import Run
-from jointplay.solver.kernels.loop.seeking import HALF, count, is_sharp, seek, time_at
+from jointplay.solver.kernels.loop.seeking import HALF, MOST_ROUNDS, is_done, is_done_by, seek
+from jointplay.solver.kernels.loop.windows import (
+    COLUMN,
+    FOUND,
+    IN_THIS,
+    PLACE,
+    ROUNDS,
+    ROW,
+    SENSE,
+    SPACING,
+    START,
+    STRIDE,
+    VALUES,
+    WINDOWS,
+)
 
 ONE_OF_EIGHT = 0x0101010101010101
 BYTES = 8
@@ -40,9 +42,11 @@ def refine_peaks(
     """Seek the extremes that the scan suspects around the start of this step.
 
     Candidate channels are evaluated at quarters of the step before and of this one. `marked` :
-    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.extreme`.
+    `work`, seen as bytes of the scan. `table` : see `solver.kernels.loop.windows`.
     """
-    look_at_quarters(lane, at, work, spare, table, channels_around)
+    for i in range(INSTANTS):
+        spare[at.theta, i] = (i % HALF) / HALF
+    channels_around(work, spare, lane)
     waiting = 0
     first = at.marked * LANES
     lanes_bits = np.uint64(ONE_OF_EIGHT << lane)
@@ -52,38 +56,12 @@ def refine_peaks(
             for r in range(min(BYTES, at.rows - BYTES * word)):  # no marks beyond
                 if bits >> np.uint64(8 * r + lane) & np.uint64(1):
                     row = BYTES * word + r
-                    if not refine(row, waiting, lane, run, at, work, spare, table):
-                        wait(row, waiting, table)
-                        waiting += 1
-    for k in range(waiting):
-        row = stop_waiting(k, lane, at, work, table)
-        sense = 1.0 if table[VALUES + HALF] > table[VALUES] else -1.0
-        seek(row, sense, lane, run, at, work, spare, table, channels_around)
+                    waiting = look_at_quarters(row, waiting, lane, run, at, work, spare, table)
+    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
 @kernel()
 def look_at_quarters(
-    lane: int,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
-    """Evaluate all channels at quarters of the step before and of this one."""
-    for i in range(INSTANTS):
-        share = i / HALF
-        table[SHARES + i] = share
-        table[TIMES + i] = time_at(share, lane, at, work)
-        spare[at.theta, i] = share - i // HALF
-    table[SHARES + INSTANTS] = 2.0
-    table[TIMES + INSTANTS] = work[at.tried, lane]
-    compare_times(table)
-    channels_around(work, spare, lane)
-
-
-@kernel()
-def refine(
     r: int,
     waiting: int,
     lane: int,
@@ -92,46 +70,74 @@ def refine(
     work: np.ndarray,
     spare: np.ndarray,
     table: np.ndarray,
-) -> bool:
-    """Let the extreme of a channel around the start of this step count; whether it is done with.
+) -> int:
+    """Let the extreme of a channel around the start of this step count, if it is sharp.
 
-    If not, its extreme is not sharp and may be a record; `waiting` others are to be zoomed in on.
+    How many windows wait to be looked at more closely, of all channels.
     """
-    for i in range(INSTANTS):
-        table[VALUES + i] = spare[at.channel + r, i]
-    table[VALUES + INSTANTS] = work[at.previous + r, lane]
-    compare_values(table)
-    sense = 1.0 if table[VALUES + HALF] > table[VALUES] else -1.0
-    block = at.highest if sense > 0.0 else at.lowest
-    time, value, error, best = extreme(table, sense)
-    record = work[block + r, lane]
-    if waiting < MOST_WAITING and not is_sharp(r, value, error, best, lane, at, work):
-        return not sense * value + error > sense * record
-    if sense * value > sense * record:
-        count(r, sense, value, time, lane, run, at, work)
-    return True
+    end = work[at.previous + r, lane]
+    junction = end - work[at.change + r, lane]
+    sense = 1.0 if junction > spare[at.channel + r, 0] else -1.0
+    before = after = sense * junction
+    for i in range(HALF):
+        before = max(before, sense * spare[at.channel + r, i])
+        after = max(after, sense * spare[at.channel + r, HALF + i])
+    after = max(after, sense * end)
+    for step in range(2):
+        if (step == 0 and before < after) or (step == 1 and after < before):
+            continue
+        w = WINDOWS + STRIDE * waiting
+        table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
+        table[w + START], table[w + SPACING] = 0.0, 1.0 / HALF
+        for i in range(HALF):
+            table[w + VALUES + i] = spare[at.channel + r, HALF * step + i]
+        table[w + VALUES + HALF] = junction if step == 0 else end
+        if not is_done(w, lane, run, at, work, table):
+            waiting += 1
+    return waiting
 
 
 @kernel()
-def wait(r: int, waiting: int, table: np.ndarray) -> None:
-    """Keep the values of a channel until all others were looked at."""
-    place = WAITING + STRIDE * waiting
-    for i in range(POINTS):
-        table[place + i] = table[VALUES + i]
-    table[place + POINTS] = r
+def look_at_extremes(
+    waiting: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    table: np.ndarray,
+    channels_around: LaneFunction,
+) -> None:
+    """Evaluate the channels of windows where their extremes seem to be, many at once.
 
-
-@kernel()
-def stop_waiting(k: int, lane: int, at: Places, work: np.ndarray, table: np.ndarray) -> int:
-    """Fill a table with the quarters of two steps and the values that wait at k; the channel."""
-    place = WAITING + STRIDE * k
-    for i in range(POINTS):
-        table[SHARES + i] = i / HALF
-        table[TIMES + i] = time_at(table[SHARES + i], lane, at, work)
-        table[VALUES + i] = table[place + i]
-    compare_times(table)
-    compare_values(table)
-    return int(table[place + POINTS])
+    Mostly that makes them sharp; the others are sought one after the other.
+    """
+    done = 0
+    while done < waiting:
+        early, late = 0, HALF
+        behind = done
+        while behind < waiting and early < HALF and late < INSTANTS:
+            w = WINDOWS + STRIDE * behind
+            column = late if table[w + IN_THIS] else early
+            early, late = (early, late + 1) if table[w + IN_THIS] else (early + 1, late)
+            spare[at.theta, column] = table[w + START] + table[w + PLACE] * table[w + SPACING]
+            table[w + COLUMN] = column
+            behind += 1
+        channels_around(work, spare, lane)
+        for k in range(done, behind):
+            w = WINDOWS + STRIDE * k
+            table[w + FOUND] = spare[at.channel + int(table[w + ROW]), int(table[w + COLUMN])]
+        done = behind
+    unsharp = 0
+    for k in range(waiting):
+        w = WINDOWS + STRIDE * k
+        table[w + ROUNDS] = 0.0
+        if is_done_by(table[w + FOUND], w, lane, run, at, work, table):
+            table[w + ROUNDS] = MOST_ROUNDS
+        else:
+            unsharp += 1
+    if unsharp > 0:
+        seek(waiting, lane, run, at, work, spare, table, channels_around)
 
 
 @kernel()

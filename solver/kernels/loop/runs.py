@@ -12,7 +12,7 @@ from numba import float64, from_dtype, types
 from numpy.typing import NDArray
 
 from jointplay.records.impact import IMPACT
-from jointplay.solver.kernels.loop.extreme import SIZE as TABLE_SIZE
+from jointplay.solver.kernels.loop.windows import size_of_table
 
 
 class Status(IntEnum):
@@ -124,16 +124,16 @@ class Buffers(NamedTuple):
     growths: NDArray[np.void]
     """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
     table: NDArray[np.float64]
-    """See `solver.kernels.loop.extreme`."""
+    """See `solver.kernels.loop.windows`."""
 
     @classmethod
-    def of(cls, lanes: int, capacity: int, width: int, *, tangents: bool) -> Buffers:
+    def of(cls, lanes: int, capacity: int, width: int, channels: int, *, tangents: bool) -> Buffers:
         """Return empty buffers."""
         return cls(
             np.zeros((2, lanes, capacity, width)),
             np.zeros((lanes, capacity), IMPACT),
             np.zeros((lanes, capacity if tangents else 0), GROWTH),
-            np.zeros(TABLE_SIZE),
+            np.zeros(size_of_table(channels)),
         )
 
 

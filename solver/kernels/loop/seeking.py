@@ -1,45 +1,81 @@
-"""Seeks the extreme of one channel near some points of two steps, more closely until it is sharp.
-
-Places are shares of two steps: from 0 to 1 of the step before, from 1 to 2 of this one.
-"""
+"""Seeks the extreme of one channel in a window of a step, more closely until it is sharp."""
 
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import (
-    POINTS,
-    SHARES,
-    TIMES,
-    VALUES,
-    compare_times,
-    compare_values,
-    extreme,
-)
+from jointplay.solver.kernels.loop.extreme import LAST, PLACES, extreme, highest
 from jointplay.solver.kernels.loop.runs import Run
+from jointplay.solver.kernels.loop.windows import (
+    BENT,
+    CLOSER,
+    ERROR,
+    IN_THIS,
+    PLACE,
+    ROUNDS,
+    ROW,
+    SENSE,
+    SPACING,
+    START,
+    STRIDE,
+    VALUE,
+    VALUES,
+    WINDOWS,
+)
 
 HALF = INSTANTS // 2
 """Instants in each of the two steps."""
-KEPT = POINTS - HALF
-"""Points of a table that stay when it is zoomed in on."""
 SHARP = 2e-7
 """Share of a channel's range up to now to which its extremes are sought."""
-MOST_ROUNDS = 10
-"""Each narrows the place of an extreme to a third."""
+LEAST_OFF = 0.1
+"""Share of the bound that a quartic's error is taken to be where it happens to be small."""
+MOST_ROUNDS = 12
+"""Each narrows a window to a third."""
+ENOUGH_AT_END = 3
+"""Rounds after which a best value at the end of a step counts as it is."""
+SAME = 1e-9
+"""Share of a step: places closer than that are one."""
 
 
 @kernel()
-def time_at(share: float, lane: int, at: Places, work: np.ndarray) -> float:
-    """Return the time at a place in two steps, s since the start of this one."""
-    step = work[at.tried, lane] if share >= 1.0 else work[at.before_step, lane]
-    return float((share - 1.0) * step)
+def is_done(w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray) -> bool:
+    """Look where a window's extreme is, and let it count if it is a record and sharp.
+
+    Whether that is all there is to do: otherwise it may be a record, and is not sharp.
+    """
+    sense = table[w + SENSE]
+    r = int(table[w + ROW])
+    record = work[(at.highest if sense > 0.0 else at.lowest) + r, lane]
+    place, value, error, bent = extreme(table, w + VALUES, sense, record)
+    if not sense * value + error > sense * record:
+        return True
+    table[w + PLACE], table[w + VALUE], table[w + ERROR] = place, value, error
+    table[w + BENT] = bent
+    if error > SHARP * spread(r, value, lane, at, work):
+        return False
+    count(w, place, value, lane, run, at, work, table)
+    return True
+
+
+@kernel()
+def is_done_by(
+    value: float, w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray
+) -> bool:
+    """Let the value at the place of a window's extreme count; whether it is sharp.
+
+    Between places d apart, the slope of what a quartic leaves out is at most some four times its
+    value by d; what that is beyond the value found is its square by twice the second derivative.
+    """
+    count(w, table[w + PLACE], value, lane, run, at, work, table)
+    off = max(abs(value - table[w + VALUE]), LEAST_OFF * table[w + ERROR])
+    sharp = SHARP * spread(int(table[w + ROW]), value, lane, at, work)
+    return bool(8.0 * off * off <= sharp * table[w + BENT])
 
 
 @kernel()
 def seek(
-    r: int,
-    sense: float,
+    waiting: int,
     lane: int,
     run: Run,
     at: Places,
@@ -47,100 +83,124 @@ def seek(
     spare: np.ndarray,
     table: np.ndarray,
     channels_around: LaneFunction,
-) -> bool:
-    """Let the extreme near the points of a table count, if it is a record; whether it zoomed in.
+) -> None:
+    """Narrow all waiting windows about their extremes until these are sharp or no records.
 
-    A record is sought more closely until its error is a small share of the range so far.
+    Many channels have a kink where a law has one: windows of the same places are narrowed at once.
     """
-    block = at.highest if sense > 0.0 else at.lowest
-    zoomed = False
-    for _ in range(MOST_ROUNDS):
-        time, value, error, best = extreme(table, sense)
-        record = work[block + r, lane]
-        if not sense * value + error > sense * record:
-            return zoomed
-        if is_sharp(r, value, error, best, lane, at, work):
-            break
-        zoom(r, best, lane, at, work, spare, table, channels_around)
-        zoomed = True
-    if sense * value > sense * record:
-        count(r, sense, value, time, lane, run, at, work)
-    return zoomed
+    behind = WINDOWS + STRIDE * waiting
+    for w in range(WINDOWS, behind, STRIDE):
+        while table[w + ROUNDS] < MOST_ROUNDS:
+            rounds, step = table[w + ROUNDS], table[w + IN_THIS]
+            start, spacing, parts = closer(w, table)
+            place_closer(start, spacing, parts, HALF * int(step), at, spare)
+            channels_around(work, spare, lane)
+            for v in range(w, behind, STRIDE):
+                if table[v + ROUNDS] != rounds or table[v + IN_THIS] != step:
+                    continue
+                if v == w or (start, spacing, parts) == closer(v, table):
+                    narrow(v, start, spacing, parts, at, spare, table)
+                    if is_done(v, lane, run, at, work, table) or rests_at_end(v, table):
+                        table[v + ROUNDS] = MOST_ROUNDS
+        best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE])
+        count(w, float(best - w - VALUES), table[best], lane, run, at, work, table)
 
 
 @kernel()
-def is_sharp(
-    r: int, value: float, error: float, best: int, lane: int, at: Places, work: np.ndarray
-) -> bool:
-    """Whether an extreme's error is a small share of the channel's range so far, or must do."""
+def rests_at_end(w: int, table: np.ndarray) -> bool:
+    """Whether a window's best value is still at an end of its step when that was looked at well.
+
+    Beside it there may be a jump: no looking closer would tell more.
+    """
+    best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE]) - w - VALUES
+    share = table[w + START] + best * table[w + SPACING]
+    return bool(table[w + ROUNDS] >= ENOUGH_AT_END and not SAME < share < 1.0 - SAME)
+
+
+@kernel()
+def spread(r: int, value: float, lane: int, at: Places, work: np.ndarray) -> float:
+    """Return a channel's range up to now, with a further value."""
     low = min(work[at.lowest + r, lane], value)
-    high = max(work[at.highest + r, lane], value)
-    small = not error > SHARP * (high - low) or high - low == np.inf
-    return small or best == 0 or best == POINTS - 1
+    return float(max(work[at.highest + r, lane], value) - low)
 
 
 @kernel()
 def count(
-    r: int,
-    sense: float,
+    w: int,
+    place: float,
     value: float,
-    time: float,
     lane: int,
     run: Run,
     at: Places,
     work: np.ndarray,
+    table: np.ndarray,
 ) -> None:
-    """Note a record of a channel; `time` is since the start of this step, s."""
-    now = float(run.periods) * run.period + work[at.time, lane] + time
+    """Note a value at a place of a window, if it is a record of the window's channel."""
+    r, sense = int(table[w + ROW]), table[w + SENSE]
+    block, times = at.lowest, at.lowest_time
     if sense > 0.0:
-        work[at.highest + r, lane] = value
-        work[at.highest_time + r, lane] = now
-    else:
-        work[at.lowest + r, lane] = value
-        work[at.lowest_time + r, lane] = now
+        block, times = at.highest, at.highest_time
+    if not sense * value > sense * work[block + r, lane]:
+        return
+    share = table[w + START] + place * table[w + SPACING]
+    time = share * work[at.tried, lane]
+    if table[w + IN_THIS] == 0.0:
+        time = (share - 1.0) * work[at.before_step, lane]
+    work[block + r, lane] = value
+    work[times + r, lane] = float(run.periods) * run.period + work[at.time, lane] + time
 
 
 @kernel()
-def zoom(
-    r: int,
-    best: int,
-    lane: int,
+def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
+    """Return where a closer look at a window begins, the distance of its places, how many parts.
+
+    From the place before the best one to the one behind it, by thirds of the distance now; where
+    the best is at an end of the window, by fifths.
+    """
+    best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE]) - w - VALUES
+    left, right = max(best - 1, 0), min(best + 1, LAST)
+    parts = 6 if right - left > 1 else HALF + 1
+    spacing = table[w + SPACING] * (right - left) / parts
+    return table[w + START] + left * table[w + SPACING], spacing, parts
+
+
+@kernel()
+def place_closer(
+    start: float, spacing: float, parts: int, first: int, at: Places, spare: np.ndarray
+) -> None:
+    """Place the four instants of a closer look that are not known yet, in columns from `first`."""
+    column = first
+    for k in range(1, parts):
+        if parts == HALF + 1 or 2 * k != parts:
+            spare[at.theta, column] = min(start + k * spacing, 1.0)
+            column += 1
+
+
+@kernel()
+def narrow(
+    w: int,
+    start: float,
+    spacing: float,
+    parts: int,
     at: Places,
-    work: np.ndarray,
     spare: np.ndarray,
     table: np.ndarray,
-    channels_around: LaneFunction,
 ) -> None:
-    """Add four points of channel r to a table, two to either side of its best one.
-
-    Five points about the best one stay.
-    """
-    first = min(max(best - 2, 0), POINTS - KEPT)
-    for i in range(KEPT):  # kept aside behind the table's points
-        for row in (SHARES, VALUES):
-            table[row + POINTS + i] = table[row + first + i]
-    middle = POINTS + best - first
-    left, right = table[SHARES + middle - 1], table[SHARES + middle + 1]
-    here = table[SHARES + middle]
-    for i in range(HALF):
-        low, high = (left, here) if i < HALF // 2 else (here, right)
-        share = low + (high - low) * (i % 2 + 1) / 3.0
-        spare[at.theta, i] = min(share, 1.0)
-        spare[at.theta, HALF + i] = max(share - 1.0, 0.0)
-    channels_around(work, spare, lane)
-    to = 0
-    for k in range(POINTS, POINTS + KEPT):
-        table[SHARES + to], table[VALUES + to] = table[SHARES + k], table[VALUES + k]
-        to += 1
-        if k in (middle - 1, middle):
-            for i in range(2):
-                column = i if k == middle - 1 else 2 + i
-                early = table[SHARES + k] < 1.0
-                share = spare[at.theta, column] if early else 1.0 + spare[at.theta, HALF + column]
-                table[SHARES + to] = share
-                table[VALUES + to] = spare[at.channel + r, column if early else HALF + column]
-                to += 1
-    for i in range(POINTS):
-        table[TIMES + i] = time_at(table[SHARES + i], lane, at, work)
-    compare_times(table)
-    compare_values(table)
+    """Narrow a window to five places about the best one of a closer look."""
+    r, sense = int(table[w + ROW]), table[w + SENSE]
+    column = HALF * int(table[w + IN_THIS])
+    best = highest(table, w + VALUES, w + VALUES + PLACES, sense)
+    left = max(best - 1, w + VALUES)
+    table[CLOSER], table[CLOSER + parts] = table[left], table[min(best + 1, w + VALUES + LAST)]
+    for k in range(1, parts):
+        if parts == HALF + 1 or 2 * k != parts:
+            table[CLOSER + k] = spare[at.channel + r, column]
+            column += 1
+        else:
+            table[CLOSER + k] = table[best]
+    best = highest(table, CLOSER, CLOSER + parts + 1, sense) - CLOSER
+    kept = min(max(best - PLACES // 2, 0), parts + 1 - PLACES)
+    for i in range(PLACES):
+        table[w + VALUES + i] = table[CLOSER + kept + i]
+    table[w + START], table[w + SPACING] = start + kept * spacing, spacing
+    table[w + ROUNDS] += 1.0
