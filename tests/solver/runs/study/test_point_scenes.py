@@ -2,7 +2,8 @@
 
 import copy
 import pickle
-import time
+import sys
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -206,24 +207,30 @@ def test_a_study_admitted_again_is_the_same_study(kind: str) -> None:
         assert again.observables == first.observables
 
 
+def calls(function: Callable[[], object]) -> int:
+    """Return how many Python functions a function calls: a cost that no machine's load changes."""
+    number = 0
+
+    def count(_frame: object, event: str, _argument: object) -> None:
+        nonlocal number
+        number += event == "call"
+
+    sys.setprofile(count)
+    try:
+        function()
+    finally:
+        sys.setprofile(None)
+    return number
+
+
 @pytest.mark.parametrize("parameter", ["friction", "clearance", "restitution"])
-def test_ten_thousand_values_are_admitted_well_within_a_second(parameter: str) -> None:
-    job = {
-        **BIFURCATION,
-        "parameter": parameter,
-        "values": {"from": 1e-4, "to": 4e-3, "count": 10_000},
-    }
-    study(job)
-    began = time.perf_counter()
+def test_ten_thousand_values_are_admitted_together(parameter: str) -> None:
+    spread = {"from": 1e-4, "to": 4e-3, "count": 10_000}
+    job = {**BIFURCATION, "parameter": parameter, "values": spread}
     found = study(job)
-    took = time.perf_counter() - began
-    # 0.03 s on an idle core of the machine it was written on; ten thousand single checks take 25 s
-    assert took < 0.7
-    began = time.perf_counter()
-    for point in range(0, 10_000, 10):
-        found.point_scene(point)
-    each = (time.perf_counter() - began) / 1000
-    assert each < 0.5e-3  # 0.01 ms there
+    # six a point, where blocks are planned; the check of a single scene makes over two thousand
+    assert calls(lambda: study(job)) < 10 * 10_000
+    assert calls(lambda: found.point_scene(5_000)) < 200  # 64: it is built, not checked
 
 
 def test_points_are_numbered_by_their_structure() -> None:
