@@ -93,12 +93,6 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         "/grid/clearance/0",
         "no motion to integrate",
     ),
-    "one clearance of two": (
-        B,
-        {"parameter": "clearance_A", "values": [1e-4, 0.0]},
-        "/values/1",
-        "close a loop",
-    ),
     "no freedom at all": (P, {"scene": press(clearance=0.0)}, "/scene", "no motion to integrate"),
     "a fixed parameter that is wrong": (
         B,
