@@ -95,7 +95,6 @@ REFUSED = {
         press_with(clearance=5e-3),
         "/scene/parameters/clearance",
     ),
-    "one clearance of two": (press_with(clearance_A=0.0), "/scene/joints"),
     "stiffness missing for another exponent": (
         press_with(exponent=1.2),
         "/scene/parameters/exponent",

@@ -71,8 +71,8 @@ def diagram() -> Computed:
     return Computed(DIAGRAM)
 
 
-def run_alone(duration: float, clearance: float) -> tuple[Admission, list[Any], Simulation]:
-    scene = SCENE | {"parameters": CASE_3 | {"clearance": clearance}}
+def run_alone(duration: float, **values: float) -> tuple[Admission, list[Any], Simulation]:
+    scene = SCENE | {"parameters": CASE_3 | values}
     document = {"kind": "simulate", "scene": scene, "duration": duration, "output_step": duration}
     admission = admit(document)
     assert isinstance(admission, Admission)
@@ -80,12 +80,27 @@ def run_alone(duration: float, clearance: float) -> tuple[Admission, list[Any], 
     return admission, list(simulation.slices()), simulation
 
 
-def test_sections_have_the_bits_of_a_run_of_one_value_alone(diagram: Computed) -> None:
-    admission, slices, _ = run_alone(4 * PERIOD, 4e-4)
+def sections_alone(study: Study, periods: int, **values: float) -> np.ndarray:
+    """(sections, observables) of a run of its own."""
+    admission, slices, _ = run_alone(periods * PERIOD, **values)
     names = [channel.name for channel in admission.channels]
-    columns = [names.index(channel.name) for channel in diagram.study.observables]
-    alone = np.concatenate([piece.sections for piece in slices])[:, columns]
+    columns = [names.index(channel.name) for channel in study.observables]
+    found: np.ndarray = np.concatenate([piece.sections for piece in slices])[:, columns]
+    return found
+
+
+def test_sections_have_the_bits_of_a_run_of_one_value_alone(diagram: Computed) -> None:
+    alone = sections_alone(diagram.study, 4, clearance=4e-4)
     assert diagram.sections(3).tobytes() == alone[2:].tobytes()
+
+
+def test_a_clearance_of_zero_beside_others_has_the_bits_of_its_run_alone() -> None:
+    changes = {"parameter": "clearance_B", "values": [1e-4, 0.0], "settle": 0, "record": 2}
+    found = Computed(DIAGRAM | changes)
+    assert found.study.structure.tolist() == [0, 1]  # the loop by B is closed: no play, no contact
+    for point, clearance in enumerate(changes["values"]):
+        alone = sections_alone(found.study, 2, clearance_B=clearance)
+        assert found.sections(point).tobytes() == alone[1:].tobytes()
 
 
 def test_every_value_ends_with_its_sections_at_whole_periods(diagram: Computed) -> None:
@@ -115,7 +130,7 @@ def test_a_sweep_has_the_extremes_of_single_runs() -> None:
     grid = {"clearance": [3e-4, 5e-4], "friction": [0.0, 0.1]}
     swept = Computed({"kind": "sweep", "scene": SCENE, "grid": grid, "duration": 0.5})
     assert len(set(swept.study.structure.tolist())) == 2  # without friction another kernel
-    _, _, simulation = run_alone(0.5, 5e-4)
+    _, _, simulation = run_alone(0.5, clearance=5e-4)
     peaks = simulation.summary().peaks
     point = 3
     assert swept.study.values[point].tolist() == [5e-4, 0.1]
@@ -178,7 +193,7 @@ def test_sections_at_onsets_are_the_impacts_of_a_single_run() -> None:
     document = DIAGRAM | {"kind": "poincare", "section": {"onset": "A"}, "settle": 0, "record": 8}
     document = {key: document[key] for key in document if key not in ("parameter", "values")}
     found = Computed(document | {"observables": ["A.penetration"]})
-    _, slices, _ = run_alone(0.5, 5e-4)
+    _, slices, _ = run_alone(0.5, clearance=5e-4)
     impacts = np.concatenate([piece.impacts for piece in slices])
     onsets = np.sort(impacts["onset"][impacts["joint"] == 0])[:8]
     assert np.concatenate(found.times[0]).tolist() == onsets.tolist()
