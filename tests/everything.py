@@ -1,7 +1,7 @@
-"""Everything that `make test` checks, two steps side by side, with the time of each.
+"""Everything that `make test` checks, three steps side by side, with the time of each.
 
-Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. Half of the tests
-wait (for leases, restarts, shutdowns) while the other half compute.
+Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
+wait (for leases, restarts, shutdowns) while the others compute.
 """
 
 import re
@@ -84,7 +84,7 @@ def main() -> int:
         print("there are these steps: " + ", ".join(step.name for step in steps()))
         return 2
     begun = time.monotonic()
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(3) as pool:
         for done in as_completed([pool.submit(step.run) for step in run]):
             step = done.result()
             print(f"\n== {step.name}\n{step.output}", flush=True)

@@ -134,7 +134,7 @@ def test_every_method_ends_its_steps_where_loops_are_closed(job: dict[str, objec
         assert gaps(found) < 1e-13
 
 
-@pytest.mark.parametrize("count", [10, pytest.param(31, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [5, pytest.param(31, marks=pytest.mark.long)])
 def test_many_four_bars_swing_as_one_pendulum(count: int) -> None:
     found = run(four_bars(count, -1.0), 3.0, tolerance=1e-9, output_step=0.1)
     expected = four_bars_angle(count, -1.0, 3.0)

@@ -68,7 +68,7 @@ def test_a_highest_value_that_is_too_low_or_invented_is_seen() -> None:
 
 @pytest.mark.parametrize(
     ("runs", "kinds"),
-    [(12, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+    [(6, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
 )
 def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
     judged = coverage_search.search(8, runs, kinds)

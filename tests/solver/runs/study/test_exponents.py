@@ -65,7 +65,13 @@ def test_an_exponent_that_its_steps_made_gives_no_verdict() -> None:
     assert found["verdict"] == UNDECIDED
 
 
-@pytest.mark.parametrize("lie", [pytest.param(lie, id=lie.name) for lie in LIES])
+@pytest.mark.parametrize(
+    "lie",
+    [
+        pytest.param(lie, id=lie.name, marks=[pytest.mark.long] * lie.name.startswith("press"))
+        for lie in LIES
+    ],
+)
 def test_the_true_exponent_is_within_three_errors(lie: Lie) -> None:
     found = lie.judge()
     assert found.true, found.said
