@@ -138,9 +138,9 @@ def test_the_program_and_its_data_come_from_the_installation(
 FIT = "--fit stiffness=1e8:1e11:log --target bearing.normal_force@0:0.018=834"
 ALONE = [
     "run pendulum --duration 0.2 -o alone",
+    "run pendulum --sweep mass=1:2:65 --duration 0.02 --processes 2 -o spread",
     "doctor alone",
     "verify alone",
-    "run pendulum --sweep mass=1:2:65 --duration 0.02 --processes 2 -o spread",
     "accuracy pendulum --duration 0.01",
     f"calibrate bouncing-journal {FIT} --population 10 --generations 1 --processes 2",
     "openapi",

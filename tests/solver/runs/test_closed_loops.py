@@ -25,8 +25,8 @@ from tests.solver.completed_runs import Run, run
 A_ALONE = {"clearance_B": 0.0}
 METHODS = [
     {"tolerance": 1e-9},
-    {"tolerance": 1e-9, "method": "dormand-prince-853"},
-    {"tolerance": 1e-7, "method": "bogacki-shampine"},
+    pytest.param({"tolerance": 1e-9, "method": "dormand-prince-853"}, marks=pytest.mark.long),
+    pytest.param({"tolerance": 1e-7, "method": "bogacki-shampine"}, marks=pytest.mark.long),
     {"tolerance": 1e-7, "method": "rodas"},
     {"method": "rk4", "step": 1e-3},
 ]
@@ -88,11 +88,17 @@ on them to 5e-12. The published digits are good to 1.4e-9."""
 @pytest.mark.parametrize(
     ("job", "within"),
     [
-        ({"tolerance": 1e-12}, 1e-10),
-        ({"tolerance": 1e-9, "method": "rodas"}, 1e-9),
-        ({"tolerance": 1e-9, "formulation": "lagrange"}, 1e-9),
+        pytest.param({"tolerance": 1e-12}, 1e-10, id="explicit"),
+        pytest.param(
+            {"tolerance": 1e-9, "method": "rodas"}, 1e-9, id="implicit", marks=pytest.mark.long
+        ),
+        pytest.param(
+            {"tolerance": 1e-9, "formulation": "lagrange"},
+            1e-9,
+            id="multipliers",
+            marks=pytest.mark.long,
+        ),
     ],
-    ids=["explicit", "implicit", "multipliers"],
 )
 def test_andrews_squeezer_gets_to_the_digits_of_other_programs(
     job: dict[str, object], within: float

@@ -272,6 +272,7 @@ def test_a_lane_used_before_keeps_no_marks_of_rows_that_are_not_there() -> None:
         assert found.tobytes() == expected.tobytes(), name
 
 
+@pytest.mark.long
 def test_a_certificate_does_not_depend_on_slices(monkeypatch: pytest.MonkeyPatch) -> None:
     # over a hundred periods each window of the exponent has several rows of growth to sum
     admission = job(duration=200.0, output_step=1.0)

@@ -104,7 +104,7 @@ def random_flight(rng: np.random.Generator) -> Flight:
 
 
 @pytest.mark.parametrize(
-    ("seed", "count"), [(1, 40), pytest.param(2, 3000, marks=pytest.mark.long)]
+    ("seed", "count"), [(1, 20), pytest.param(2, 3000, marks=pytest.mark.long)]
 )
 def test_a_first_contact_is_never_missed(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
