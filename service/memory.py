@@ -5,12 +5,12 @@ import threading
 from contextlib import suppress
 
 _M_MMAP_THRESHOLD = -3  # of malloc.h
-_LARGE = 128 * 1024
+_LARGE = 2**20  # bytes; event loops read into buffers of a quarter of this
 _SOON = 10.0  # s
 
 
 def keep_nothing_large() -> None:
-    """Have what is larger than 128 KiB given back as soon as it is free.
+    """Have what is larger than a mebibyte given back as soon as it is free.
 
     Otherwise glibc raises this limit to the largest piece that was ever freed, a body of megabytes.
     """
