@@ -81,7 +81,7 @@ class Motion:
     driver_effort: dict[str, Scalar]
     driver_speed: dict[str, Scalar]
     multipliers: Sequence[Scalar] = ()
-    """Of joints that close loops, in joint coordinates."""
+    """Forces (N) and moments (N m) of joints that close loops, along the directions they hold."""
 
     @property
     def contacts(self) -> dict[str, Contact]:

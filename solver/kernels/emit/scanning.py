@@ -17,7 +17,7 @@ BYTES = 8 * min(WIDTHS.values())
 """Marks in a slot, one byte for each row, whose bits are the lanes, at any width."""
 
 REACH, SPARE = 3.0, 0.03
-"""How far an extreme is looked for beyond the step end between two steps.
+"""Bounds of an extreme beyond the step end between two steps, within which it is looked for.
 
 The parabola through three step ends reaches (r q² + c)² / (4 q (q + 1) |c - r q|) beyond the middle
 one, if the changes are r (before) and c (after) and the second step is q times as long; a sine

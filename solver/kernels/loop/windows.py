@@ -7,14 +7,14 @@ values there, and where the extreme is by them (`solver.kernels.loop.extreme`).
 STRIDE = 20
 """From a window of a table to the next."""
 ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
-"""Of a window: channel, sense, 1 in this step and 0 in the one before, first place and distance of
-places in shares of that step, values."""
+"""Columns of a window: channel, sense, 1 in this step and 0 in the one before, first place and
+distance of places in shares of that step, values."""
 PLACE, VALUE, ERROR, BENT = 10, 11, 12, 13
 """Results of `extreme`."""
 COLUMN, FOUND = 14, 15
 """Where the channel is evaluated at that place, and its value there."""
 ROUNDS = 16
-"""How often a window was narrowed."""
+"""Number of times that a window was narrowed."""
 CLOSER, WINDOWS = 0, STRIDE
 """Where a table has the values of a closer look, and its windows from: two of each channel."""
 

@@ -55,9 +55,9 @@ class Equations:
     loops: Loops | None
     """Joints that close loops, at the stage; none in an open scene."""
     multipliers: tuple[Expression, ...]
-    """Of their rows."""
+    """Lagrange multipliers of the rows of `loops`, N or N m."""
     corrections: tuple[Expression, ...]
-    """What brings coordinates and speeds back where loops are closed; none in an open scene."""
+    """Changes of coordinates and speeds that close the loops again; none in an open scene."""
 
     @property
     def states(self) -> int:
