@@ -12,7 +12,7 @@ FRESH = 0.5
 
 
 class Found(NamedTuple):
-    """What is at a point of the unit cube."""
+    """Outcome at a point of the unit cube."""
 
     niche: str
     """The worst of each niche is where the search goes on."""

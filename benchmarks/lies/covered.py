@@ -34,12 +34,12 @@ MOST_ATTEMPTS = 60_000
 SMALLEST = 1e-300
 """Size of what vanishes in the whole run, so that nothing is divided by zero."""
 MOST_RATIOS = 400
-"""Of a run, that are kept for the median."""
+"""Ratios of bar to error that are kept of a run, for the median."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a job's claims.
+    """Outcome of a job's claims.
 
     Attributes
     ----------

@@ -11,7 +11,7 @@ Choice = TypeVar("Choice")
 DIMENSIONS = 32
 """Numbers that a job may draw; those beyond what it draws change nothing."""
 DIGITS = 12
-"""Of numbers, so that a job as text is the job."""
+"""Significant digits of numbers, so that a job as text is the job."""
 
 
 class Draw:

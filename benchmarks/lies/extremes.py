@@ -22,7 +22,7 @@ ALLOWED = 1e-6
 
 @dataclass(frozen=True)
 class Extremes:
-    """What became of a run's extremes.
+    """Outcome of a run's extremes.
 
     Attributes
     ----------

@@ -25,7 +25,7 @@ KEYS: dict[str, Callable[[Judged], str]] = {
     "tolerance": lambda each: decade(each.job.get("tolerance")),
     "all": lambda _each: "all",
 }
-"""What the tables are by."""
+"""Groupings of the tables."""
 
 
 def grouped(key: str, judged: Iterable[Any_Judged]) -> dict[str, list[Any_Judged]]:

@@ -11,7 +11,7 @@ from numba import njit
 from benchmarks.lies.truth.mechanism import ACROSS_X, ACROSS_Y, ANGLE, NORMAL, Floats, Mechanism
 
 GAP, GAP_RATE, NORMAL_FORCE, FRICTION, SLIP, EX, EY, VX, VY, SEEN, DAMPING = range(11)
-"""What is told of a joint with play: penetration (m) and its rate, forces (N), slip velocity,
+"""Channels of a joint with play: penetration (m) and its rate, forces (N), slip velocity,
 eccentricity and its rate, the slip that friction sees, the factor of damping on the force."""
 TOLD = 11
 
