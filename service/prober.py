@@ -30,7 +30,11 @@ class Prober:
         except Busy:
             raise unavailable("Many estimates are being made; ask again in a moment.", 2) from None
         except TooSlow:
-            raise unavailable(f"No estimate was made within {_PATIENCE:g} s.", 30) from None
+            sentence = (
+                f"No estimate was made within {_PATIENCE:g} s, most often because the equations"
+                " take longer to compile; it is made fast once a job of this scene has run."
+            )
+            raise unavailable(sentence, 30) from None
         except NoAnswer:
             raise unavailable("The beginning of the job could not be computed.", 5) from None
         if "refused" in answer:

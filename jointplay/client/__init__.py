@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import (
     ClientError,
+    Damaged,
     Expired,
     FieldProblem,
     MissingExtra,
@@ -42,6 +43,7 @@ __all__ = [
     "ChannelSeries",
     "Client",
     "ClientError",
+    "Damaged",
     "Estimate",
     "Expired",
     "FieldProblem",

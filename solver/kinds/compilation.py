@@ -2,6 +2,7 @@
 
 from jointplay.records.failure import LimitExceeded
 from jointplay.solver.kernels.record.equations import SURELY_SHORT, statements
+from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.plan import Study
@@ -19,9 +20,9 @@ SURELY_ENOUGH = 60.0
 def compile_seconds(admitted: Admission | Study) -> float:
     """Return the most that one source of an admitted job takes to compile, s of one core."""
     scene = admitted.point_scene(0) if isinstance(admitted, Study) else admitted.scene
-    tree = spanning_tree(scene)
-    if tree.closing or not tree.coordinates:
+    if not assemble(scene).freedom_with_play:
         return 0.0  # every pose is found without compiled equations
+    tree = spanning_tree(scene)
     formulation = admitted.job["formulation"]
     count = 3 * len(scene.bodies) if formulation == "lagrange" else len(tree.coordinates)
     counts = {

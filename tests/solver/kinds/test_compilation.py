@@ -24,14 +24,28 @@ def job(scene: dict[str, Any], formulation: str = "reduced") -> Any:
     return admit({"kind": "simulate", "scene": scene, "duration": 0.1, "formulation": formulation})
 
 
-@pytest.mark.parametrize(("formulation", "method"), [("reduced", COARSE), ("lagrange", AUTO)])
-def test_the_length_of_the_longest_source_is_foreseen(formulation: str, method: Method) -> None:
-    admitted = job({"preset": "slider-crank"}, formulation)
+@pytest.mark.parametrize(
+    ("preset", "formulation", "method"),
+    [
+        ("slider-crank", "reduced", COARSE),
+        ("slider-crank", "lagrange", AUTO),
+        ("double-four-bar", "reduced", AUTO),
+    ],
+)
+def test_the_length_of_the_longest_source_is_foreseen(
+    preset: str, formulation: str, method: Method
+) -> None:
+    admitted = job({"preset": preset}, formulation)
     scene = admitted.scene
     kernel = compile_kernel(scene, spanning_tree(scene), formulation, method)
     lines = len(Path(str(kernel.module.__file__)).read_text().splitlines())
     foreseen = compile_seconds(admitted) / SECONDS_PER_LINE
     assert lines < foreseen < 2.0 * lines
+
+
+def test_nothing_is_compiled_where_drivers_alone_tell_every_pose() -> None:
+    ideal = {"preset": "quick-return", "parameters": {"clearance": 0.0}}
+    assert compile_seconds(job(ideal)) == 0.0
 
 
 def test_equations_that_take_longer_than_allowed_are_refused_with_the_estimate() -> None:
