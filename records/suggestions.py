@@ -4,6 +4,8 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 MOST_LISTED = 12
+NEAR = 0.75
+"""Share of letters in common, as difflib counts it, from which a name may have been meant."""
 LONGEST = 100
 """Characters of a name for which a nearest one is looked for: comparing takes their square."""
 
@@ -14,14 +16,18 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
         return ""
     names = list(known)
     near = [other for other in names if other.casefold() == name.casefold()] or (
-        get_close_matches(name, names, n=1)
+        get_close_matches(name, names, n=1, cutoff=NEAR)
     )
     return f"did you mean '{near[0]}'?" if near else ""
 
 
+def instead(name: str, known: Iterable[str]) -> str:
+    """Return the end of a sentence about an unknown name: what was meant, or what there is."""
+    names = sorted(known) if isinstance(known, set | frozenset) else list(known)
+    listed = ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
+    return did_you_mean(name, names) or f"there are: {listed or 'none'}."
+
+
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Return a sentence that names an unknown thing and what there is instead."""
-    names = list(known)
-    listed = ", ".join(names[:MOST_LISTED]) + (", …" if len(names) > MOST_LISTED else "")
-    hint = did_you_mean(name, names) or f"there are: {listed or 'none'}."
-    return f"There is no {kind} '{name}'; {hint}"
+    return f"There is no {kind} '{name}'; {instead(name, known)}"

@@ -50,7 +50,7 @@ def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
     try:
         Scene.model_validate(document)
     except ValidationError as error:
-        raise InvalidInput(schema_problems(error, Scene)) from None
+        raise InvalidInput(schema_problems(error, Scene, document)) from None
     return document
 
 

@@ -104,7 +104,7 @@ def _parse(document: object) -> CalibrationJob:
     try:
         return CalibrationJob.model_validate(dict(document))
     except ValidationError as error:
-        raise InvalidInput(schema_problems(error, CalibrationJob)) from None
+        raise InvalidInput(schema_problems(error, CalibrationJob, document)) from None
 
 
 def _target_problems(job: CalibrationJob) -> list[Problem]:

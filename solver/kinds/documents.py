@@ -38,7 +38,7 @@ def job_of(document: Any, kind: Kind[J]) -> J:
     try:
         job: J = model.model_validate(dict(document))
     except ValidationError as error:
-        raise InvalidInput(schema_problems(error, model)) from None
+        raise InvalidInput(schema_problems(error, model, document)) from None
     return job
 
 

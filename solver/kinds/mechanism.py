@@ -17,6 +17,8 @@ from jointplay.solver.mechanics.assembly import (
     poses_nearby,
     shortest_link,
 )
+from jointplay.solver.mechanics.branches import MOST_BODIES, Branches, branches
+from jointplay.solver.mechanics.misfit import fighting_drivers, opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
@@ -78,7 +80,7 @@ def with_parameters(
     try:
         found = Scene.model_validate(filled)
     except ValidationError as error:
-        raise InvalidInput(_located(schema_problems(error, Scene), scene, echo)) from None
+        raise InvalidInput(_located(schema_problems(error, Scene, filled), scene, echo)) from None
     problems = list(part_problems(found))  # its parameters are those of the scene as written
     if problems:
         raise InvalidInput(_located(problems, scene, echo))
@@ -101,6 +103,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
     if assembly.constraints > coordinates and not assembly.freedom:
+        _check_drivers(scene)
         raise InvalidInput.at(
             "/scene/joints",
             f"The mechanism is over-constrained: {assembly.constraints} constraint"
@@ -149,12 +152,25 @@ def _check_redundant(scene: Scene, assembly: Assembly) -> None:
             " is not determined; give start angles of another pose.",
         )
     if not ranks:
+        _check_drivers(scene)
         count = max(assembly.redundant, assembly.redundant_with_play)
         raise InvalidInput.at(
             "/scene/joints",
             f"The mechanism is over-constrained: {count} of {assembly.constraints}"
             " constraint equations are redundant; remove a joint or driver, or give one"
             " joint clearance.",
+        )
+
+
+def _check_drivers(scene: Scene) -> None:
+    fighting = fighting_drivers(scene)
+    if fighting:
+        names = " and ".join(f"'{name}'" for name in fighting)
+        raise InvalidInput.at(
+            "/scene/drivers",
+            f"The motion of {names} is prescribed twice: by its driver, and by the joints and the"
+            f" other drivers. Drop one of the {len(scene.drivers)} drivers, or give a joint"
+            " clearance.",
         )
 
 
@@ -174,14 +190,33 @@ def _open(scene: Scene) -> list[Problem]:
             )
             for name in scene.start.joints
         ]
-    return [
-        Problem(
-            "/scene/start/angles",
-            f"The mechanism does not close: {assemble(scene).residual:.3g} (m or rad) remain after"
-            " Newton's iteration. Check lengths and driver positions, or give start angles"
-            " nearer to the assembly you mean.",
+    found = branches(scene)
+    if found.angles:
+        sentence = f"The mechanism does not close from its start angles; {_closing(found)}."
+    else:
+        sentence = (
+            f"The mechanism does not close: {_left_open(scene)}. Check lengths and driver"
+            " positions, or give start angles nearer to the assembly you mean."
         )
-    ]
+    return [Problem("/scene/start/angles", sentence)]
+
+
+def _left_open(scene: Scene) -> str:
+    if len(scene.bodies) > MOST_BODIES:  # where to open it would take seconds to find
+        return f"{assemble(scene).residual:.3g} (m or rad) remain after Newton's iteration"
+    wide = opening(scene)
+    return (
+        f"{wide.size:.3g} {wide.unit} remain open at joint '{wide.joint}', where the others are"
+        " closed"
+    )
+
+
+def _closing(found: Branches) -> str:
+    one = ", ".join(f"{body} {angle:.4g}" for body, angle in next(iter(found.angles), {}).items())
+    return (
+        f"{len(found.angles)} assemblies are found from {found.tried} others, one at {one} rad."
+        " Give those, or angles near another"
+    )
 
 
 def _located(

@@ -1,7 +1,7 @@
 """Assembly: the pose and velocity at the start, degrees of freedom, redundant constraints."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Final
@@ -9,19 +9,13 @@ from typing import Any, Final
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
 from jointplay.solver.scene.references import ends, has_play
 
-RANK_TOLERANCE = 1e-9
-"""Singular values below this share of the largest count as zero (rows scaled by length)."""
-MOST_ITERATIONS = 200
-ROUNDING = 1e-16
-"""Steps, for each coordinate, below which Newton's iteration only repeats its rounding."""
-LARGEST_TURN = 0.5
-"""Largest turn of a body in one iteration, rad."""
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""
 NEARBY, NEARBY_SEED, ASIDE = 3, 7, 0.05
@@ -161,50 +155,41 @@ def _assembled(scene: Scene) -> Assembly:
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     still = np.zeros(count)
 
-    pose = still.copy()
-    for i, body in enumerate(ideal.bodies):
-        pose[3 * i + 2] = first_angles(scene)[body]
-    positions = np.arange(count) % 3 != 2
-    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
-    if len(residual):  # revolute joints are linear in x and y: a good first guess from the angles
-        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
-        pose[positions] += step
-    _close(ideal, pose, driven, scale)
-    residual, jacobian = _arrays(ideal.rows(pose, still, driven), count)
+    pose = first_pose(ideal, first_angles(scene), driven)
+    close(ideal, pose, driven, scale)
+    residual, jacobian = arrays(ideal.rows(pose, still, driven), count)
 
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
     velocity = _start_velocity(ideal, pose, scale)
-    _, open_jacobian = _arrays(loose.rows(pose, velocity, driven), count)
-    rank, open_rank = _rank(jacobian * scale), _rank(open_jacobian * scale)
+    _, open_jacobian = arrays(loose.rows(pose, velocity, driven), count)
+    found, loose_rank = rank(jacobian * scale), rank(open_jacobian * scale)
     pose.flags.writeable = velocity.flags.writeable = False
     return Assembly(
         pose=pose,
         velocity=velocity,
         residual=float(np.abs(residual).max(initial=0.0)),
         constraints=len(residual),
-        rank=rank,
-        freedom=count - rank,
-        freedom_with_play=count - open_rank,
-        redundant_with_play=len(open_jacobian) - open_rank,
+        rank=found,
+        freedom=count - found,
+        freedom_with_play=count - loose_rank,
+        redundant_with_play=len(open_jacobian) - loose_rank,
     )
 
 
-def _close(
-    mechanism: AbsoluteMechanism, pose: Floats, driven: dict[str, float], scale: Floats
-) -> None:
-    """Move a pose to where the constraints hold, by Newton's iteration, if it gets there."""
-    count, still = len(pose), np.zeros_like(pose)
-    angles = np.arange(count) % 3 == 2
-    for _ in range(MOST_ITERATIONS):
-        residual, jacobian = _arrays(mechanism.rows(pose, still, driven), count)
-        if not len(residual) or not np.isfinite(residual).all():
-            break
-        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
-        # a turn of more than half a radian would lead to another assembly; positions follow
-        turn = float(np.abs(step[angles]).max())
-        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
-        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
-            break
+def first_pose(
+    ideal: AbsoluteMechanism, angles: Mapping[str, float], driven: dict[str, float]
+) -> Floats:
+    """Return a pose with these angles, rad by body, in which joints are as near as they come."""
+    count = 3 * len(ideal.bodies)
+    pose = np.zeros(count)
+    for i, body in enumerate(ideal.bodies):
+        pose[3 * i + 2] = angles[body]
+    positions = np.arange(count) % 3 != 2
+    residual, jacobian = arrays(ideal.rows(pose, np.zeros(count), driven), count)
+    if len(residual):  # revolute joints are linear in x and y
+        step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
+        pose[positions] += step
+    return pose
 
 
 def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
@@ -217,17 +202,17 @@ def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     driven, still = driver_positions(scene), np.zeros_like(start)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
-    _, jacobian = _arrays(ideal.rows(start, still, driven), len(start))
+    _, jacobian = arrays(ideal.rows(start, still, driven), len(start))
     _, values, directions = np.linalg.svd(jacobian * scale)
     free = directions[int((values > RANK_TOLERANCE * values[0]).sum()) :]
     for deviates in np.random.default_rng(NEARBY_SEED).standard_normal((NEARBY, len(free))):
         move = deviates @ free
         move *= ASIDE / np.abs(move).max()
         pose = start + scale * move
-        _close(ideal, pose, driven, scale)
-        residual, jacobian = _arrays(ideal.rows(pose, still, driven), len(pose))
+        close(ideal, pose, driven, scale)
+        residual, jacobian = arrays(ideal.rows(pose, still, driven), len(pose))
         if np.abs((pose - start) / scale).max() > 0.1 * ASIDE:
-            yield pose, float(np.abs(residual).max()) / length, _rank(jacobian * scale)
+            yield pose, float(np.abs(residual).max()) / length, rank(jacobian * scale)
 
 
 def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
@@ -265,24 +250,8 @@ def _admissible(
     """Change some of the velocities, as little as possible, so that the constraints hold."""
     rows = mechanism.rows(pose, velocity, driven)
     if rows:
-        _, jacobian = _arrays(rows, len(pose))
+        _, jacobian = arrays(rows, len(pose))
         rates = np.array([row.rate for row in rows], np.float64)
         scaled = (jacobian * scale)[:, columns]
         step, *_ = np.linalg.lstsq(scaled, -rates, rcond=RANK_TOLERANCE)
         velocity[columns] += scale[columns] * step
-
-
-def _arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
-    jacobian = np.zeros((len(rows), count))
-    for i, row in enumerate(rows):
-        for k, entry in row.jacobian.items():
-            jacobian[i, k] = entry
-    return np.array([row.value for row in rows], np.float64), jacobian
-
-
-def _rank(scaled_jacobian: Floats) -> int:
-    if not scaled_jacobian.size:
-        return 0
-    rows = np.linalg.norm(scaled_jacobian, axis=1, keepdims=True)
-    values = np.linalg.svd(scaled_jacobian / np.maximum(rows, 1e-300), compute_uv=False)
-    return int((values > RANK_TOLERANCE * values[0]).sum())

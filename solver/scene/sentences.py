@@ -1,15 +1,14 @@
 """Schema errors as sentences: which field, and what would be right, with its unit."""
 
-from collections.abc import Iterable, Iterator
-from functools import cache
-from typing import Any, get_origin
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
-from jointplay.records.suggestions import did_you_mean
+from jointplay.records.suggestions import instead
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.scene.unions import is_form
 
@@ -22,10 +21,10 @@ MOST_HINTS = 100
 
 SENTENCES = {
     "missing": "The field '{field}' is required.",
-    "greater_than": "'{field}' must be greater than {gt:g}{unit}.",
-    "greater_than_equal": "'{field}' must be at least {ge:g}{unit}.",
-    "less_than": "'{field}' must be less than {lt:g}{unit}.",
-    "less_than_equal": "'{field}' must be at most {le:g}{unit}.",
+    "greater_than": "'{field}' must be greater than {gt:g}{unit}, not {given:g}.",
+    "greater_than_equal": "'{field}' must be at least {ge:g}{unit}, not {given:g}.",
+    "less_than": "'{field}' must be less than {lt:g}{unit}, not {given:g}.",
+    "less_than_equal": "'{field}' must be at most {le:g}{unit}, not {given:g}.",
     "finite_number": "'{field}' must be a finite number{in_unit}.",
     "float_type": "'{field}' must be a number{in_unit}.",
     "int_type": "'{field}' must be a whole number{of_unit}.",
@@ -49,21 +48,26 @@ SENTENCES = {
 """By pydantic's type of error, in its context; a reference is a string with a point."""
 
 
-def schema_problems(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
-    """Return one problem for each wrong place; `root` is the model that was validated."""
+def schema_problems(
+    error: ValidationError, root: type[BaseModel], document: object
+) -> list[Problem]:
+    """Return one problem for each wrong place; `root` is the model that a document was held to."""
     found: dict[str, str] = {}
     hints = 0
-    for item in error.errors(include_url=False, include_input=False):
+    for item in error.errors(include_url=False):
         location = [str(part) for part in item["loc"]]
         place = _place(location)
         pointer = "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in place)
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
         if item["type"] == "extra_forbidden":
             hints += 1
-            meant = _meant(field, root) if hints <= MOST_HINTS else ""
-            sentence = f"There is no field '{field}' here" + (f"; {meant}" if meant else ".")
+            hint = ""
+            if hints <= MOST_HINTS:
+                _, models = _reached(place[:-1], root, document)
+                hint = "; " + instead(field, {name for m in models for name, _ in _fields(m)})
+            sentence = f"There is no field '{field}' here" + (hint or ".")
         else:
-            sentence = _sentence(item, field, _unit(place, root))
+            sentence = _sentence(item, field, _unit(place, root, document))
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
 
@@ -76,7 +80,7 @@ def _sentence(item: ErrorDetails, field: str, unit: str) -> str:
     if r"\." in context.get("pattern", ""):
         kind = "reference"
     units = {"unit": unit, "in_unit": unit and f", in{unit}", "of_unit": unit and f" of{unit}"}
-    return SENTENCES[kind].format(field=field, **units, **context)
+    return SENTENCES[kind].format(field=field, given=item["input"], **units, **context)
 
 
 def _place(location: list[str]) -> list[str]:
@@ -91,31 +95,56 @@ def _place(location: list[str]) -> list[str]:
     return place
 
 
-def _meant(field: str, root: type[BaseModel]) -> str:
-    """Return the question after the known field that is nearest; empty where none is near."""
-    return did_you_mean(field, _known(root) - {field})
-
-
-@cache
-def _known(root: type[BaseModel]) -> frozenset[str]:
-    """Return the names of all fields of a model, and of the models in them."""
-    return frozenset(name for model in _models([root], {}) for name, _ in _fields(model))
-
-
-def _unit(place: list[str], root: type[BaseModel]) -> str:
+def _unit(place: Sequence[str], root: type[BaseModel], document: object) -> str:
     """Return the unit of the field at a place, with a space before; empty where there is none."""
-    models, unit, is_key = [root], "1", False
-    for part in place:
-        fields = [f for model in models for name, f in _fields(model) if name == part]
-        if is_key or not fields:  # a key of an object, an index
-            is_key = False
-            continue
-        extras = [extra for f in fields if isinstance(extra := f.json_schema_extra, dict)]
-        units = {str(extra.get("unit", "1")) for extra in extras}
-        unit = units.pop() if len(units) == 1 else "1"
-        is_key = any(get_origin(f.annotation) is dict for f in fields)
-        models = list(_directly([part for f in fields for part in (f.annotation, *f.metadata)]))
+    fields, _ = _reached(place, root, document)
+    extras = [extra for f in fields if isinstance(extra := f.json_schema_extra, dict)]
+    units = {str(extra.get("unit", "1")) for extra in extras}
+    unit = units.pop() if len(units) == 1 else "1"
     return "" if unit == "1" else f" {unit}"
+
+
+def _reached(
+    place: Sequence[str], root: type[BaseModel], document: object
+) -> tuple[list[FieldInfo], list[type[BaseModel]]]:
+    """Return the last fields on the way to a place, and the models that a document means there."""
+    models, value, is_key = [root], document, False
+    fields: list[FieldInfo] = []
+    for part in place:
+        named = [f for model in models for name, f in _fields(model) if name == part]
+        value = _inside(value, part)
+        if is_key or not named:  # a key of an object, an index
+            is_key = False
+        else:
+            fields = named
+            is_key = any(get_origin(f.annotation) is dict for f in fields)
+            models = list(_directly([part for f in fields for part in (f.annotation, *f.metadata)]))
+        models = models if is_key else _meant(models, value)
+    return fields, models
+
+
+def _inside(value: object, part: str) -> object:
+    if isinstance(value, Mapping):
+        return value.get(part)
+    is_item = isinstance(value, list) and part.isdigit() and int(part) < len(value)
+    return value[int(part)] if is_item and isinstance(value, list) else None
+
+
+def _meant(models: list[type[BaseModel]], value: object) -> list[type[BaseModel]]:
+    """Return which of a union's models an object means: by what it says of its kind, and has."""
+    if len(models) < 2 or not isinstance(value, Mapping):
+        return models
+    told = [
+        model
+        for model in models
+        if all(
+            name not in value or value[name] in get_args(field.annotation)
+            for name, field in _fields(model)
+            if get_origin(field.annotation) is Literal
+        )
+    ] or models
+    known = [sum(name in value for name, _ in _fields(model)) for model in told]
+    return [model for model, count in zip(told, known, strict=True) if count == max(known)]
 
 
 def _fields(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
@@ -134,13 +163,3 @@ def _directly(annotations: list[Any]) -> Iterator[type[BaseModel]]:
         else:
             inside = [*getattr(item, "__args__", ()), *getattr(item, "__metadata__", ())]
             yield from _directly(inside)
-
-
-def _models(annotations: list[Any], seen: dict[type[BaseModel], None]) -> Iterable[type[BaseModel]]:
-    """Return the models that annotations name and all below them, in `seen`."""
-    for model in _directly(annotations):
-        if model not in seen:
-            seen[model] = None
-            for _, field in _fields(model):
-                _models([field.annotation, *field.metadata], seen)
-    return seen

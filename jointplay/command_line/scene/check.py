@@ -1,24 +1,32 @@
 """``jointplay scene check``: whether a mechanism can be put together and move."""
 
+import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from jointplay.command_line.options import AS_JSON, SCENE, SET
 from jointplay.command_line.output import tell
 from jointplay.command_line.scene.assembled import AssembledScene, assemble_scene
 
+if TYPE_CHECKING:
+    from jointplay.solver.mechanics.branches import Branches
+
 
 def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None:
-    """Check a mechanism before it is run: freedom, redundant constraints, assembly.
+    """Check a mechanism before it is run: freedom, redundant constraints, assemblies.
 
     Of a mechanism that cannot be run the same is printed, and why; then the exit code is 2.
 
     Example: `jointplay scene check mine.json --set clearance=1e-4`
     """
     from jointplay.figures.scene_facts import clearances
+    from jointplay.solver.mechanics.branches import branches
+    from jointplay.solver.scene.document import Scene
 
     scene = assemble_scene(source, settings or ())
     assembly, admission = scene.assembly, scene.admission
     joints = list(clearances(scene.document))
+    found = branches(Scene.model_validate(scene.document))
     document = {
         "scene": scene.document["name"],
         "bodies": list(scene.document["bodies"]),
@@ -28,16 +36,18 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
         "redundant": assembly.redundant_with_play,
         "ideal_redundant": assembly.redundant,
         "residual": assembly.residual,
+        "assemblies": found.angles,
+        "held": found.held,
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
         "problems": scene.problems,
     }
-    tell(document, _lines(scene, joints), as_json=as_json)
+    tell(document, _lines(scene, joints, found), as_json=as_json)
     if scene.refusal is not None:
         raise scene.refusal
 
 
-def _lines(scene: AssembledScene, joints: list[str]) -> Iterator[str]:
+def _lines(scene: AssembledScene, joints: list[str], found: "Branches") -> Iterator[str]:
     assembly, admission = scene.assembly, scene.admission
     lines = {
         "scene": scene.document["name"],
@@ -51,5 +61,19 @@ def _lines(scene: AssembledScene, joints: list[str]) -> Iterator[str]:
         period = admission.period
         lines["period"] = f"{period:g} s" if period else f"none: {admission.section_note}"
         lines["channels"] = str(len(admission.channels))
+    held = f", {' and '.join(found.held)} held" if found.held else ""
+    lines["assemblies"] = f"{len(found.angles)} found from {found.tried + 1} starts{held}"
     for name, value in lines.items():
         yield f"{name:22} {value}"
+    for angles in found.angles[1:]:
+        apart = {
+            body: angle
+            for body, angle in angles.items()
+            if abs(math.sin((angle - found.angles[0][body]) / 2)) > ALIKE
+        }
+        turned = ", ".join(f"{body} {angle:.4g}" for body, angle in apart.items())
+        yield f"{'':22} another: {turned} rad"
+
+
+ALIKE = 1e-6
+"""Sine of half the difference of two angles below which they are shown as one."""

@@ -205,7 +205,7 @@ def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
         ({"second": "mass.nose"}, "/second", "point of 'mass'"),
         ({"second": "mas.eye"}, "/second", "'mass'"),
         ({"second": "ground.guide"}, "", "a force acts between two bodies"),
-        ({"stiffness": -1.0}, "/stiffness", "'stiffness' must be at least 0 N/m."),
+        ({"stiffness": -1.0}, "/stiffness", "'stiffness' must be at least 0 N/m, not -1."),
         ({"stiffness": 0.0}, "/stiffness", "no force"),
         ({"elasticity": 1.0}, "/elasticity", "no field"),
         ({"first": "ground.guide"}, "", "start in one place"),

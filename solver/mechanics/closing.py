@@ -1,0 +1,61 @@
+"""Closing a mechanism: constraints as arrays, their rank, and Newton's iteration on a pose."""
+
+import numpy as np
+
+from jointplay.records.arrays import Flags, Floats
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+
+RANK_TOLERANCE = 1e-9
+"""Singular values below this share of the largest count as zero (rows scaled by length)."""
+MOST_ITERATIONS = 200
+ROUNDING = 1e-16
+"""Steps, for each coordinate, below which Newton's iteration only repeats its rounding."""
+LARGEST_TURN = 0.5
+"""Largest turn of a body in one iteration, rad."""
+
+
+def close(
+    mechanism: AbsoluteMechanism,
+    pose: Floats,
+    driven: dict[str, float],
+    scale: Floats,
+    held: Flags | None = None,
+    iterations: int = MOST_ITERATIONS,
+) -> None:
+    """Move a pose to where the constraints hold, by Newton's iteration, if it gets there.
+
+    pose : (3 bodies,) x, y (m), theta (rad). scale : (3 bodies,) what steps are measured in, m and
+    rad. held : (3 bodies,) coordinates that keep their values.
+    """
+    count, still = len(pose), np.zeros_like(pose)
+    angles = np.arange(count) % 3 == 2
+    for _ in range(iterations):
+        residual, jacobian = arrays(mechanism.rows(pose, still, driven), count)
+        if not len(residual) or not np.isfinite(residual).all():
+            break
+        if held is not None:
+            jacobian[:, held] = 0.0
+        step, *_ = np.linalg.lstsq(jacobian * scale, -residual, rcond=RANK_TOLERANCE)
+        # a turn of more than half a radian would lead to another assembly; positions follow
+        turn = float(np.abs(step[angles]).max())
+        pose += scale * step * min(1.0, LARGEST_TURN / max(turn, 1e-300))
+        if float(np.abs(step).max()) < max(1e-15, ROUNDING * count):
+            break
+
+
+def arrays(rows: list[Row], count: int) -> tuple[Floats, Floats]:
+    """Return residuals, (rows,), m or rad, and their Jacobian, (rows, count)."""
+    jacobian = np.zeros((len(rows), count))
+    for i, row in enumerate(rows):
+        for k, entry in row.jacobian.items():
+            jacobian[i, k] = entry
+    return np.array([row.value for row in rows], np.float64), jacobian
+
+
+def rank(scaled_jacobian: Floats) -> int:
+    """Return the number of independent rows of a Jacobian whose columns are of one unit."""
+    if not scaled_jacobian.size:
+        return 0
+    rows = np.linalg.norm(scaled_jacobian, axis=1, keepdims=True)
+    values = np.linalg.svd(scaled_jacobian / np.maximum(rows, 1e-300), compute_uv=False)
+    return int((values > RANK_TOLERANCE * values[0]).sum())

@@ -1,0 +1,94 @@
+"""What keeps a mechanism from being put together: a joint that stays open, drivers that fight."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.assembly import (
+    assemble,
+    driver_positions,
+    first_angles,
+    first_pose,
+    shortest_link,
+)
+from jointplay.solver.mechanics.closing import arrays, rank
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.document import Scene
+
+HEAVY = 1e3
+"""Weight of what stays closed against what may open; its square is the share that gives way."""
+MOST_EVALUATIONS = 100
+
+
+class Opening(NamedTuple):
+    """A joint that does not close, and by how much, in `unit` (m or rad)."""
+
+    joint: str
+    size: float
+    unit: str
+
+
+def opening(scene: Scene) -> Opening:
+    """Return which joint stays open most, and how far, where all joints of the tree are closed.
+
+    The joints that may open are those that close loops, and those with play. The pose is that of
+    the least squares of what stays open, near the start angles.
+    """
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    driven, length = driver_positions(scene), shortest_link(scene)
+    pose = first_pose(ideal, first_angles(scene), driven)
+    still, count = np.zeros_like(pose), len(pose)
+    scale = np.tile([length, length, 1.0], len(ideal.bodies))
+    tree = spanning_tree(scene)
+    may_open = {*tree.closing, *tree.play}
+    rows = ideal.rows(pose, still, driven)
+    units = np.array([1.0 if row.part == "angle" else length for row in rows])
+    weights = np.array([1.0 if row.joint in may_open else HEAVY for row in rows]) / units
+
+    def misfit(scaled: Floats) -> Floats:
+        return arrays(ideal.rows(scaled * scale, still, driven), count)[0] * weights
+
+    def slope(scaled: Floats) -> Floats:
+        jacobian = arrays(ideal.rows(scaled * scale, still, driven), count)[1]
+        return jacobian * scale * weights[:, None]
+
+    nearest = least_squares(misfit, pose / scale, jac=slope, max_nfev=MOST_EVALUATIONS)
+    left = np.abs(nearest.fun / weights)
+    widest = int(np.argmax(left / units))
+    joint = rows[widest].joint
+    if rows[widest].part == "angle":
+        return Opening(joint, float(left[widest]), "rad")
+    along = [i for i, row in enumerate(rows) if row.joint == joint and row.part != "angle"]
+    return Opening(joint, float(np.linalg.norm(left[along])), "m")
+
+
+def fighting_drivers(scene: Scene) -> list[str]:
+    """Return the drivers whose motion the joints and the other drivers prescribe already.
+
+    None where the joints alone are redundant: then they may be to blame.
+    """
+    ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
+    pose, length = assemble(scene).pose, shortest_link(scene)
+    scale = np.tile([length, length, 1.0], len(ideal.bodies))
+    rows = ideal.rows(pose, np.zeros_like(pose), driver_positions(scene))
+    _, jacobian = arrays(rows, len(pose))
+    jacobian = jacobian * scale
+    motions = {"revolute": "angle", "prismatic": "along"}
+    driving = {
+        (driver.joint, motions[scene.joints[driver.joint].type]): name
+        for name, driver in scene.drivers.items()
+    }
+    drivers = [driving.get((row.joint, row.part), "") for row in rows]
+    joints = jacobian[[not driver for driver in drivers]]
+    if rank(joints) < len(joints):
+        return []
+    every = rank(jacobian)
+    return [
+        driver
+        for k, driver in enumerate(drivers)
+        if driver and rank(np.delete(jacobian, k, axis=0)) == every
+    ]

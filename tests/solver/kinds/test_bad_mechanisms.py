@@ -1,0 +1,141 @@
+"""Mechanisms that are refused: each with the field, the number that is wrong, and the remedy."""
+
+import copy
+from typing import Any
+
+import pytest
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
+
+
+def bar(length: float) -> dict[str, Any]:
+    return {"mass": 1.0, "inertia": 0.01, "points": {"a": [0.0, 0.0], "b": [length, 0.0]}}
+
+
+def pin(first: str, second: str) -> dict[str, Any]:
+    return {"type": "revolute", "bearing": first, "journal": second}
+
+
+FOUR_BAR: dict[str, Any] = {
+    "name": "four-bar",
+    "ground": {"points": {"O": [0.0, 0.0], "C": [1.0, 0.0]}},
+    "bodies": {"crank": bar(0.2), "coupler": bar(1.1), "rocker": bar(0.7)},
+    "joints": {
+        "O": pin("ground.O", "crank.a"),
+        "A": pin("crank.b", "coupler.a"),
+        "B": pin("coupler.b", "rocker.b"),
+        "C": pin("ground.C", "rocker.a"),
+    },
+    "drivers": {"motor": {"joint": "O", "speed": 10.0}},
+    "start": {"angles": {"coupler": 0.6, "rocker": 1.5}},
+}
+SPRING = {"type": "spring-damper", "first": "ground.C", "second": "crank.b", "stiffness": 1e3}
+PLAY = {
+    "radial_clearance": 1e-4,
+    "bearing_radius": 1e-2,
+    "contact": {"law": "lankarani-nikravesh", "restitution": 0.9},
+}
+BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
+    "a spring to an unknown point": (
+        {"/forces": {"spring": SPRING | {"second": "crank.pin"}}},
+        "/forces/spring/second",
+        ["There is no point of 'crank' named 'pin'", "there are: a, b."],
+    ),
+    "a spring to an unknown body": (
+        {"/forces": {"spring": SPRING | {"second": "cranc.b"}}},
+        "/forces/spring/second",
+        ["did you mean 'crank'?"],
+    ),
+    "a spring that pushes": (
+        {"/forces": {"spring": SPRING | {"stiffness": -5.0}}},
+        "/forces/spring/stiffness",
+        ["at least 0 N/m, not -5"],
+    ),
+    "two drivers of a joint": (
+        {"/drivers/second": {"joint": "O", "speed": 9.0}},
+        "/drivers",
+        ["'O' has more than one driver", "keep one"],
+    ),
+    "two drivers that fight": (
+        {"/drivers/second": {"joint": "C", "speed": 9.0, "position": 1.5}},
+        "/drivers",
+        ["'motor' and 'second' is prescribed twice", "Drop one of the 2 drivers"],
+    ),
+    "a loop that cannot close": (  # 1 m less 0.2 m of the crank and 0.5 m of the others
+        {"/bodies/coupler": bar(0.2), "/bodies/rocker": bar(0.3)},
+        "/start/angles",
+        ["0.3 m remain open at joint 'B'", "Check lengths"],
+    ),
+    "a loop that does not close from its start": (
+        {"/start/angles": {"coupler": 3.0, "rocker": 1.7}},
+        "/start/angles",
+        ["2 assemblies are found from 24 others", "coupler 0.6877, rocker 1.499 rad", "Give those"],
+    ),
+    "a law's parameter out of its range": (
+        {"/joints/B/clearance": PLAY | {"contact": PLAY["contact"] | {"restitution": 1.5}}},
+        "/joints/B/clearance/contact/restitution",
+        ["at most 1, not 1.5"],
+    ),
+    "a clearance without a journal": (
+        {"/joints/B/clearance": PLAY | {"radial_clearance": 0.01}},
+        "/joints/B/clearance/radial_clearance",
+        ["0.01 m leaves no journal", "must be smaller"],
+    ),
+    "a massless body": (
+        {"/bodies/coupler/mass": 0.0},
+        "/bodies/coupler/mass",
+        ["at least 1e-09 kg, not 0"],
+    ),
+    "a body that turns without inertia": (
+        {"/bodies/coupler/inertia": 0.0},
+        "/bodies/coupler/inertia",
+        ["at least 1e-18 kg m^2, not 0"],
+    ),
+    "a field of other tools": (
+        {"/springs": {}},
+        "/springs",
+        ["no field 'springs' here; there are: bodies, ", "forces"],
+    ),
+    "a field of another joint": (
+        {"/joints/guide": {"type": "prismatic", "guide": "ground.O", "journal": "crank.a"}},
+        "/joints/guide/journal",
+        ["there are: angle, axis, guide, slider, type."],
+    ),
+    "a field of another element": (
+        {"/forces": {"spring": SPRING | {"moment": 1.0}}},
+        "/forces/spring/moment",
+        ["there are: damping, first, free_length, second, stiffness, type."],
+    ),
+    "a field misspelt": (
+        {"/joints/B/clearance": PLAY | {"contact": PLAY["contact"] | {"stifness": 1e9}}},
+        "/joints/B/clearance/contact/stifness",
+        ["did you mean 'stiffness'?"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_a_bad_mechanism_is_refused_with_field_number_and_remedy(case: str) -> None:
+    changes, pointer, words = BAD[case]
+    with pytest.raises(InvalidInput) as refused:
+        admit(of(changes))
+    found = {problem.pointer: problem.detail for problem in refused.value.problems}
+    assert f"/scene{pointer}" in found, found
+    for word in words:
+        assert word in found[f"/scene{pointer}"]
+
+
+def test_the_mechanism_that_they_spoil_is_accepted() -> None:
+    assert admit(of({})).period
+
+
+def of(changes: dict[str, Any]) -> dict[str, Any]:
+    scene = copy.deepcopy(FOUR_BAR)
+    for path, value in changes.items():
+        *parents, last = path.strip("/").split("/")
+        place = scene
+        for key in parents:
+            place = place[key]
+        place[last] = copy.deepcopy(value)
+    return {"kind": "simulate", "scene": scene, "duration": 0.1}
