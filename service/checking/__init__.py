@@ -14,7 +14,6 @@ from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlo
 from jointplay.service.batches.admission import admit_batch
 from jointplay.service.idempotency import fingerprint
 from jointplay.service.jobs.submission import checked
-from jointplay.service.memory import give_back_soon
 from jointplay.service.problems import RequestRefused, unavailable
 from jointplay.solver.kernels.record.equations import SURELY_SHORT
 from jointplay.storage.catalogue.records import NewJob
@@ -114,7 +113,6 @@ class Checker:
             raise LimitExceeded.at("", sentence) from None
         except NoAnswer:
             raise unavailable("The document could not be checked.", 5) from None
-        give_back_soon()
         if isinstance(answer, RequestRefused):
             raise answer
         return answer

@@ -7,7 +7,7 @@ import socket
 import uvicorn
 from fastapi import FastAPI
 
-from jointplay.service.memory import keep_nothing_large
+from jointplay.service.memory import keep_no_free_memory
 
 LONGEST_HEAD = 256 * 1024
 """Bytes of a request's line and headers: 20 000 characters of a query, each of up to nine bytes."""
@@ -20,7 +20,7 @@ def main() -> None:
     parser.add_argument("--port", type=int, default=8000)
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
     arguments = parser.parse_args()
-    keep_nothing_large()
+    keep_no_free_memory()
     configuration = uvicorn.Config(
         _application,
         factory=True,
