@@ -1,12 +1,15 @@
 """Everything that `make test` checks, three steps side by side, with the time of each.
 
 Run as ``python -m tests.everything [STEP ...]``; without a step, all of them. A third of the tests
-wait (for leases, restarts, shutdowns) while the others compute.
+wait (for leases, restarts, shutdowns) while the others compute. Processor seconds are those of the
+processes that ended before the step did.
 """
 
+import os
 import re
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -17,6 +20,10 @@ from tests.wheel_layout import ROOT, lay_out
 
 LONGEST = ("faults", "solver")
 """Groups that begin first, so that none is left alone at the end: one waits, one computes."""
+ENVIRONMENT = {
+    name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
+}
+"""Without bytecode every process that a test starts would translate our sources again."""
 _COUNTS = re.compile(r"(\d+) (passed|failed|errors?|skipped)\b")
 
 
@@ -29,6 +36,7 @@ class Step:
     folder: Path = ROOT
     counts: Counter[str] = field(default_factory=Counter)
     seconds: float = 0.0
+    processor: float = 0.0
     failed: bool = False
     output: str = ""
 
@@ -36,19 +44,18 @@ class Step:
         """Run the command; remember its output, time, outcome and pytest's counts."""
         print(f"{self.name} ...", flush=True)
         start = time.monotonic()
-        done = subprocess.run(
-            self.command,
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
+        with tempfile.TemporaryFile("w+", errors="replace") as output:
+            process = subprocess.Popen(
+                self.command, cwd=self.folder, env=ENVIRONMENT, stdout=output, stderr=output
+            )
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            output.seek(0)
+            self.output = output.read()
         self.seconds = time.monotonic() - start
-        self.output = done.stdout
-        self.failed = done.returncode != 0
-        last = done.stdout.rstrip().rpartition("\n")[2]
+        self.processor = usage.ru_utime + usage.ru_stime
+        self.failed = process.returncode != 0
+        last = self.output.rstrip().rpartition("\n")[2]
         for number, outcome in _COUNTS.findall(last):
             self.counts["failed" if outcome.startswith("error") else outcome] += int(number)
         if self.failed and not self.counts["failed"]:
@@ -88,13 +95,15 @@ def main() -> int:
         for done in as_completed([pool.submit(step.run) for step in run]):
             step = done.result()
             print(f"\n== {step.name}\n{step.output}", flush=True)
-    print("\nstep                     seconds")
+    print("\nstep                     seconds  of processor")
     for step in run:
-        print(f"{step.name:24} {step.seconds:7.1f}  {'FAILED' if step.failed else 'ok'}")
+        outcome = "FAILED" if step.failed else "ok"
+        print(f"{step.name:24} {step.seconds:7.1f} {step.processor:13.1f}  {outcome}")
     counts: Counter[str] = sum((step.counts for step in run), Counter())
     print(
         f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped "
-        f"in {time.monotonic() - begun:.0f} s"
+        f"in {time.monotonic() - begun:.0f} s, "
+        f"{sum(step.processor for step in run):.0f} s of processor"
     )
     return int(any(step.failed for step in run))
 

@@ -2,7 +2,8 @@
 
 Numba keys its cache on a file's own text, so a change in a file that it calls would go unseen:
 the whole cache lives under a digest of all sources of this package: compiled code calls nothing
-outside of it, and a generated module is named by its text. Wiping it is always safe.
+outside of it, and a generated module is named by its text. Wiping it is always safe. Installations
+of the same sources share it.
 """
 
 import gc
@@ -12,18 +13,23 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import ModuleType
+from typing import Any, Self
 
 import numba
+from filelock import FileLock
+from numba.core.caching import UserProvidedCacheLocator
 
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
+
+_PACKAGE = Path(__file__).parent
 
 
 @cache
@@ -37,7 +43,7 @@ def cache_folder() -> Path:
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
         "jointplay",
     )
-    digest = source_digest(Path(__file__).parent)
+    digest = source_digest(_PACKAGE)
     for parent in (Path(chosen), Path(tempfile.gettempdir()) / f"jointplay-{os.getuid()}"):
         folder = parent / f"kernels-{digest}-{LANES}"
         try:
@@ -46,9 +52,28 @@ def cache_folder() -> Path:
                 pass
         except OSError:
             continue
-        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]  # numba sets it at import
+        settings: Any = numba.config  # which Numba fills when it is imported
+        settings.CACHE_DIR = str(folder)
+        settings.CACHE_LOCATOR_CLASSES = f"{__name__}.OwnSources,UserProvidedCacheLocator"
         return folder
     raise OSError("no folder for compiled kernels can be written; set JOINTPLAY_CACHE to one")
+
+
+class OwnSources(UserProvidedCacheLocator):
+    """Where Numba keeps code of this package: under the file's path in it, wherever it lies."""
+
+    @classmethod
+    def get_suitable_cache_subpath(cls, py_file: str) -> str:
+        """Return the folder of a file of this package, relative to the package."""
+        return str(Path(py_file).parent.relative_to(_PACKAGE))
+
+    @classmethod
+    def from_function(cls, py_func: Callable[..., Any], py_file: str) -> Self | None:
+        """Return the locator of a function; None for functions of other packages."""
+        if not Path(py_file).is_relative_to(_PACKAGE):
+            return None
+        found: Self | None = super().from_function(py_func, py_file)  # type: ignore[no-untyped-call]
+        return found
 
 
 def load(source: str) -> ModuleType:
@@ -85,7 +110,15 @@ def is_compiled(path: Path) -> bool:
 
 
 def load_file(path: Path) -> ModuleType:
-    """Import a generated file; what is not in the cache is compiled here."""
+    """Import a generated file; what is not in the cache is compiled here.
+
+    Only one process compiles a file; others wait for it, and find that it is done.
+    """
+    with nullcontext() if is_compiled(path) else FileLock(path.with_suffix(".lock")):
+        return _load_file(path)
+
+
+def _load_file(path: Path) -> ModuleType:
     name = path.stem
     specification = importlib.util.spec_from_file_location(name, path)
     if specification is None or specification.loader is None:

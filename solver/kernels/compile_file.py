@@ -1,15 +1,10 @@
-"""`python -m jointplay.solver.kernels.compile_file FILE`: compile a source into the cache.
-
-Only one process compiles a source; others wait for it, and find that it is done.
-"""
+"""`python -m jointplay.solver.kernels.compile_file FILE`: compile a source into the cache."""
 
 import os
 import resource
 import sys
 import threading
 from pathlib import Path
-
-from filelock import FileLock
 
 from jointplay.solver.kernels import cache
 from jointplay.solver.kernels.watched import MOST_MEMORY, OUT_OF_MEMORY
@@ -22,12 +17,10 @@ def main(path: Path) -> int:
     most = MOST_MEMORY if hard == resource.RLIM_INFINITY else min(MOST_MEMORY, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
     cache.cache_folder()  # names Numba's cache
-    with FileLock(path.with_suffix(".lock")):
-        if not cache.is_compiled(path):
-            try:
-                cache.load_file(path)
-            except MemoryError:
-                return OUT_OF_MEMORY
+    try:
+        cache.load_file(path)
+    except MemoryError:
+        return OUT_OF_MEMORY
     return 0
 
 

@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from filelock import FileLock
+
 from jointplay.solver.integrators import AUTO, METHODS
 from jointplay.solver.kernels.cache import cache_folder, without_collection
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
@@ -24,8 +26,8 @@ MOST_KEPT = 16
 
 
 def compile_loop() -> None:
-    """Compile what every run shares, or load it from the cache."""
-    with without_collection():
+    """Compile what every run shares, or load it from the cache; only one process compiles."""
+    with FileLock(_marker().with_suffix(".lock")), without_collection():
         advance.compile()
         observe_rows.compile()
     _marker().touch()

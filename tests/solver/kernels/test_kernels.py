@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 
 from jointplay.solver.integrators import TSITOURAS5
+from jointplay.solver.kernels.cache import cache_folder
 from jointplay.solver.kernels.emit.kernel import Kernel, compile_kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kernels.layout import BUNDLE
+from jointplay.solver.kernels.loop.advance import count_active
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates
@@ -219,3 +221,7 @@ def test_a_second_process_compiles_nothing() -> None:
     ].keys()
     assert set(second["misses"].values()) == {0}
     assert set(second["hits"].values()) == {1}
+
+
+def test_installations_of_the_same_sources_share_what_is_compiled() -> None:
+    assert Path(count_active.stats.cache_path) == cache_folder() / "loop"
