@@ -85,7 +85,7 @@ def solver_of(kernel: Kernel, tolerance: float) -> Callable[..., tuple[Any, Any]
     import jax.numpy as jnp
     import optimistix
 
-    slope, joints = equations_of(kernel), len(kernel.play)
+    slope, joints = equations_of(kernel), len(kernel.pairs)
     controller = diffrax.PIDController(rtol=tolerance, atol=1e-3 * tolerance, dtmax=LONGEST_STEP)
     term = diffrax.ODETerm(lambda t, y, args: slope(t, y, *args)[0])
 

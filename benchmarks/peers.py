@@ -84,7 +84,7 @@ class CompiledEquations:
 
     def __init__(self, kernel: Kernel) -> None:
         self.bundle = Bundle(kernel, [problem(5e-4, 1e-6, REVOLUTION)])
-        self.states, self.joints = kernel.states, len(kernel.play)
+        self.states, self.joints = kernel.states, len(kernel.pairs)
         self.start = self.bundle.state_of(0).state
         self.lane = self.bundle.lane(0)
         self._evaluate = kernel.module.right_hand_side

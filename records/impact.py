@@ -1,4 +1,4 @@
-"""Impacts: contacts in clearance joints, from onset to release."""
+"""Impacts: contacts in joints with clearance, from onset to release."""
 
 from typing import Final
 
@@ -14,5 +14,5 @@ MEASURED: Final = {
 """Unit and meaning of the numbers of an impact; `release` is NaN while the contact lasts."""
 
 IMPACT: Final = np.dtype([("joint", "<i4"), *((name, "<f8") for name in MEASURED)])
-"""One contact: index of its joint, then the numbers of `MEASURED`."""
+"""One contact: index of its pair, named after the joint, then the numbers of `MEASURED`."""
 IMPACT_UNITS: Final = {name: unit for name, (unit, _) in MEASURED.items()}

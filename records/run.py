@@ -51,7 +51,7 @@ class Source(Protocol):
 
     @property
     def joints(self) -> Sequence[str]:
-        """Names that the `joint` of an impact points to."""
+        """Names of the contact pairs that the `joint` of an impact points to."""
 
     @property
     def complete(self) -> bool:
@@ -101,7 +101,7 @@ class Dataset:
     contacts
         (j,) structured array of dtype `IMPACT`.
     joints
-        Names that the `joint` of a contact points to.
+        Names of the contact pairs that the `joint` of a contact points to.
     complete
         The run came to its end.
     certified

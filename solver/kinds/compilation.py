@@ -7,9 +7,9 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.plan import Study
 
-LINES = {"statement": 8, "state": 200, "joint": 1300}
-"""Lines of the longest source for each statement of the equations, state, and joint with play: that
-of the methods of order 8 or implicit, at most half as much again; others have down to half as many
+LINES = {"statement": 8, "state": 200, "pair": 1300}
+"""Lines of the longest source for each statement of the equations, state, and contact pair: that of
+the methods of order 8 or implicit, at most half as much again; others have down to half as many
 lines, tangents a third."""
 SECONDS_PER_LINE = 2.5e-4
 """Seconds of one core; measured: 0.15 to 0.3 ms (`python -m benchmarks compilation`)."""
@@ -28,7 +28,7 @@ def compile_seconds(admitted: Admission | Study) -> float:
     counts = {
         "statement": statements(scene, tree, formulation),
         "state": 2 * count,
-        "joint": len(tree.play),
+        "pair": len(tree.pairs),
     }
     return SECONDS_PER_LINE * sum(lines * counts[what] for what, lines in LINES.items())
 

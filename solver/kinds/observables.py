@@ -61,15 +61,15 @@ def coordinate_channels(checked: PlacedPoints) -> list[str]:
             body, kind = coordinate.split(".")
             kind = _direction(scene, branch) if kind == "s" else kind
             names += [f"{body}.{kind}", f"{body}.{RATES[kind]}"]
-    return names + [f"{joint}.{name}" for joint in tree.play for name in ECCENTRICITY]
+    return names + [f"{pair}.{name}" for pair in tree.pairs for name in ECCENTRICITY]
 
 
 def peak_channels(checked: PlacedPoints) -> list[str]:
-    """Return the declared outputs, and the loads of each joint with clearance."""
+    """Return the declared outputs, and the loads of each contact pair."""
     return [output.name for output in checked.declared.outputs] + [
-        f"{joint}.{name}"
+        f"{pair}.{name}"
         for scene in checked.firsts.values()
-        for joint in spanning_tree(scene).play
+        for pair in spanning_tree(scene).pairs
         for name in LOADS
     ]
 

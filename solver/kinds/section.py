@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.quantities.units import Strict
 from jointplay.solver.scene.unions import form, has, told_by
 
 
@@ -17,9 +17,15 @@ class CrankSection(Strict):
 
 
 class OnsetSection(Strict):
-    """At each onset of contact (impact) in a joint with clearance."""
+    """At each onset of contact (impact) of a contact pair."""
 
-    onset: Annotated[Name, Field(description="a joint with clearance")]
+    onset: Annotated[
+        str,
+        Field(
+            pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}(\.[a-z0-9_]{1,16})?$",
+            description="a joint with clearance; of one with several contact pairs, which of them",
+        ),
+    ]
 
 
 class ChannelSection(Strict):

@@ -16,6 +16,7 @@ from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
+from jointplay.solver.scene.pairs import pairs_of
 
 
 def check_section(
@@ -57,12 +58,13 @@ def _crossing(section: ChannelSection, checked: PlacedPoints) -> list[Problem]:
 
 def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
     joints = checked.declared.joints
-    if section.onset not in joints:
+    pairs = {pair.name for name, joint in joints.items() for pair in pairs_of(name, joint)}
+    if section.onset not in pairs | set(joints):
         return [Problem("/section/onset", unknown("joint", section.onset, joints))]
     for point, scene in checked.firsts.items():
-        play = spanning_tree(scene).play
-        if section.onset not in play:
-            there = f"; joints with clearance are: {', '.join(play)}." if play else "."
+        here = spanning_tree(scene).pairs
+        if section.onset not in here:
+            there = f"; contacts begin in: {', '.join(here)}." if here else "."
             return [
                 Problem(
                     "/section/onset",
@@ -90,9 +92,10 @@ def crossing_problems(
             yield Problem("/section/channel", sentence)
             return
         seen = _Seen(channel, section.value, output.channel, output.factor, output.offset)
-    owner, _, quantity = seen.source.partition(".")
-    if owner in checked.declared.joints:
-        yield from _play(seen, owner, quantity, checked)
+    owner, _, quantity = seen.source.rpartition(".")
+    joint = owner.partition(".")[0]
+    if joint in checked.declared.joints:
+        yield from _play(seen, joint, quantity, checked)
     elif owner in checked.declared.bodies:
         yield from _motion(seen, owner, quantity, checked)
     elif seen.source == "energy.kinetic" and seen.at_source <= 0.0:

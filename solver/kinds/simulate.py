@@ -17,6 +17,7 @@ from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.scene.periods import (
     Period,
@@ -24,7 +25,6 @@ from jointplay.solver.scene.periods import (
     common_period,
     section_offset,
 )
-from jointplay.solver.scene.references import has_play
 
 
 class SimulateJob(Job):
@@ -104,7 +104,7 @@ def _admission(
         sections=sections,
         period=period.seconds,
         section_note=period.note,
-        joints=tuple(name for name, joint in scene.joints.items() if has_play(joint)),
+        joints=tuple(contact_pairs(scene)),
         stored_bytes=int(limits.BYTES_PER_VALUE * (len(channels) + 1) * (samples + sections)),
     )
 

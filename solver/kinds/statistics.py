@@ -12,25 +12,25 @@ from jointplay.solver.statistics import OF_CONTACTS, STATISTICS
 StatisticName = Annotated[str, NameIn(STATISTICS)]
 
 
-def statistic_count(names: Sequence[str], channels: int, joints: int) -> int:
-    """Return how many numbers a point has of the statistics of channels and joints."""
+def statistic_count(names: Sequence[str], channels: int, pairs: int) -> int:
+    """Return how many numbers a point has of the statistics of channels and contact pairs."""
     of_contacts = sum(name in OF_CONTACTS for name in names)
-    return (len(names) - of_contacts) * channels + of_contacts * joints
+    return (len(names) - of_contacts) * channels + of_contacts * pairs
 
 
-def check_statistics(names: Sequence[str], joints: Collection[str], channels: int) -> None:
-    """Refuse statistics that cannot be had of these joints with clearance, or are too many.
+def check_statistics(names: Sequence[str], pairs: Collection[str], channels: int) -> None:
+    """Refuse statistics that cannot be had of these contact pairs, or are too many.
 
     The first with InvalidInput, as what is asked for twice, the second with LimitExceeded.
     """
-    if problems := list(_problems(names, joints)):
+    if problems := list(_problems(names, pairs)):
         raise InvalidInput(problems)
-    count = statistic_count(names, channels, len(joints))
+    count = statistic_count(names, channels, len(pairs))
     if count > MOST_STATISTICS:
         of_contacts = sum(name in OF_CONTACTS for name in names)
         sentence = (
             f"{len(names) - of_contacts} statistics of {channels} channels and {of_contacts} of"
-            f" {len(joints)} joints are {count} numbers a point; the limit is {MOST_STATISTICS}."
+            f" {len(pairs)} pairs are {count} numbers a point; the limit is {MOST_STATISTICS}."
             " Choose fewer statistics, or fewer 'channels'."
         )
         raise LimitExceeded.at("/statistics", sentence)
@@ -58,11 +58,11 @@ def check_samples(study: Study, per_period: int) -> None:
         raise LimitExceeded.at(place, sentence)
 
 
-def _problems(names: Sequence[str], joints: Collection[str]) -> Iterator[Problem]:
+def _problems(names: Sequence[str], pairs: Collection[str]) -> Iterator[Problem]:
     for index, name in enumerate(names):
         place = f"/statistics/{index}"
         if name in names[:index]:
             yield Problem(place, f"'{name}' is listed twice; list it once.")
-        if name in OF_CONTACTS and not joints:
+        if name in OF_CONTACTS and not pairs:
             sentence = f"'{name}' is of joints with clearance, and this scene has none."
             yield Problem(place, sentence)

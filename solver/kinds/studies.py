@@ -21,8 +21,8 @@ from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.runs.study.scenes import PointScenes, leaves_of
 from jointplay.solver.scene.channels import channels
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameters import set_parameters
-from jointplay.solver.scene.references import clearances
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +57,9 @@ class PlacedPoints:
         known = {channel.name: channel for channel in channels(self.scenes.base)}
         return tuple(known[name] for name in names)
 
-    def joints_with_play(self) -> set[str]:
-        """Return the joints with clearance at any point."""
-        return {name for scene in self.firsts.values() for name in clearances(scene)}
+    def pairs(self) -> set[str]:
+        """Return the contact pairs that any point has."""
+        return {name for scene in self.firsts.values() for name in contact_pairs(scene)}
 
 
 def place_points(job: MechanismJob, points: Points) -> PlacedPoints:

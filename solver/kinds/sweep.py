@@ -129,7 +129,7 @@ class Sweep(Kind[SweepJob]):
                 Problem("/periods", f"{points.name(at, checked.declared)}{note} Give a 'duration'.")
                 for at, note in units.notes.items()
             )
-        check_statistics(job.statistics, checked.joints_with_play(), len(channels))
+        check_statistics(job.statistics, checked.pairs(), len(channels))
         names = [channel.name for channel in channels]
         filled = documents.filled(job, checked.document, checked.echo, channels=names)
         study = _study(job, filled, checked, units)
@@ -149,12 +149,12 @@ def _study(job: SweepJob, filled: dict[str, Any], placed: PlacedPoints, units: P
     unit = units.seconds if job.periods is not None else np.ones(placed.points.count)
     length = job.duration if job.periods is None else job.periods
     channels = placed.channels(filled["channels"])
-    joints = placed.joints_with_play()
+    pairs = placed.pairs()
     return make_study(
         filled,
         placed,
         channels=channels,
-        statistics=statistic_count(job.statistics, len(channels), len(joints)),
+        statistics=statistic_count(job.statistics, len(channels), len(pairs)),
         period=units.seconds,
         offset=np.zeros(placed.points.count),
         settle=job.settle * unit,

@@ -14,7 +14,8 @@ from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Scene
-from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.references import ends
 
 CONCENTRIC = JournalStart()
 

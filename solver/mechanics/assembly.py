@@ -14,7 +14,8 @@ from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, ra
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
-from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.references import ends
 
 ASSEMBLED = 1e-11
 """Largest residual, in lengths of the shortest link, of an assembled mechanism."""

@@ -13,7 +13,7 @@ from jointplay.solver.mechanics.motion import NOTHING, Forces, Motion, body_moti
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import has_play
+from jointplay.solver.scene.pairs import has_play
 
 BAUMGARTE_ALPHA = 50.0
 BAUMGARTE_BETA = 50.0
@@ -53,8 +53,7 @@ class LagrangeMechanism:
         accelerations, multipliers = self._solve(rows, applied)
         bodies = body_motions(self.constraints.bodies, self.q, self.v, accelerations)
         joint_force, held, efforts = self.constraints.reactions(rows, multipliers)
-        for name, found in forces.contacts.items():
-            joint_force[name] = found.interaction.force_on_second
+        joint_force |= forces.of_joints()
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
         return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
 

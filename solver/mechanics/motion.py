@@ -27,7 +27,7 @@ class Element:
 
 @dataclass(frozen=True)
 class Forces:
-    """Forces between bodies beside constraints, by the name of the joint or the element."""
+    """Forces between bodies beside constraints, by the name of the contact pair or the element."""
 
     contacts: dict[str, Contact] = field(default_factory=dict)
     elements: dict[str, Element] = field(default_factory=dict)
@@ -39,6 +39,14 @@ class Forces:
             yield found.interaction
         for element in self.elements.values():
             yield element.interaction
+
+    def of_joints(self) -> dict[str, Pair]:
+        """Return the force on the second body of each joint with play, N, world components."""
+        found: dict[str, Pair] = {}
+        for acting in self.contacts.values():
+            (x, y), before = acting.interaction.force_on_second, found.get(acting.joint)
+            found[acting.joint] = (x, y) if before is None else (before[0] + x, before[1] + y)
+        return found
 
 
 @dataclass(frozen=True)
@@ -85,7 +93,7 @@ class Motion:
 
     @property
     def contacts(self) -> dict[str, Contact]:
-        """Actions of joints with play, by name."""
+        """Actions of contact pairs, by name."""
         return self.forces.contacts
 
 
@@ -100,8 +108,8 @@ def forces_between(
     """Evaluate joints with play and force elements.
 
     `ends` returns how the second of two named points lies and moves against the first; `play` are
-    joints whose contact counts, with a mode and an impact rate (m/s) each, and with the `inner`
-    states of friction laws that have any.
+    joints whose contact counts. Each of their pairs has a mode and an impact rate (m/s), and
+    `inner` states where its friction law has any.
     """
     forces = Forces()
     for name in play:
@@ -109,7 +117,7 @@ def forces_between(
         assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
         between = ends(joint.bearing, joint.journal)
         forces.contacts[name] = contact(
-            joint, between, modes[name], impact_rates[name], inner.get(name, ())
+            name, joint, between, modes[name], impact_rates[name], inner.get(name, ())
         )
     for name, element in numbers.forces.items():
         between = ends(element.first, element.second)

@@ -70,7 +70,7 @@ def ledger_rates(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     ``contact``: power that goes into contacts, and into what elements store; ``friction``: power
     lost there; ``element``: power lost in force elements, if there are any;
     ``driver:<driver>``: power put in by each;
-    ``impulse:<joint>``: normal force, whose integral over a contact is its impulse.
+    ``impulse:<pair>``: normal force, whose integral over a contact is its impulse.
     """
     rates: dict[str, Scalar] = {"contact": 0.0, "friction": 0.0}
     for element in motion.forces.elements.values():

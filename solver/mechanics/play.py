@@ -36,8 +36,10 @@ class Interaction:
 
 @dataclass(frozen=True)
 class Contact:
-    """Action of a joint with play at one instant; SI units, world components."""
+    """Action of a contact pair at one instant; SI units, world components."""
 
+    joint: str
+    """The joint that owns the pair."""
     eccentricity: Pair
     eccentricity_rate: Pair
     penetration: Scalar
@@ -68,10 +70,16 @@ class Contact:
 
 
 def contact(
-    joint: Revolute, between: Ends, mode: Scalar, impact_rate: Scalar, inner: Sequence[Scalar] = ()
+    name: str,
+    joint: Revolute,
+    between: Ends,
+    mode: Scalar,
+    impact_rate: Scalar,
+    inner: Sequence[Scalar] = (),
 ) -> Contact:
-    """Evaluate a joint with play: its numbers, and its journal's centre against the bearing's.
+    """Evaluate a journal in its bearing: its numbers, and its centre against the bearing's.
 
+    `name` : of the joint.
     `mode` : 1 in contact, 0 apart, where there is no force whatever the penetration.
     `impact_rate` : penetration rate latched at the onset of this contact, m/s.
     `inner` : states of the friction law.
@@ -112,6 +120,7 @@ def contact(
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
     return Contact(
+        name,
         between.gap,
         between.rate,
         penetration,

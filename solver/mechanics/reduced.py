@@ -49,9 +49,9 @@ class ReducedMechanism:
         inner: Mapping[str, Sequence[Scalar]] = NOTHING,
         known: list[Scalar] | None = None,
     ) -> Motion:
-        """Return accelerations and all forces; modes and impact rates (m/s) by joint with play.
+        """Return accelerations and all forces; modes and impact rates (m/s) by contact pair.
 
-        `inner` states of friction laws by joint, where there are any; `known` accelerations of the
+        `inner` states of friction laws by pair, where there are any; `known` accelerations of the
         coordinates, where they were computed before.
         """
         forces = forces_between(
@@ -72,8 +72,7 @@ class ReducedMechanism:
             accelerations = known
         bodies = self._bodies(accelerations)
         joint_force, moments = self._reactions(loads, bodies)
-        for name, found in forces.contacts.items():
-            joint_force[name] = found.interaction.force_on_second
+        joint_force |= forces.of_joints()
         for name, holding in cut.interactions.items():
             joint_force[name] = holding.force_on_second
         held = self._held_moments(joint_force, moments) | cut.moments

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
-from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.pairs import contact_pairs, has_play
+from jointplay.solver.scene.references import ends
 from jointplay.solver.scene.structure import per_structure
 
 Kind = Literal["revolute", "prismatic", "fixed", "free"]
@@ -35,11 +36,12 @@ class Branch:
 
 @dataclass(frozen=True)
 class Tree:
-    """Branches from the ground outwards, joints that close loops, joints with play."""
+    """Branches from the ground outwards, joints that close loops, joints with play, their pairs."""
 
     branches: tuple[Branch, ...]
     closing: tuple[str, ...]
     play: tuple[str, ...]
+    pairs: tuple[str, ...]
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -101,7 +103,7 @@ def spanning_tree(scene: Scene) -> Tree:
         branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None))
     closing = tuple(name for name in ideal if name not in used)
     play = tuple(name for name, joint in scene.joints.items() if has_play(joint))
-    return Tree(tuple(branches), closing, play)
+    return Tree(tuple(branches), closing, play, tuple(contact_pairs(scene)))
 
 
 def _coordinates(

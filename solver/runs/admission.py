@@ -33,7 +33,7 @@ class Admission:
     section_note: str
     """Why there is no section, else empty."""
     joints: tuple[str, ...]
-    """Joints with clearance, in the order of the impacts' joint index."""
+    """Contact pairs, in the order of the impacts' joint index."""
     stored_bytes: int
     """Estimate of what the results take, before compression."""
 

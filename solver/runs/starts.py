@@ -10,7 +10,8 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.loop.start import mechanism_size
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import clearances, inner_states
+from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.references import inner_states
 
 
 class Perturbation(NamedTuple):
@@ -47,7 +48,7 @@ def start_scales(scene: Scene, coordinates: Sequence[str], period: float) -> Flo
     Without clearance: the shortest link.
     """
     length = shortest_link(scene)
-    play = [clearance.radial_clearance for clearance in clearances(scene).values()]
+    play = [pair.play for pair in contact_pairs(scene).values()]
     finest = min(play, default=length)
     turn = finest / mechanism_size(scene, length)
     position = np.array([turn if name.endswith(".theta") else finest for name in coordinates])

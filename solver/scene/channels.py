@@ -6,7 +6,8 @@ from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Revolute, Scene
-from jointplay.solver.scene.references import has_play, inner_states
+from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
 
 BODY = (

@@ -7,7 +7,8 @@ from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.scene.document import Clearance, Fixed, Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
 
@@ -21,27 +22,9 @@ def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
     return ("base", joint.base), ("part", joint.part)
 
 
-def has_play(joint: Joint) -> bool:
-    """Whether a joint is a force between a journal and its bearing, not a constraint."""
-    return (
-        isinstance(joint, Revolute)
-        and joint.clearance is not None
-        and joint.clearance.radial_clearance > 0.0
-    )
-
-
-def clearances(scene: Scene) -> dict[str, Clearance]:
-    """Return the clearance of each joint with play, by its name, in the order of the document."""
-    return {
-        name: joint.clearance
-        for name, joint in scene.joints.items()
-        if has_play(joint) and isinstance(joint, Revolute) and joint.clearance is not None
-    }
-
-
 def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
-    """Return the states that friction laws have of their own, by joint, where there are any."""
-    laws = {name: clearance.friction for name, clearance in clearances(scene).items()}
+    """Return the states that friction laws have of their own, by pair, where there are any."""
+    laws = {name: pair.clearance.friction for name, pair in contact_pairs(scene).items()}
     return {
         name: law.inner_states
         for name, law in laws.items()
@@ -51,7 +34,8 @@ def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
 
 def tangent_obstacle(scene: Scene) -> str:
     """Return why no tangent vector can follow a scene's motion, and the remedy; empty: one can."""
-    laws = [law for c in clearances(scene).values() for law in (c.contact, c.friction) if law]
+    clearances = [pair.clearance for pair in contact_pairs(scene).values()]
+    laws = [law for c in clearances for law in (c.contact, c.friction) if law]
     return next((law.tangent_obstacle for law in laws if law.tangent_obstacle), "")
 
 

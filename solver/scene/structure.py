@@ -5,7 +5,8 @@ from functools import wraps
 from typing import TypeVar
 
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import ends, has_play, inner_states
+from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.references import ends, inner_states
 
 MOST_KEPT = 256
 """Structures of which something is kept."""

@@ -1,7 +1,7 @@
 """Statistics over a stretch of time, kept up while it is computed: flat memory, always one order.
 
 One file a member, named by these two rosters: statistics of channels on a uniform grid, and of the
-contacts of joints with clearance. A member takes what became known a few rows at a time, and its
+contacts of pairs. A member takes what became known a few rows at a time, and its
 result has the same bits however the rows were cut.
 """
 
@@ -45,9 +45,9 @@ Output = tuple[str, str]
 
 
 def outputs_of(
-    chosen: tuple[str, ...], channels: tuple[Channel, ...], joints: tuple[str, ...]
+    chosen: tuple[str, ...], channels: tuple[Channel, ...], pairs: tuple[str, ...]
 ) -> dict[str, Output]:
-    """Return unit and long name of chosen statistics of channels and joints with clearance.
+    """Return unit and long name of chosen statistics of channels and contact pairs.
 
     They are named after both: ``A.normal_force.mean``, ``A.contact_share``.
     """
@@ -57,9 +57,9 @@ def outputs_of(
             if name in OF_CHANNELS:
                 long_name = f"{OF_CHANNELS[name].long_name} of {channel.long_name}"
                 found[f"{channel.name}.{name}"] = (channel.unit, long_name)
-    for joint in joints:
+    for pair in pairs:
         for name in chosen:
             if name in OF_CONTACTS:
-                of_joint = OF_CONTACTS[name]
-                found[f"{joint}.{name}"] = (of_joint.unit, f"{of_joint.long_name} (joint {joint})")
+                of_pair = OF_CONTACTS[name]
+                found[f"{pair}.{name}"] = (of_pair.unit, f"{of_pair.long_name} (joint {pair})")
     return found

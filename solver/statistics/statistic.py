@@ -58,10 +58,10 @@ class ChannelStatistic(ABC):
 
 
 class ContactStatistic(ABC):
-    """A statistic of the contacts of each joint with clearance over a stretch of time.
+    """A statistic of the contacts of each pair over a stretch of time.
 
     Contacts that began before the stretch, or last beyond it, are part of it as far as they reach.
-    The tally begins with zeros, (joints,).
+    The tally begins with zeros, (pairs,).
     """
 
     unit: str
@@ -70,8 +70,8 @@ class ContactStatistic(ABC):
 
     @abstractmethod
     def add(self, tally: Floats, contacts: Contacts, start: float, end: float) -> None:
-        """Take contacts into the (joints,) tally; the stretch is from start to end, s."""
+        """Take contacts into the (pairs,) tally; the stretch is from start to end, s."""
 
     def value(self, tally: Floats, start: float, end: float) -> Floats:
-        """Return the statistic, (joints,)."""
+        """Return the statistic, (pairs,)."""
         return tally

@@ -78,7 +78,7 @@ class ResultLayout:
     sections
         Poincare sections of a run that comes to its end; 0 where there are none.
     joints
-        Names of the joints that impacts refer to by index.
+        Names of the contact pairs that impacts refer to by index.
     attributes
         JSON document for the root group: the filled-in job, versions, the digest.
     partition

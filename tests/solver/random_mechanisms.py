@@ -133,8 +133,8 @@ def instants(draw: st.DrawFn, scenes: st.SearchStrategy[Scene]) -> Instant:
         {name: draw(value) for name in tree.coordinates},
         {name: draw(value) for name in tree.coordinates},
         {name: draw(value) for name in scene.drivers},
-        {name: draw(st.sampled_from([0.0, 1.0])) for name in tree.play},
-        {name: draw(numbers(0.01, 2.0)) for name in tree.play},
+        {name: draw(st.sampled_from([0.0, 1.0])) for name in tree.pairs},
+        {name: draw(numbers(0.01, 2.0)) for name in tree.pairs},
     )
 
 

@@ -14,7 +14,7 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import clearances
+from jointplay.solver.scene.pairs import contact_pairs
 
 
 def preset(name: str, **parameters: float | str) -> Scene:
@@ -79,6 +79,9 @@ def at_start(scene: Scene) -> Instant:
         dict(zip(tree.coordinates, position, strict=True)),
         dict(zip(tree.coordinates, speed, strict=True)),
         {name: driver.position for name, driver in scene.drivers.items()},
-        dict.fromkeys(tree.play, 0.0),
-        {name: play.contact.least_impact_rate for name, play in clearances(scene).items()},
+        dict.fromkeys(tree.pairs, 0.0),
+        {
+            name: pair.clearance.contact.least_impact_rate
+            for name, pair in contact_pairs(scene).items()
+        },
     )

@@ -35,16 +35,16 @@ COSINE = math.cos(WHIP)
 PATHS = ("eccentricity_start", "eccentricity")
 
 
-def allocate(layout: Layout, joints: int) -> None:
+def allocate(layout: Layout, pairs: int) -> None:
     """Give slots to the motion of journals at both ends of a step, and to what bounds it.
 
     ``inner`` is the radius that a journal's enclosure must not exceed, m; ``lever`` the size of the
     mechanism, m; ``driven_speed`` the sum of all drivers' angular speeds, rad/s.
     """
     layout.add("lever", "driven_speed")
-    layout.add_block("inner", joints)
+    layout.add_block("inner", pairs)
     for name in PATHS:
-        layout.add_block(name, len(MOTION) * joints)
+        layout.add_block(name, len(MOTION) * pairs)
 
 
 def longest(v: Callable[[str], Expression], speeds: Iterable[str]) -> Expression:
@@ -82,7 +82,7 @@ def remainder(
 
 
 def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expression:
-    """Return a number that is positive unless joint j's journal stays off the wall all the step.
+    """Return a number that is positive unless pair j's journal stays off the wall all the step.
 
     Of the control points the first and the last are the ends of the step, whose gaps are known.
 
@@ -106,7 +106,7 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expressi
 
 
 def whips_round(v: Callable[[str], Expression], j: int) -> Expression:
-    """Return a number that is positive where joint j's normal turns by more than `WHIP`."""
+    """Return a number that is positive where pair j's normal turns by more than `WHIP`."""
     start, end = ([v(f"{block}{len(MOTION) * j + axis}") for axis in range(2)] for block in PATHS)
     together = start[0] * end[0] + start[1] * end[1]
     first, last = (x * x + y * y for x, y in (start, end))

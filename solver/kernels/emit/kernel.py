@@ -43,7 +43,7 @@ class Kernel:
     """Record that compiled loops take as `at`; see `solver.kernels.emit.places`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
-    play: tuple[str, ...]
+    pairs: tuple[str, ...]
     rows: Rows
     """Channels of the ``channel`` block."""
     fixed: tuple[tuple[int, Expression], ...]
@@ -58,8 +58,8 @@ class Kernel:
 
     @property
     def losses(self) -> int:
-        """Terms of the ledger before the drivers' works and the joints' impulses."""
-        return len(self.equations.ledger) - len(self.drivers) - len(self.play)
+        """Terms of the ledger before the drivers' works and the pairs' impulses."""
+        return len(self.equations.ledger) - len(self.drivers) - len(self.pairs)
 
     @cached_property
     def addresses(self) -> NDArray[np.void]:
@@ -84,10 +84,10 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     """
     equations = record(scene, tree, formulation)
     layout = Layout()
-    states, joints = equations.states, len(equations.play)
+    states, pairs = equations.states, len(equations.pairs)
     drivers = len(equations.drivers)
     ledger = len(equations.ledger)
-    stepping.allocate(layout, states, ledger, joints, tableau.stages)
+    stepping.allocate(layout, states, ledger, pairs, tableau.stages)
     again = needed_again(equations)
     layout.add_block("again", len(again))
     known = {node: f"again{i}" for i, node in enumerate(again)}
@@ -96,8 +96,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         implicit.allocate(layout, states)
     rows = arrange(scene, equations)
     scanning.allocate(layout, rows.scanned, len(rows.rest))
-    layout.add_block("slip_row", joints)
-    layout.add_block("penetration_row", joints)
+    layout.add_block("slip_row", pairs)
+    layout.add_block("penetration_row", pairs)
     layout.add_block("driver_start", drivers)
     layout.add_block("driver_travel", drivers)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
@@ -129,11 +129,11 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
         ]
     )
-    row = DenseRow.of(drivers, states, joints)
+    row = DenseRow.of(drivers, states, pairs)
     counts = {
         "states": states,
         "ledger": ledger,
-        "joints": joints,
+        "pairs": pairs,
         "drivers": drivers,
         "rows": rows.scanned,
         "watched_closely": int(tableau.watched_closely),
@@ -145,7 +145,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         places_of(layout, row, counts),
         equations.coordinates,
         equations.drivers,
-        equations.play,
+        equations.pairs,
         rows,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
         equations,

@@ -30,15 +30,15 @@ class DenseRow:
     """Angle of each driver's whole turns before that, rad."""
     state: int
     mode: int
-    """1 where a joint is in contact, 0 elsewhere."""
+    """1 where a pair is in contact, 0 elsewhere."""
     impact_rate: int
-    """Latched impact rate of each joint, m/s."""
+    """Latched impact rate of each pair, m/s."""
     width: int
 
     @classmethod
-    def of(cls, drivers: int, states: int, joints: int) -> DenseRow:
+    def of(cls, drivers: int, states: int, pairs: int) -> DenseRow:
         """Arrange the blocks one behind the other."""
-        ends = np.cumsum([TIME + 1, drivers, drivers, states, joints, joints])
+        ends = np.cumsum([TIME + 1, drivers, drivers, states, pairs, pairs])
         return cls(*map(int, ends))
 
     def times(self, rows: Floats, period: float) -> Floats:
@@ -50,8 +50,8 @@ class DenseRow:
         return rows[..., self.state : self.mode]
 
 
-COUNTS = ("states", "ledger", "joints", "drivers", "rows", "watched_closely")
-"""Numbers of states, terms of the ledger, joints with play, drivers, and scanned channels; whether
+COUNTS = ("states", "ledger", "pairs", "drivers", "rows", "watched_closely")
+"""Numbers of states, terms of the ledger, contact pairs, drivers, and scanned channels; whether
 steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
@@ -72,7 +72,7 @@ OF_TANGENTS = (
 )
 """Blocks that only a kernel with tangents has; without, nothing reads their offsets, -1."""
 DERIVED = ("size", "impulse", "contact_row")
-"""Slots of the work array; where `total` has the joints' impulses; first row of the channel block
+"""Slots of the work array; where `total` has the pairs' impulses; first row of the channel block
 that has a normal force again, for the peak of each contact."""
 
 ROW_DTYPE = np.dtype([(name, np.int64) for name in DenseRow.__annotations__])
@@ -85,7 +85,7 @@ PLACES = from_dtype(DTYPE)[::1]
 
 
 def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArray[np.void]:
-    """Return the record of all offsets, (1,); `counts`: numbers of states, joints and so on.
+    """Return the record of all offsets, (1,); `counts`: numbers of states, pairs and so on.
 
     Raises
     ------
@@ -95,8 +95,8 @@ def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArr
     places = np.zeros(1, DTYPE)
     found = dict(counts) | {name: layout.block(name).start for name in SLOTS}
     found |= dict.fromkeys(OF_TANGENTS, -1) | {"size": layout.size}
-    found["impulse"] = layout.block("total").stop - counts["joints"]
-    found["contact_row"] = counts["rows"] - counts["joints"]
+    found["impulse"] = layout.block("total").stop - counts["pairs"]
+    found["contact_row"] = counts["rows"] - counts["pairs"]
     for name in NAMES:
         places[name] = found[name]
     places["row"] = tuple(getattr(row, name) for name in ROW_DTYPE.names or ())

@@ -29,7 +29,7 @@ SMALLEST_ERROR = 1e-16
 """Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 
 
-def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int) -> None:
+def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta", "lengthening", "reach")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
@@ -45,13 +45,13 @@ def allocate(layout: Layout, states: int, ledger: int, joints: int, stages: int)
     layout.add_block("stage", states)
     layout.add_block("weight", states)
     for name in ("gap", "gap_rate", "gap_start", "gap_rate_start"):
-        layout.add_block(name, joints)
-    layout.add_block("mode", joints)
-    layout.add_block("impact_rate", joints)
-    layout.add_block("inverse_rate", joints)
+        layout.add_block(name, pairs)
+    layout.add_block("mode", pairs)
+    layout.add_block("impact_rate", pairs)
+    layout.add_block("inverse_rate", pairs)
     for name in ("impact_floor", "restart", "onset_time", "approach", "onset_total", "opened"):
-        layout.add_block(name, joints)
-    enclosure.allocate(layout, joints)
+        layout.add_block(name, pairs)
+    enclosure.allocate(layout, pairs)
 
 
 def before(name: str) -> str:
@@ -76,7 +76,7 @@ class StepRecorder:
         """`known` : what the right-hand side leaves in slots."""
         self.tableau, self.equations = tableau, equations
         self.states, self.coordinates = equations.states, len(equations.coordinates)
-        self.ledger, self.joints = ledger, len(equations.play)
+        self.ledger, self.pairs = ledger, len(equations.pairs)
         self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
         self.layout, self.known = layout, known
         self.recorder = Recorder()
@@ -153,7 +153,7 @@ class StepRecorder:
     def _held(self) -> list[tuple[str, Expression]]:
         """Return what slopes need that keeps its value in a step."""
         return [
-            (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.joints)
+            (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.pairs)
         ]
 
     def _slope(self, s: int, i: int) -> str:
@@ -177,11 +177,10 @@ class StepRecorder:
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
         flag = REJECTED * (1.0 - good) + due + pace
         away = self._away()
-        joints = [
-            contact_flags(v, j, away, shortened=bool(self.tableau.error))
-            for j in range(self.joints)
+        flags = [
+            contact_flags(v, j, away, shortened=bool(self.tableau.error)) for j in range(self.pairs)
         ]
-        for kind in zip(*joints, strict=True):
+        for kind in zip(*flags, strict=True):
             flag = flag + reduce(maximum, kind)
         flag = select_positive(v("active"), flag, number(0.0))
         outputs = [
@@ -272,13 +271,13 @@ class StepRecorder:
             if i == 0:  # what went into contacts and is not stored there is lost
                 added = added - (v("stored") - v("stored_start"))
             outputs.append((f"total{i}", v(f"total{i}") + added))
-            if i < self.ledger - self.joints:
+            if i < self.ledger - self.pairs:
                 gross = gross + abs(added)
         outputs.insert(0, ("gross", gross))
-        for j in range(self.joints):
+        for j in range(self.pairs):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
-        paths = range(len(MOTION) * self.joints)
+        paths = range(len(MOTION) * self.pairs)
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):
             outputs += [(f"y{i}", v(f"stage{i}")), (f"k1_{i}", v(f"slope{i}"))]
@@ -324,7 +323,7 @@ class StepRecorder:
         for i in range(len(self.equations.corrections)):
             name, unclosed = outputs[1 + i]
             outputs[1 + i] = (name, unclosed + ramp * v(f"correction{i}"))
-        for j in range(self.joints):
+        for j in range(self.pairs):
             outputs.append((f"mode{j}", v(f"mode{j}")))
             outputs.append((f"impact_rate{j}", v(f"impact_rate{j}")))
         return outputs

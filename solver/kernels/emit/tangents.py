@@ -61,7 +61,7 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     """
     equations, layout = kernel.equations, kernel.layout.copy()
     bends = kinks.kinks_of(equations)
-    allocate(layout, kernel.states, len(kernel.play), len(bends))
+    allocate(layout, kernel.states, len(kernel.pairs), len(bends))
     fixed = FixedNodes(layout)
     source = "\n\n".join(
         [
@@ -86,11 +86,11 @@ def compile_tangents(kernel: Kernel) -> Tangents:
     )
 
 
-def allocate(layout: Layout, states: int, joints: int, bends: int) -> None:
+def allocate(layout: Layout, states: int, pairs: int, bends: int) -> None:
     """Give slots to tangents, behind all that the kernel has."""
     layout.add_block("tangent", states)
     for name in ("tangent_impact_rate", "tangent_gap", "tangent_gap_rate", "gap_acceleration"):
-        layout.add_block(name, joints)
+        layout.add_block(name, pairs)
     kinks.allocate(layout, bends)
     tangent_step.allocate(layout, states)
 
@@ -102,7 +102,7 @@ def slope_function(equations: Equations, bends: Kinks, layout: Layout, fixed: Fi
     """
     recorder = equations.recorder
     along = {f"stage{i}": recorder.variable(f"carried{i}") for i in range(equations.states)}
-    for j in range(len(equations.play)):
+    for j in range(len(equations.pairs)):
         along[f"impact_rate{j}"] = recorder.variable(f"tangent_impact_rate{j}")
     derivative = Derivative(along)
     kinks.bend(derivative, bends)

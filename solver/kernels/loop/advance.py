@@ -41,7 +41,7 @@ from jointplay.solver.kernels.loop.peaks import end_peaks, refine_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
 from jointplay.solver.kernels.loop.runs import (
     BUFFERS,
-    NO_JOINT,
+    NO_PAIR,
     RUNS,
     Buffers,
     Run,
@@ -70,7 +70,7 @@ def attend(
         opening = note_openings(lane, at, work, spare, gaps_within)
     if flag & REJECTED:
         run.rejections += 1
-        run.landing = NO_JOINT  # its attempts count on, or they might go in circles
+        run.landing = NO_PAIR  # its attempts count on, or they might go in circles
         if work[at.next_step, lane] < run.smallest_step:
             stop(Status.UNDERFLOW, lane, run, at, work)
             return False
@@ -81,7 +81,7 @@ def attend(
         return False
     if flag & REJECTED:
         return False
-    if flag & ONSET or run.landing != NO_JOINT:
+    if flag & ONSET or run.landing != NO_PAIR:
         landed = land(lane, run, at, work, spare, gaps_within)
         if not landed:
             work[at.accept, lane] = 0.0
@@ -108,7 +108,7 @@ def settle(
     now = begun + work[at.time, lane]
     full = False
     landed = run.landing
-    if landed != NO_JOINT:
+    if landed != NO_PAIR:
         begin_contact(landed, now, lane, at, work)
         weigh(work)  # where a fixed step ends, a contact may begin deep: with energy from nowhere
         work[at.stored_start, lane] = work[at.stored, lane]
@@ -116,22 +116,22 @@ def settle(
             tangent_gaps(work)
             latch_tangent(landed, lane, at, work)
         run.onsets += 1
-        run.landing = NO_JOINT
+        run.landing = NO_PAIR
         run.landings = 0
         if run.section_kind == SectionKind.ONSET and run.section_place == landed:
             full |= record_event(lane, lane, run, at, work, work, buffers.rows)
     if flag & RELEASE:
-        for j in range(at.joints):
+        for j in range(at.pairs):
             opened = work[at.opened + j, lane]
             if work[at.mode + j, lane] > 0.0 and opened < math.inf:
                 work[at.mode + j, lane] = 0.0
                 end_contact(j, begun + opened, lane, run, at, work, buffers.impacts)
-        full |= run.impacts + at.joints > buffers.impacts.shape[1]
+        full |= run.impacts + at.pairs > buffers.impacts.shape[1]
     if work[at.time, lane] >= work[at.end, lane] or has_all_events(run):
         end_peaks(now, lane, at, work)
         if tangents:
             full |= record_growth(now, lane, run, at, work, buffers.growths)
-        for j in range(at.joints):
+        for j in range(at.pairs):
             if work[at.mode + j, lane] > 0.0:
                 end_contact(j, math.nan, lane, run, at, work, buffers.impacts)
         stop(Status.DONE, lane, run, at, work)
@@ -171,7 +171,7 @@ def still_landing(runs: np.ndarray) -> bool:
     """Whether a lane is about to land on an onset."""
     landing = 0
     for lane in range(LANES):
-        if runs[lane].landing != NO_JOINT:
+        if runs[lane].landing != NO_PAIR:
             landing += 1
     return landing > 0
 
@@ -248,7 +248,7 @@ def advance(
         if not quiet:
             for lane in range(LANES):
                 flag, run = int(work[at.flag, lane]), runs[lane]
-                wanted = flag != 0 or run.landing != NO_JOINT
+                wanted = flag != 0 or run.landing != NO_PAIR
                 if wanted and work[at.active, lane] > 0.0:
                     full |= attend(
                         flag, lane, run, at, work, spare, rows, call.states_within, call.gaps_within
@@ -278,7 +278,7 @@ def advance(
             continue
         for lane in range(LANES):
             flag, run = int(work[at.flag, lane]), runs[lane]
-            wanted = flag != 0 or run.landing != NO_JOINT or has_all_events(run)
+            wanted = flag != 0 or run.landing != NO_PAIR or has_all_events(run)
             if wanted and work[at.accept, lane] > 0.0:
                 full |= settle(flag, lane, run, at, work, buffers, call.weigh, call.tangent_gaps)
         still = count_active(at, work)

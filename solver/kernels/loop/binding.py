@@ -10,12 +10,13 @@ from jointplay.solver.kernels.emit.tangents import Tangents
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.periods import PACE_STEPS, set_clock
 from jointplay.solver.kernels.loop.problem import Event, LaneProblem
-from jointplay.solver.kernels.loop.runs import DTYPE, NO_JOINT, SectionKind
+from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.periods import characteristic_time, common_period
-from jointplay.solver.scene.references import clearances, inner_states
+from jointplay.solver.scene.references import inner_states
 
 STEPS_IN_A_PERIOD = 100
 """Fewest steps in a period of the fastest driver, or in the scene's own scale of time."""
@@ -73,14 +74,15 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     """Set what a lane's errors and first steps in contact are measured by."""
     kernel, scene = lane.kernel, problem.scene
     count = len(kernel.coordinates)
-    fits = list(clearances(scene).values())
-    finest = min((fit.radial_clearance for fit in fits), default=math.inf)
+    pairs = contact_pairs(scene).values()
+    finest = min((pair.play for pair in pairs), default=math.inf)
     reach = mechanism_size(scene, length)
     radian = unit / (2.0 * math.pi)
     acceleration = math.hypot(*scene.gravity) + length / radian**2
     crossing = ACROSS * math.sqrt(acceleration * finest) / length
-    laws = [fit.friction for fit in fits if fit.friction is not None and not fit.friction.is_off]
-    steepest = RESOLVED * min((law.full_slip_speed for law in laws), default=math.inf)
+    laws = [pair.clearance.friction for pair in pairs]
+    full = [law.full_slip_speed for law in laws if law is not None and not law.is_off]
+    steepest = RESOLVED * min(full, default=math.inf)
     for i, name in enumerate(kernel.coordinates):
         angle = name.endswith(".theta")
         scale = 1.0 if angle else length
@@ -92,9 +94,9 @@ def _scale(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     inner = (state for states in inner_states(scene).values() for state in states)
     for i, state in enumerate(inner, start=2 * count):
         lane["weight"][i] = 1.0 / (problem.tolerance * state.scale)
-    for j, fit in enumerate(fits):
-        lane["impact_floor"][j] = fit.contact.least_impact_rate
-        restart = RESTART * fit.radial_clearance if problem.step is None else math.inf
+    for j, pair in enumerate(pairs):
+        lane["impact_floor"][j] = pair.clearance.contact.least_impact_rate
+        restart = RESTART * pair.play if problem.step is None else math.inf
         lane["restart"][j] = restart
 
 
@@ -114,8 +116,8 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
         if isinstance(scene.joints[driver.joint], Revolute)
     ]
     lane["driven_speed"] = sum(turning)
-    for j, (name, fit) in enumerate(clearances(scene).items()):
-        lane["inner"][j] = (1.0 - SKIN) * fit.radial_clearance
+    for j, (name, pair) in enumerate(contact_pairs(scene).items()):
+        lane["inner"][j] = (1.0 - SKIN) * pair.play
         for quantity, slot in (("slip_velocity", "slip_row"), ("penetration", "penetration_row")):
             lane[slot][j] = lane.kernel.rows.index(f"{name}.{quantity}")
 
@@ -140,7 +142,7 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
     run = lane.run
     for name in DTYPE.names or ():
         run[name] = 0
-    run["landing"] = NO_JOINT
+    run["landing"] = NO_PAIR
     run["period"], run["common"], run["turning"] = period, common, turning
     run["periods"], run["pace_time"] = periods, periods * period + since
     run["duration"], run["output_step"] = problem.duration, problem.output_step

@@ -23,7 +23,7 @@ from jointplay.solver.kernels.loop.periods import look_ahead, plan, product_diff
 from jointplay.solver.kernels.loop.problem import LaneProblem, LaneStart
 from jointplay.solver.kernels.loop.runs import (
     DTYPE,
-    NO_JOINT,
+    NO_PAIR,
     SAMPLES,
     SECTIONS,
     Buffers,
@@ -82,7 +82,7 @@ class Bundle:
         self.spare = aligned_zeros(kernel.layout.size, INSTANTS)
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE
-        self.runs["landing"] = NO_JOINT
+        self.runs["landing"] = NO_PAIR
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
             _Group(

@@ -7,7 +7,7 @@ from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
-from jointplay.solver.kernels.loop.runs import NO_JOINT, Run, Status
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Run, Status
 
 MOST_LANDINGS = 12
 """Attempts to land on one onset before it is approached in shorter steps."""
@@ -31,9 +31,9 @@ def land(
 ) -> bool:
     """Whether this step may be taken: no contact begins inside it, but perhaps at its end.
 
-    1. Find the joint whose contact begins first inside the step, and when (`earliest_onset`).
+    1. Find the pair whose contact begins first inside the step, and when (`earliest_onset`).
     2. Redo the step so that it ends there. The redone step differs from the dense output that
-       gave the time, so its end misses the onset by a little: from here on the joint is the target.
+       gave the time, so its end misses the onset by a little: from here on the pair is the target.
     3. Take the step once the target's penetration at its end is as good as zero (`has_landed`);
        until then move the end by Newton's rule (`corrected_share`), unless another contact begins
        before: then that is the target.
@@ -44,13 +44,13 @@ def land(
     contact begins at the end of the step that it began in.
     """
     at_end = closed_in_fixed_step(lane, at, work)
-    if at_end != NO_JOINT:
+    if at_end != NO_PAIR:
         run.landing = at_end
         return True
     target = run.landing
-    joint, share = earliest_onset(target, lane, at, work, spare, gaps_within)
-    if target != NO_JOINT:
-        alone = joint in (NO_JOINT, target)
+    pair, share = earliest_onset(target, lane, at, work, spare, gaps_within)
+    if target != NO_PAIR:
+        alone = pair in (NO_PAIR, target)
         last = run.landings >= MOST_LANDINGS
         if alone and has_landed(target, last, lane, at, work):
             return True
@@ -58,14 +58,14 @@ def land(
             approach(lane, run, at, work)
             return False
         gap, rate = work[at.gap + target, lane], work[at.gap_rate + target, lane]
-        if gap < 0.0 and rate <= 0.0 and joint == NO_JOINT:
-            run.landing = NO_JOINT
+        if gap < 0.0 and rate <= 0.0 and pair == NO_PAIR:
+            run.landing = NO_PAIR
             return True
         if alone:
-            joint, share = target, corrected_share(gap, rate, work[at.tried, lane])
-    if joint == NO_JOINT:
+            pair, share = target, corrected_share(gap, rate, work[at.tried, lane])
+    if pair == NO_PAIR:
         return True
-    run.landing = joint
+    run.landing = pair
     run.landings += 1
     work[at.next_step, lane] = share * work[at.tried, lane]
     return False
@@ -73,12 +73,12 @@ def land(
 
 @kernel()
 def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
-    """Return the first open joint whose gap is closed at the end of a fixed step."""
-    for j in range(at.joints):
+    """Return the first open pair whose gap is closed at the end of a fixed step."""
+    for j in range(at.pairs):
         fixed = work[at.restart + j, lane] == np.inf
         if fixed and work[at.mode + j, lane] <= 0.0 and work[at.gap + j, lane] > 0.0:
             return j
-    return NO_JOINT
+    return NO_PAIR
 
 
 @kernel()
@@ -90,14 +90,14 @@ def earliest_onset(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> tuple[int, float]:
-    """Return the open joint whose gap closes first inside the step, and the share of it before.
+    """Return the open pair whose gap closes first inside the step, and the share of it before.
 
     A target that has landed does not count. One that is too deep at the end counts as before all
     others, for when it closed does not matter then.
     """
-    joint, share = NO_JOINT, NO_ONSET
+    pair, share = NO_PAIR, NO_ONSET
     overshot = False
-    for j in range(at.joints):
+    for j in range(at.pairs):
         if work[at.mode + j, lane] > 0.0:
             continue
         gap = work[at.gap + j, lane]
@@ -108,14 +108,14 @@ def earliest_onset(
             continue
         found = first_onset(j, lane, at, work, spare, gaps_within)
         if found < share:
-            joint, share = j, found
+            pair, share = j, found
     if overshot:
         found = -1.0
-        if joint != NO_JOINT:
+        if pair != NO_PAIR:
             found = first_onset(target, lane, at, work, spare, gaps_within)
         if found < share:
-            joint, share = target, found
-    return joint, share
+            pair, share = target, found
+    return pair, share
 
 
 @kernel()
@@ -137,7 +137,7 @@ def corrected_share(gap: float, rate: float, tried: float) -> float:
 @kernel()
 def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Give an onset up for now: steps are so long that one's end hardly tells of another's."""
-    run.landing = NO_JOINT
+    run.landing = NO_PAIR
     run.landings += 1
     work[at.next_step, lane] = 0.25 * work[at.tried, lane]
     if run.landings > MOST_LANDINGS + MOST_APPROACHES:
@@ -146,7 +146,7 @@ def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
 
 @kernel()
 def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -> None:
-    """Latch the impact rate of joint j, once per onset, and restart with a small step."""
+    """Latch the impact rate of pair j, once per onset, and restart with a small step."""
     rate = work[at.gap_rate + j, lane]
     floored = max(rate, work[at.impact_floor + j, lane])
     work[at.mode + j, lane] = 1.0
@@ -163,7 +163,7 @@ def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -
 def end_contact(
     j: int, now: float, lane: int, run: Run, at: Places, work: np.ndarray, impacts: np.ndarray
 ) -> None:
-    """Write the contact of joint j that ends now, s; NaN: it lasts beyond the run."""
+    """Write the contact of pair j that ends now, s; NaN: it lasts beyond the run."""
     impact = impacts[lane, run.impacts]
     row = at.contact_row + j
     impact.joint = j
@@ -179,7 +179,7 @@ def end_contact(
 def is_touching(lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether a contact begins where this step does."""
     found = False
-    for j in range(at.joints):
+    for j in range(at.pairs):
         depth = abs(work[at.gap_start + j, lane])
         found |= work[at.mode + j, lane] > 0.0 and depth <= LANDED
     return found

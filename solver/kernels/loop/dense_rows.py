@@ -30,7 +30,7 @@ def write_row(
         row[at.row.wound + k] = work[at.wound + k, lane]
     for k in range(at.states):
         row[at.row.state + k] = source[at.stage + k, i]
-    for j in range(at.joints):
+    for j in range(at.pairs):
         row[at.row.mode + j] = source[at.mode + j, i]
         row[at.row.impact_rate + j] = source[at.impact_rate + j, i]
 
@@ -44,7 +44,7 @@ def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
         target[at.wound + k, i] = row[at.row.wound + k]
     for k in range(at.states):
         target[at.stage + k, i] = row[at.row.state + k]
-    for j in range(at.joints):
+    for j in range(at.pairs):
         target[at.mode + j, i] = row[at.row.mode + j]
         target[at.impact_rate + j, i] = row[at.row.impact_rate + j]
 

@@ -158,7 +158,7 @@ def places_to_look_at(
     for i in range(INSTANTS):
         shares[i] = i / (INSTANTS - 1)
     count = INSTANTS
-    for j in range(at.joints):
+    for j in range(at.pairs):
         if passes(j, lane, at, work) and count + INSTANTS <= MOST_PLACES // 4:
             share, width = closest_approach(j, lane, at, work)
             place_about(share, width, at, spare)

@@ -55,7 +55,7 @@ def look_at_passages(
 
     To be called while ``channel`` has the values at the step's end, before the scan.
     """
-    for j in range(at.joints):
+    for j in range(at.pairs):
         if not passes(j, lane, at, work):
             continue
         share, width = closest_approach(j, lane, at, work)
@@ -75,7 +75,7 @@ def look_at_passages(
 def may_be_fastest(
     j: int, share: float, width: float, lane: int, at: Places, work: np.ndarray
 ) -> bool:
-    """Whether slip or penetration of a joint may have a record where its journal passes the centre.
+    """Whether slip or penetration of a pair may have a record where its journal passes the centre.
 
     There the slip is that of the spins, as at the end of the step, and all of the journal's speed.
     """
@@ -119,9 +119,9 @@ def look_inside(
 
 @kernel()
 def touches(lane: int, at: Places, work: np.ndarray) -> bool:
-    """Whether a joint is in contact during this step."""
+    """Whether a pair is in contact during this step."""
     found = False
-    for j in range(at.joints):
+    for j in range(at.pairs):
         found |= work[at.mode + j, lane] > 0.0
     return found
 

@@ -39,7 +39,7 @@ def first_onset(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return the share of the step after which joint j's gap first closes, `NO_ONSET` if never.
+    """Return the share of the step after which pair j's gap first closes, `NO_ONSET` if never.
 
     The gap is looked at in eight places; where its rate turns between two of them without the gap
     closing, though it might have, the turning point is sought (a grazing contact).
@@ -93,7 +93,7 @@ def closed_between(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return a share of the step at which joint j's gap is closed, `NO_ONSET` if there is none.
+    """Return a share of the step at which pair j's gap is closed, `NO_ONSET` if there is none.
 
     From one share to another, between which the gap's rate turns from rising to falling.
     """
@@ -122,7 +122,7 @@ def polish(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return the root of joint j's gap in a bracket: sectioning, then Newton inside the bracket."""
+    """Return the root of pair j's gap in a bracket: sectioning, then Newton inside the bracket."""
     tried = work[at.tried, lane]
     root = right
     look_between(left, right, lane, at, work, spare, gaps_within)

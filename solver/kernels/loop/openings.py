@@ -7,7 +7,7 @@ from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import look_between
-from jointplay.solver.kernels.loop.runs import NO_JOINT, Run
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
 
 MOST_ITERATIONS = 40
 ROOT = 1e-15
@@ -27,7 +27,7 @@ def dip(
     spare: np.ndarray,
     gaps_within: LaneFunction,
 ) -> float:
-    """Return a share of the step at which joint j's gap is open, though closed at both ends.
+    """Return a share of the step at which pair j's gap is open, though closed at both ends.
 
     It opened an eighth of the step before at most. 1: it stays closed.
     """
@@ -77,7 +77,7 @@ def note_openings(
     """
     step = work[at.tried, lane]
     soonest = 1.0
-    for j in range(at.joints):
+    for j in range(at.pairs):
         gap, rate = work[at.gap + j, lane], work[at.gap_rate + j, lane] * step
         start = work[at.gap_start + j, lane]
         start_rate = work[at.gap_rate_start + j, lane] * step
@@ -107,5 +107,5 @@ def end_behind_opening(share: float, lane: int, run: Run, at: Places, work: np.n
     """
     work[at.accept, lane] = 0.0
     work[at.next_step, lane] = BEHIND * share * work[at.tried, lane]
-    run.landing = NO_JOINT
+    run.landing = NO_PAIR
     run.landings = 0

@@ -21,7 +21,7 @@ AXES = 2
 
 @kernel()
 def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
-    """Whether joint j is open and its journal comes closest to the centre in this step."""
+    """Whether pair j is open and its journal comes closest to the centre in this step."""
     return bool(
         work[at.mode + j, lane] <= 0.0
         and work[at.gap_rate_start + j, lane] < 0.0 < work[at.gap_rate + j, lane]
@@ -30,7 +30,7 @@ def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
 
 @kernel()
 def power(k: int, axis: int, j: int, lane: int, at: Places, work: np.ndarray) -> float:
-    """Return the coefficient of share^k of one component of joint j's eccentricity, m."""
+    """Return the coefficient of share^k of one component of pair j's eccentricity, m."""
     step = work[at.tried, lane]
     first, last = at.eccentricity_start + 6 * j + axis, at.eccentricity + 6 * j + axis
     place, rate = work[first, lane], step * work[first + AXES, lane]

@@ -16,11 +16,11 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Event:
-    """A Poincare section that no clock gives: an onset at a joint, or a channel at a value."""
+    """A Poincare section that no clock gives: an onset of a pair, or a channel at a value."""
 
     kind: SectionKind
     place: int
-    """Index of the joint with play, or row of the channel block."""
+    """Index of the contact pair, or row of the channel block."""
     value: float = 0.0
     sense: float = 1.0
     """1: the channel comes from below; -1: from above."""
@@ -37,7 +37,7 @@ class LaneStart:
     state: Floats
     """Coordinates, then speeds."""
     contact: NDArray[np.bool_] | None = None
-    """Joints that are in contact already, with their latched impact rates (m/s)."""
+    """Pairs that are in contact already, with their latched impact rates (m/s)."""
     impact_rate: Floats | None = None
     period: int = 0
     """Whole periods of the drivers that have passed."""

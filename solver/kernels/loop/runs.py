@@ -37,7 +37,7 @@ class SectionKind(IntEnum):
 
 SAMPLES, SECTIONS = 0, 1
 """Kinds of dense rows; index of the pairs in a run, and of buffers."""
-NO_JOINT = -1
+NO_PAIR = -1
 
 
 class Run:
@@ -62,7 +62,7 @@ class Run:
     rejections: int
     onsets: int
     landing: int
-    """Joint on whose onset the step is to end; `NO_JOINT`: none."""
+    """Joint on whose onset the step is to end; `NO_PAIR`: none."""
     landings: int
     """Attempts at that onset."""
     period: float

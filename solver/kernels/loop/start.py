@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 def start_state(scene: Scene, coordinates: Sequence[str], pose: Floats, velocity: Floats) -> Floats:
     """Return the states of the start, (states,), from absolute poses (3 bodies,) and their rates.
 
-    Coordinates, then their speeds, then inner states of friction laws in the order of joints.
+    Coordinates, then their speeds, then inner states of friction laws in the order of pairs.
     """
     bodies = list(scene.bodies)
     position, speed = [], []

@@ -21,14 +21,14 @@ def start_tangent(lane: int, at: Places, work: np.ndarray) -> None:
         share = (i + 1) * GOLDEN - math.floor((i + 1) * GOLDEN) + 0.5
         weight = work[at.weight + i, lane]
         work[at.tangent + i, lane] = share / weight
-    for j in range(at.joints):
+    for j in range(at.pairs):
         work[at.tangent_impact_rate + j, lane] = 0.0
     scale_tangent(1.0 / tangent_length(lane, at, work), lane, at, work)
 
 
 @kernel()
 def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
-    """Give the latched impact rate of joint j its derivative along the tangent.
+    """Give the latched impact rate of pair j its derivative along the tangent.
 
     To be called once `begin_contact` has latched the rate and `tangent_gaps` was evaluated at the
     same state. A neighbouring run has its onset later by dt = -dδ / δ̇, so it latches
@@ -106,5 +106,5 @@ def scale_tangent(factor: float, lane: int, at: Places, work: np.ndarray) -> Non
     """Multiply a lane's tangent."""
     for i in range(at.states):
         work[at.tangent + i, lane] *= factor
-    for j in range(at.joints):
+    for j in range(at.pairs):
         work[at.tangent_impact_rate + j, lane] *= factor

@@ -32,24 +32,24 @@ class Equations:
     """Equations that kernels evaluate, as expressions of the variables.
 
     The variables are ``stage0…`` (coordinates, their speeds, inner states of friction laws in the
-    order of joints), ``stage_time`` (s within the period), ``phase<k>`` (driver k's position at
+    order of pairs), ``stage_time`` (s within the period), ``phase<k>`` (driver k's position at
     local time zero), ``wound<k>`` (its whole turns before that, rad, for angles that are shown;
-    trigonometry needs no turns), ``mode<j>`` and ``impact_rate<j>`` of joint j with play, in
-    document order.
+    trigonometry needs no turns), ``mode<j>`` and ``impact_rate<j>`` of contact pair j, in document
+    order.
     """
 
     recorder: Recorder
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
-    play: tuple[str, ...]
+    pairs: tuple[str, ...]
     accelerations: tuple[Expression, ...]
     inner_rates: tuple[Expression, ...]
     ledger: tuple[Expression, ...]
-    """Rates: work into contacts, friction loss, each driver's work, each joint's impulse."""
+    """Rates: work into contacts, friction loss, each driver's work, each pair's impulse."""
     gaps: tuple[tuple[Expression, Expression], ...]
-    """Penetration (m) and its rate (m/s) of each joint with play."""
+    """Penetration (m) and its rate (m/s) of each contact pair."""
     eccentricities: tuple[tuple[Expression, ...], ...]
-    """Motion of each joint's journal in its bearing, as `MOTION` says."""
+    """Motion of each pair's journal in its bearing, as `MOTION` says."""
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
     loops: Loops | None
@@ -104,8 +104,8 @@ def record(
     if lagrange:  # here a driven angle is a coordinate, which goes on turning
         for k, name in enumerate(scene.drivers):
             driven[name] = driven[name] + recorder.variable(f"wound{k}")
-    modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.play)}
-    rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.play)}
+    modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.pairs)}
+    rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.pairs)}
 
     mechanism: LagrangeMechanism | ReducedMechanism
     loops, corrections = None, []
@@ -136,7 +136,7 @@ def record(
         recorder,
         coordinates,
         tuple(scene.drivers),
-        tree.play,
+        tree.pairs,
         accelerations,
         tuple(lift(rate) for found in motion.contacts.values() for rate in found.inner_rates),
         tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),

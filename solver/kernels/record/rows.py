@@ -13,7 +13,7 @@ from jointplay.solver.scene.document import Scene
 
 @dataclass(frozen=True)
 class Rows:
-    """The channel block: watched channels, normal force of each joint again, then the rest.
+    """The channel block: watched channels, normal force of each pair again, then the rest.
 
     The repeated normal forces have records of their own, for the peak of each contact.
     """
@@ -56,7 +56,7 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
             multiples[name] = linear[name]
         else:
             watched[expression.index] = name
-    contacts = tuple(f"{name}.normal_force" for name in equations.play)
+    contacts = tuple(f"{name}.normal_force" for name in equations.pairs)
     return Rows(tuple(watched.values()), contacts, tuple(rest), multiples)
 
 

@@ -28,10 +28,11 @@ from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import clearances, tangent_obstacle
+from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.references import tangent_obstacle
 
 JOURNAL = ("eccentricity_x", "eccentricity_y", "penetration")
-"""Channels of a joint with play whose scale is the clearance from side to side, not their range."""
+"""Channels of a contact pair whose scale is the clearance from side to side, not their range."""
 COORDINATES = ("x", "y", "theta")
 UNLIKE, CHANCE = 0.25, 4.0
 """Numbers of contacts are unlike where they differ by this share, and by so many times the root of
@@ -172,7 +173,7 @@ def _nothing_known(horizon: float, time: Floats) -> str:
 
 def _motion(scene: Scene) -> dict[str, str]:
     """Return channels whose errors say how long the trajectory is known, with their units."""
-    found = {f"{name}.{part}": "m" for name in clearances(scene) for part in JOURNAL[:2]}
+    found = {f"{name}.{part}": "m" for name in contact_pairs(scene) for part in JOURNAL[:2]}
     for body in scene.bodies:
         found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
     return found
@@ -188,11 +189,11 @@ def _scales(values: Floats, names: Sequence[str], units: Sequence[str], scene: S
     largest = np.array([ranges[of_unit == unit].max() for unit in units])
     scales: Floats = np.maximum(ranges, HARDLY * largest)
     finest = start_scales(scene, names, 1.0)  # of positions and angles, where there is play
-    play = clearances(scene)
+    play = contact_pairs(scene)
     for column, name in enumerate(names):
-        owner, _, quantity = name.partition(".")
+        owner, _, quantity = name.rpartition(".")
         if quantity in JOURNAL:
-            scales[column] = 2.0 * play[owner].radial_clearance
+            scales[column] = 2.0 * play[owner].play
         elif play and quantity in COORDINATES:
             scales[column] = max(scales[column], finest[column])
     return scales

@@ -27,7 +27,7 @@ CONTACT = (
     "eccentricity_rate_x",
     "eccentricity_rate_y",
 )
-"""Channels of a joint with play that tell whether, and how fast, its journal has entered."""
+"""Channels of a contact pair that tell whether, and how fast, its journal has entered."""
 
 
 def steepness(
@@ -60,10 +60,10 @@ def steepness(
 def _observed(bundle: Bundle, moved: Floats, columns: Integers) -> Floats:
     """Return channels, (count, channels), at states of which some have entered a contact."""
     rows, row = bundle.kernel.rows, bundle.kernel.row
-    seen = [rows.index(f"{joint}.{name}") for joint in bundle.kernel.play for name in CONTACT]
+    seen = [rows.index(f"{pair}.{name}") for pair in bundle.kernel.pairs for name in CONTACT]
     found = bundle.observe(RUN, moved, np.concatenate([columns, seen]).astype(np.int64))
     values = found[:, : len(columns)]
-    contact = found[:, len(columns) :].reshape(len(moved), len(bundle.kernel.play), len(CONTACT))
+    contact = found[:, len(columns) :].reshape(len(moved), len(bundle.kernel.pairs), len(CONTACT))
     depth, ex, ey, vx, vy = np.moveaxis(contact, -1, 0)
     entered = (depth > 0.0) & (moved[:, row.mode : row.impact_rate] <= 0.0)
     again = entered.any(axis=1)

@@ -10,8 +10,8 @@ from jointplay.solver.mechanics.observe import body_values
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.periods import common_period
-from jointplay.solver.scene.references import clearances
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 SLACK = 0.01
@@ -36,7 +36,7 @@ class MotionReach:
     def __init__(self, scene: Scene, period: float) -> None:
         self.motion = IdealMotion(scene, period, period)
         self.bodies = list(scene.bodies)
-        play = {name: found.radial_clearance for name, found in clearances(scene).items()}
+        play = {pair.joint: pair.play for pair in contact_pairs(scene).values()}
         self.strayed = SECOND_ORDER * self.motion.displacements(play)
 
     def of(self, body: str, quantity: str) -> Reach | None:

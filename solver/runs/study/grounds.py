@@ -16,7 +16,8 @@ from jointplay.solver.runs.study.indicators import (
     RECURS,
 )
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.references import clearances, tangent_obstacle
+from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.references import tangent_obstacle
 
 
 def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[str]:
@@ -40,7 +41,7 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[
     if "period" in found and sections < FEWEST_FOR_RECURRENCE:
         yield f"recurrence needs {FEWEST_FOR_RECURRENCE} sections, there are {sections}"
     elif "period" in found:
-        scale = "finest clearance" if clearances(scene) else "shortest link"
+        scale = "finest clearance" if contact_pairs(scene) else "shortest link"
         yield (
             f"periods up to {min(LONGEST, sections // 2)} are looked for, and what differs by less"
             f" than {RECURS:g} of the {scale} counts as the same"
@@ -52,11 +53,11 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[
 
 
 def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> str:
-    """Say which joints of a lane have been in contact since a time, s, by a law with memory."""
-    at, play = bundle.lane(lane), clearances(scene)
+    """Say which pairs of a lane have been in contact since a time, s, by a law with memory."""
+    at, play = bundle.lane(lane), contact_pairs(scene)
     lasting = [
-        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].contact.law})"
-        for j, name in enumerate(bundle.kernel.play)
+        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].clearance.contact.law})"
+        for j, name in enumerate(bundle.kernel.pairs)
         if at["mode"][j] > 0.0 and at["onset_time"][j] <= since and at["impact_floor"][j] > 0.0
     ]
     if not lasting:

@@ -281,5 +281,5 @@ class LaneGroup:
             "from_neighbour": float(run.start is not None),
         }
         if run.tallies and whole:
-            found |= statistics_in(self.study, run, self.bundle.kernel.play)
+            found |= statistics_in(self.study, run, self.bundle.kernel.pairs)
         return {name: float(value) for name, value in found.items()}

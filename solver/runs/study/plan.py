@@ -8,7 +8,8 @@ from jointplay.records.channel import Channel
 from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.pairs import pairs_of
 from jointplay.solver.statistics import Output, outputs_of
 
 
@@ -84,12 +85,9 @@ class Study:
 
     def own_outputs(self) -> dict[str, Output]:
         """Return unit and long name of numbers a point that not every study has."""
-        joints = tuple(
-            name
-            for name, joint in self.point_scene(0).joints.items()
-            if isinstance(joint, Revolute) and joint.clearance is not None
-        )
-        return outputs_of(self.statistics, self.channels, joints)
+        joints = self.point_scene(0).joints.items()
+        pairs = tuple(pair.name for name, joint in joints for pair in pairs_of(name, joint))
+        return outputs_of(self.statistics, self.channels, pairs)
 
     def attributes(self) -> dict[str, Any]:
         """Return facts that a store keeps of this study beside its job and scene."""

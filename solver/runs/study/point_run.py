@@ -88,11 +88,11 @@ def window_of(study: Study, point: int) -> Window:
     return Window(start, end, step, first, Grid(stop - first, per_period))
 
 
-def begin_tallies(study: Study, run: PointRun, joints: int) -> None:
+def begin_tallies(study: Study, run: PointRun, pairs: int) -> None:
     """Give a point the tallies of its statistics: of channels, of contacts, as the job has them."""
     grid, channels = window_of(study, run.point).grid, len(study.channels)
     run.tallies = [
-        OF_CHANNELS[name].begin(grid, channels) if name in OF_CHANNELS else np.zeros(joints)
+        OF_CHANNELS[name].begin(grid, channels) if name in OF_CHANNELS else np.zeros(pairs)
         for name in study.statistics
     ]
 
@@ -117,7 +117,7 @@ def take_contacts(study: Study, run: PointRun, contacts: NDArray[np.void]) -> No
             OF_CONTACTS[name].add(tally, contacts, window.start, window.end)
 
 
-def statistics_in(study: Study, run: PointRun, joints: tuple[str, ...]) -> dict[str, float]:
+def statistics_in(study: Study, run: PointRun, pairs: tuple[str, ...]) -> dict[str, float]:
     """Return the statistics of a point that has ended; `solver.statistics` says how named."""
     window = window_of(study, run.point)
     found: dict[str, float] = {}
@@ -126,7 +126,7 @@ def statistics_in(study: Study, run: PointRun, joints: tuple[str, ...]) -> dict[
             owners = tuple(channel.name for channel in study.channels)
             values = OF_CHANNELS[name].value(tally, run.sampled)
         else:
-            owners = joints
+            owners = pairs
             values = OF_CONTACTS[name].value(tally, window.start, window.end)
         found |= {f"{owner}.{name}": float(x) for owner, x in zip(owners, values, strict=True)}
     return found

@@ -36,7 +36,7 @@ def problem_of(study: Study, kernel: Kernel, run: PointRun) -> LaneProblem:
         run.settled = 0 if settle == 0.0 else -1
         step, samples, first = first_leg, 0, 0
         if study.statistics:
-            begin_tallies(study, run, len(kernel.play))
+            begin_tallies(study, run, len(kernel.pairs))
             window = window_of(study, point)
             step, first = window.step, window.first
             samples = first + window.grid.samples + 1  # the last one is taken at the end
@@ -94,8 +94,8 @@ def _event(study: Study, kernel: Kernel, point: int) -> Event | None:
     waits = study.job["settle"] == "auto"
     not_before = 0.0 if waits else float(study.settle[point])
     if "onset" in section:
-        joint = kernel.play.index(section["onset"])
-        return Event(SectionKind.ONSET, joint, not_before=not_before)
+        pair = kernel.pairs.index(section["onset"])
+        return Event(SectionKind.ONSET, pair, not_before=not_before)
     if "channel" not in section:
         return None
     name, value = section["channel"], float(section["value"])

@@ -22,7 +22,7 @@ class Companion:
 
     def __init__(self, base: Bundle) -> None:
         self.base, self.kernel = base, base.kernel
-        self.states, self.joints = self.kernel.states, len(self.kernel.play)
+        self.states, self.joints = self.kernel.states, len(self.kernel.pairs)
         self.work = aligned_zeros(self.kernel.layout.size, LANES)
         self.work[:] = base.groups[0].work[: len(self.work), [0]]
         for name in ("largest_step", "end", "next_due", "pace_at"):

@@ -285,7 +285,7 @@ def test_accelerations_of_mechanisms_are_differentiated(instant: Instant, seed: 
     names = [f"position {c}" for c in equations.coordinates]
     names += [f"speed {c}" for c in equations.coordinates]
     along = {f"stage{i}": recorder.constant(direction[name]) for i, name in enumerate(names)}
-    for j, joint in enumerate(equations.play):
+    for j, joint in enumerate(equations.pairs):
         along[f"impact_rate{j}"] = recorder.constant(direction[f"impact_rate {joint}"])
     derivative = Derivative(along)
     known = {**recorder.numbers, **variables(instant, "reduced")}

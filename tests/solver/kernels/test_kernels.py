@@ -62,7 +62,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         for k, name in enumerate(kernel.drivers):
             moved = instant.scene.drivers[name].speed * 0.25
             at["phase"][k] = instant.driven[name] - moved
-        for j, name in enumerate(kernel.play):
+        for j, name in enumerate(kernel.pairs):
             at["mode"][j] = instant.mode[name]
             at["impact_rate"][j] = instant.impact_rate[name]
     for group in bundle.groups:

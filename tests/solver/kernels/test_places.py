@@ -54,7 +54,7 @@ def test_a_slot_that_the_layout_lacks_is_an_error(missing: str) -> None:
 
 def test_every_block_is_where_the_layout_has_it_even_if_it_is_empty() -> None:
     kernel = kernel_of("pendulum")
-    assert not kernel.play
+    assert not kernel.pairs
     for name in SLOTS:
         assert kernel.places[name][0] == kernel.layout.block(name).start
     tangents = compile_tangents(kernel)

@@ -112,7 +112,7 @@ def variables(instant: Instant, formulation: str) -> dict[str, float]:
     for k, (name, driver) in enumerate(instant.scene.drivers.items()):
         found[f"phase{k}"] = instant.driven[name] - driver.speed * 0.25
         found[f"wound{k}"] = 0.0
-    for j, name in enumerate(spanning_tree(instant.scene).play):
+    for j, name in enumerate(spanning_tree(instant.scene).pairs):
         found[f"mode{j}"] = instant.mode[name]
         found[f"impact_rate{j}"] = instant.impact_rate[name]
     return found

@@ -105,7 +105,7 @@ def contact_of(bundle: Bundle) -> bool:
         bundle.lane(0).number(f"mode{j}") > 0.0
         and bundle.lane(0).number(f"gap{j}") > 5e-7
         and bundle.lane(0).number(f"gap_rate{j}") > 0.0
-        for j in range(len(bundle.kernel.play))
+        for j in range(len(bundle.kernel.pairs))
     )
 
 
@@ -125,7 +125,7 @@ def test_a_tangent_is_the_difference_of_neighbours_that_take_the_same_steps(
     base = bundle_of([problem(preset(name, **parameters), 1.0, 1e-8)])
     while not contact_of(base) if contact else base.lane(0).time < 3e-3:
         base.advance(1)
-    kernel, states, joints = base.kernel, base.kernel.states, len(base.kernel.play)
+    kernel, states, joints = base.kernel, base.kernel.states, len(base.kernel.pairs)
     random = np.random.default_rng(5)
     # one direction a lane; lengths and rates by the scene's scales
     scales = 1e-8 / base.lane(0)["weight"][:, None] / 1e-8

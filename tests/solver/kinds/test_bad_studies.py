@@ -144,7 +144,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         P,
         {"section": {"onset": "C2"}},
         "/section/onset",
-        "joints with clearance are: A, B",
+        "contacts begin in: A, B",
     ),
     "crossing of no channel": (
         P,

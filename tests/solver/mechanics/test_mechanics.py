@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.mechanics.motion import Motion
-from jointplay.solver.scene.references import ends, has_play
+from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.references import ends
 from tests.solver.random_mechanisms import closed, instants, near_start, trees
 from tests.solver.readable_mechanics import Instant, at_start, preset
 

@@ -16,7 +16,7 @@ def right_hand_side(scene: Scene) -> str:
     equations = record(scene, spanning_tree(scene), "reduced")
     names = dict.fromkeys(name for name, _ in slopes(equations))
     variables = [f"stage{i}" for i in range(2 * len(equations.coordinates))]
-    play = range(len(equations.play))
+    play = range(len(equations.pairs))
     modes = [name for j in play for name in (f"mode{j}", f"impact_rate{j}")]
     phases = [f"phase{k}" for k in range(len(equations.drivers))]
     for name in (*names, *variables, *modes, *phases, "stage_time"):
