@@ -181,12 +181,18 @@ def loaded_by(module: str, watched: list[str]) -> list[str]:
         ("jointplay.local.folder_results", ["numba", "celery", "httpx", "matplotlib"]),
         ("jointplay.figures", ["numba", "celery", "fastapi", "matplotlib", "httpx"]),
         ("jointplay.command_line.application", ["numpy", "pydantic", "rich", "httpx", "numba"]),
-        ("jointplay.solver.kinds", ["numba", "celery", "fastapi", "zarr"]),
+        ("jointplay.solver.kinds", ["numba", "celery", "fastapi", "zarr", "scipy"]),
         ("jointplay.storage.results", ["numba", "celery", "fastapi", "sqlalchemy"]),
         ("jointplay.storage.catalogue", ["numba", "celery", "fastapi", "zarr", "numpy"]),
         (
             "jointplay.service.app",
-            ["numba", "jointplay.solver.runs.simulate", "jointplay.worker.tasks", "matplotlib"],
+            [
+                "numba",
+                "scipy",
+                "matplotlib",
+                "jointplay.solver.runs.simulate",
+                "jointplay.worker.tasks",
+            ],
         ),
     ],
 )

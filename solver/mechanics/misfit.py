@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
@@ -38,6 +37,8 @@ def opening(scene: Scene) -> Opening:
     The joints that may open are those that close loops, and those with play. The pose is that of
     the least squares of what stays open, near the start angles.
     """
+    from scipy.optimize import least_squares  # 20 MB that only a mechanism left open needs
+
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     driven, length = driver_positions(scene), shortest_link(scene)
     pose = first_pose(ideal, first_angles(scene), driven)
