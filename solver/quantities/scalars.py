@@ -89,3 +89,23 @@ def power(x: Scalar, exponent: Scalar) -> Scalar:
     if isinstance(x, float | int | type_of_array):
         return x**exponent
     return x.power(exponent)
+
+
+def logarithm(x: Scalar) -> Scalar:
+    """Natural logarithm of x > 0."""
+    if isinstance(x, float | int):
+        return math.log(x)
+    return np.log(x) if isinstance(x, type_of_array) else x.logarithm()
+
+
+def exponential(x: Scalar) -> Scalar:
+    """Return e ** x, for x below 700."""
+    if isinstance(x, float | int):
+        return math.exp(x)
+    return np.exp(x) if isinstance(x, type_of_array) else x.exponential()
+
+
+def hyperbolic_tangent(x: Scalar) -> Scalar:
+    """Hyperbolic tangent, within a few units in the last place of 1."""
+    decay = exponential(-2.0 * absolute(x))
+    return sign(x) * ((1.0 - decay) / (1.0 + decay))

@@ -50,11 +50,12 @@ class Clearance(Strict):
     """Play of a revolute joint: the journal moves inside the bearing and touches its wall.
 
     The journal's radius is the bearing's less the radial clearance. A radial clearance of zero is
-    an ideal joint.
+    an ideal joint. Contact laws of lines need the bearing's width, its length along the axis.
     """
 
     radial_clearance: RadialClearance
     bearing_radius: Radius
+    bearing_width: Radius | None = None
     contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
     friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
 

@@ -36,6 +36,13 @@ def out_of_reach(start: Any, joint: Any) -> Any:
     return np.hypot(*start.eccentricity) >= joint.clearance.bearing_radius
 
 
+def too_deep(start: Any, joint: Any) -> Any:
+    """Whether a journal would start deeper than its contact law holds."""
+    clearance = joint.clearance
+    depth = np.hypot(*start.eccentricity) - clearance.radial_clearance
+    return depth > clearance.contact.deepest(clearance)
+
+
 def _unreachable(scene: Scene) -> Iterator[Problem]:
     for name, start in scene.start.joints.items():
         joint = scene.joints.get(name)
@@ -46,6 +53,15 @@ def _unreachable(scene: Scene) -> Iterator[Problem]:
                 f"An eccentricity of {math.hypot(x, y):g} m is beyond reach: the journal's centre"
                 f" would be outside the bearing, whose radius is"
                 f" {joint.clearance.bearing_radius:g} m.",
+            )
+        elif isinstance(joint, Revolute) and joint.clearance and too_deep(start, joint):
+            x, y = start.eccentricity
+            deepest = joint.clearance.contact.deepest(joint.clearance)
+            yield Problem(
+                f"/start/joints/{name}/eccentricity/{int(abs(y) > abs(x))}",
+                f"At an eccentricity of {math.hypot(x, y):g} m the journal is deeper in its bearing"
+                f" than {deepest:.3g} m, where the logarithm of the law"
+                f" '{joint.clearance.contact.title}' ends; start it less deep.",
             )
 
 
@@ -73,9 +89,11 @@ def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags
     for name, start in scene.start.joints.items():
         places = f"/start/joints/{name}", f"/joints/{name}"
         if any(path.startswith((f"{places[0]}/", f"{places[1]}/")) for path in columns):
-            broken |= out_of_reach(
-                _seen(start, places[0], columns), _seen(scene.joints[name], places[1], columns)
+            seen = (
+                _seen(start, places[0], columns),
+                _seen(scene.joints[name], places[1], columns),
             )
+            broken |= out_of_reach(*seen) | too_deep(*seen)
     return broken
 
 
@@ -87,12 +105,19 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
             yield place, GUIDE, joint
         elif isinstance(joint, Revolute) and joint.clearance is not None:
             play = joint.clearance
-            yield f"{place}/clearance", CLEARANCE, play
-            yield f"{place}/clearance/contact", play.contact.rules, play.contact
-            if play.friction is not None:
-                yield f"{place}/clearance/friction", play.friction.rules, play.friction
+            yield f"{place}/clearance", (*CLEARANCE, *play.contact.clearance_rules), play
+            yield from _ruled(f"{place}/clearance", play)
     for name, element in scene.forces.items():
         yield f"/forces/{name}", element.rules, element
+
+
+def _ruled(place: str, part: BaseModel) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
+    """Yield the laws in a part, and the laws in those, by their fields."""
+    for name in type(part).model_fields:
+        law = getattr(part, name)
+        if isinstance(law, BaseModel):
+            yield f"{place}/{name}", getattr(law, "rules", ()), law
+            yield from _ruled(f"{place}/{name}", law)
 
 
 def _seen(node: Any, path: str, columns: Mapping[str, Floats]) -> Any:

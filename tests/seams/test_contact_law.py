@@ -10,7 +10,8 @@ from pydantic import Field
 
 from jointplay.client import Refused
 from jointplay.solver.laws.contact import LAWS
-from jointplay.solver.laws.contact.law import ContactLaw, Fit
+from jointplay.solver.laws.contact.law import ContactLaw
+from jointplay.solver.laws.fit import Fit
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power
 from jointplay.solver.scene.document import Scene
 from tests.seams.conftest import Platform
@@ -92,7 +93,7 @@ def test_its_parameters_are_checked_as_its_own(platform: Platform) -> None:
         ({"law": "hertz", "hardness": -1.0}, "hardness", "greater than 0 N/m^1.5"),
         ({"law": "hertz"}, "hardness", "required"),
         ({"law": "hertz", "hardness": 1.0, "restitution": 0.9}, "restitution", "no field"),
-        ({"law": "kelvin"}, "law", "'lankarani-nikravesh' or 'hertz'"),
+        ({"law": "kelvin"}, "law", "'adams-impact' or 'hertz'"),
     ):
         with pytest.raises(Refused) as refused:
             platform.client.submit(thrown(contact))

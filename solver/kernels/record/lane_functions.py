@@ -96,6 +96,16 @@ def exp2(x: Any) -> Any:
     return fraction * operate("power_of_two", whole)
 
 
+def log(x: Any) -> Any:
+    """Natural logarithm of a normal x > 0, within 4e-16 of max(1, |log2 x|)."""
+    return LN_2 * log2(x)
+
+
+def exp(x: Any) -> Any:
+    """Exponential of x below 700; the relative error is about 1e-16 * max(1, |x|)."""
+    return exp2(LOG2_E * x)
+
+
 def power(x: Any, exponent: Any) -> Any:
     """Return x ** exponent for x >= 0; zero stays zero.
 

@@ -201,5 +201,9 @@ OPERATIONS: dict[str, Operation] = {
         math.cos, lambda node, rates: -1.0 * node.recorder.functions[node.index].partner * rates[0]
     ),
     "pow": Operation(operator.pow, _power_rate),
+    "log": Operation(
+        math.log, lambda node, rates: rates[0] / node.recorder.functions[node.index].argument
+    ),
+    "exp": Operation(math.exp, lambda node, rates: node * rates[0]),
 }
 """Every operation by its name on tapes."""

@@ -12,7 +12,7 @@ evaluated once a run, outside the kernel.
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable
+from collections.abc import Callable, Container, Iterable
 from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded
@@ -230,12 +230,28 @@ class Expression:
             self.recorder.functions[result.index] = Function("pow", self, lifted)
         return result
 
+    def logarithm(self) -> Expression:
+        """Natural logarithm by our own lane functions; outside the kernel where x is fixed."""
+        return self._function("log", lane_functions.log)
+
+    def exponential(self) -> Expression:
+        """Exponential by our own lane functions; outside the kernel where x is fixed."""
+        return self._function("exp", lane_functions.exp)
+
+    def _function(self, name: str, on_lanes: Callable[[Expression], Expression]) -> Expression:
+        if self.fixed:
+            return self.recorder.apply(name, self)
+        result = on_lanes(self)
+        self.recorder.functions[result.index] = Function(name, self, self)
+        return result
+
 
 @dataclass(frozen=True)
 class Function:
     """Function that a node stands for, recorded as arithmetic: derivatives need not go there.
 
-    `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power.
+    `partner` : the cosine of a sine and the sine of a cosine; the exponent of a power; else the
+    argument.
     """
 
     name: str

@@ -1,8 +1,14 @@
 """Normal contact laws: one file a law; this roster names them, the default first."""
 
+from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
 from jointplay.solver.laws.contact.law import ContactLaw
+from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 
-LAWS: dict[str, type[ContactLaw]] = {"lankarani-nikravesh": LankaraniNikravesh}
+LAWS: dict[str, type[ContactLaw]] = {
+    "lankarani-nikravesh": LankaraniNikravesh,
+    "stiffness-and-dissipation": StiffnessAndDissipation,
+    "adams-impact": AdamsImpact,
+}
 
 __all__ = ["LAWS", "ContactLaw"]

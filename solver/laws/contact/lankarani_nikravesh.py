@@ -4,8 +4,15 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from jointplay.solver.laws.contact.law import ContactLaw, Fit
-from jointplay.solver.quantities.scalars import Scalar, positive_part, power, sqrt
+from jointplay.solver.laws.contact.law import ContactLaw
+from jointplay.solver.laws.dissipation.lankarani_nikravesh import LankaraniNikraveshDamping
+from jointplay.solver.laws.dissipation.latched import ImpactRateFloor
+from jointplay.solver.laws.dissipation.law import Elastic, Restitution
+from jointplay.solver.laws.fit import Fit
+from jointplay.solver.laws.stiffness.hertz_spheres import HertzSpheres
+from jointplay.solver.laws.stiffness.material import PoissonRatio, YoungsModulus
+from jointplay.solver.laws.stiffness.power import Power
+from jointplay.solver.quantities.scalars import Scalar, positive_part
 from jointplay.solver.quantities.units import Rule
 
 
@@ -32,23 +39,13 @@ class LankaraniNikravesh(ContactLaw):
         float | None,
         Field(gt=0.0, le=1e18, description="K; none: eq. 9", json_schema_extra={"unit": "N/m^n"}),
     ] = None
-    youngs_modulus: Annotated[float, Field(gt=0.0, le=1e15, json_schema_extra={"unit": "Pa"})] = (
-        2.07e11
-    )
-    poisson_ratio: Annotated[float, Field(ge=0.0, lt=0.5, json_schema_extra={"unit": "1"})] = 0.29
+    youngs_modulus: YoungsModulus = 2.07e11
+    poisson_ratio: PoissonRatio = 0.29
     exponent: Annotated[
         float, Field(ge=1.0, le=3.0, json_schema_extra={"unit": "1", "structural": [1.5]})
     ] = 1.5
-    restitution: Annotated[float, Field(ge=0.0, le=1.0, json_schema_extra={"unit": "1"})] = 0.9
-    impact_rate_floor: Annotated[
-        float,
-        Field(
-            gt=0.0,
-            le=1e3,
-            description="smallest impact rate that the damping divides by",
-            json_schema_extra={"unit": "m/s"},
-        ),
-    ] = 1e-3
+    restitution: Restitution = 0.9
+    impact_rate_floor: ImpactRateFloor = 1e-3
 
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
@@ -63,26 +60,26 @@ class LankaraniNikravesh(ContactLaw):
 
     def contact_stiffness(self, fit: Fit) -> Scalar:
         """Return K, N/m^n: as given, or of eq. 9 for a journal of radius R_j = R_i - c."""
-        if self.stiffness is not None:
-            return self.stiffness
-        compliance = (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus
-        journal_radius = fit.bearing_radius - fit.radial_clearance
-        radii = fit.bearing_radius * journal_radius / fit.radial_clearance
-        return 4.0 / (3.0 * (compliance + compliance)) * sqrt(radii)  # eq. (9)
-
-    def elastic_force(self, fit: Fit, depth: Scalar) -> Scalar:
-        """Return K δ^n, N."""
-        return self.contact_stiffness(fit) * power(positive_part(depth), self.exponent)
+        elastic = self._stiffness
+        return elastic.coefficient(fit) if isinstance(elastic, HertzSpheres) else elastic.stiffness
 
     def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n of eqs (8) and (10), N."""
-        elastic = self.elastic_force(fit, depth)
-        hysteresis = 0.75 * (1.0 - self.restitution * self.restitution)
-        return positive_part(elastic * (1.0 + hysteresis * rate / impact_rate))
+        damping = LankaraniNikraveshDamping.model_construct(restitution=self.restitution)
+        elastic = Elastic(self._stiffness, fit, depth)
+        return positive_part(damping.normal_force(elastic, rate, impact_rate))
 
     def elastic_energy(self, fit: Fit, depth: Scalar) -> Scalar:
         """Return K δ^(n+1) / (n + 1), J."""
-        return self.elastic_force(fit, depth) * positive_part(depth) / (self.exponent + 1.0)
+        return self._stiffness.energy(fit, depth)
+
+    @property
+    def _stiffness(self) -> HertzSpheres | Power:
+        if self.stiffness is not None:
+            return Power.model_construct(stiffness=self.stiffness, exponent=self.exponent)
+        return HertzSpheres.model_construct(
+            youngs_modulus=self.youngs_modulus, poisson_ratio=self.poisson_ratio
+        )
 
     @property
     def least_impact_rate(self) -> float:

@@ -1,22 +1,12 @@
 """Interface of contact laws."""
 
+import math
 from abc import abstractmethod
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
+from jointplay.solver.laws.fit import Fit
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import Rule, Strict
-
-
-class Fit(Protocol):
-    """A journal in its bearing."""
-
-    @property
-    def bearing_radius(self) -> Scalar:
-        """Radius of the bearing, m."""
-
-    @property
-    def radial_clearance(self) -> Scalar:
-        """The bearing's radius less the journal's, m."""
 
 
 class ContactLaw(Strict):
@@ -40,6 +30,20 @@ class ContactLaw(Strict):
     @abstractmethod
     def elastic_energy(self, fit: Fit, depth: Scalar) -> Scalar:
         """Return the energy stored at a depth, J: what the force at rest gives back."""
+
+    def deepest(self, fit: Fit) -> Scalar:
+        """Return the depth up to which the law is what its source says, m."""
+        return math.inf
+
+    @property
+    def clearance_rules(self) -> tuple[Rule, ...]:
+        """Rules that a clearance with this law must keep."""
+        return ()
+
+    @property
+    def title(self) -> str:
+        """What sentences call the law."""
+        return self.law
 
     @property
     def least_impact_rate(self) -> float:

@@ -56,7 +56,7 @@ def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> s
     """Say which pairs of a lane have been in contact since a time, s, by a law with memory."""
     at, play = bundle.lane(lane), contact_pairs(scene)
     lasting = [
-        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].clearance.contact.law})"
+        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].clearance.contact.title})"
         for j, name in enumerate(bundle.kernel.pairs)
         if at["mode"][j] > 0.0 and at["onset_time"][j] <= since and at["impact_floor"][j] > 0.0
     ]

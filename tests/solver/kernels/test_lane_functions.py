@@ -51,6 +51,16 @@ def test_exp2_is_within_its_stated_bound(x: float) -> None:
     assert lane.exp2(x) == pytest.approx(math.exp2(x), rel=4e-16)
 
 
+@given(st.floats(min_value=1e-300, max_value=1e300))
+def test_log_is_within_its_stated_bound(x: float) -> None:
+    assert abs(lane.log(x) - math.log(x)) <= 4e-16 * max(1.0, abs(math.log2(x)))
+
+
+@given(st.floats(-690.0, 690.0))
+def test_exp_is_within_its_stated_bound(x: float) -> None:
+    assert lane.exp(x) == pytest.approx(math.exp(x), rel=2e-16 * max(2.0, abs(x)))
+
+
 @given(st.floats(min_value=1e-30, max_value=1e6), st.floats(1.0, 3.0))
 def test_power_is_within_its_stated_bound(x: float, exponent: float) -> None:
     bound = 1e-15 * exponent * max(1.0, abs(math.log2(x)))

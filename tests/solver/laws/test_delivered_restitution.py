@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from jointplay.solver.laws.contact import LAWS
 from tests.solver.completed_runs import Run, run
 
 TABLE = {
@@ -65,8 +64,7 @@ def bounce(restitution: float, exponent: float, stiffness: float) -> Run:
 
 
 @pytest.mark.parametrize(("exponent", "stiffness"), [(1.5, 1e9), (1.2, 1e8), (2.0, 1e11)])
-def test_every_contact_law_delivers_its_restitution(exponent: float, stiffness: float) -> None:
-    assert TABLE.keys() == LAWS.keys()
+def test_the_law_of_the_paper_delivers_its_restitution(exponent: float, stiffness: float) -> None:
     for law, pairs in TABLE.items():
         for asked, figures in pairs.items():
             exact = delivered(law, asked)

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
+from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
+from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
 from tests.solver.laws.specification import (
@@ -39,6 +41,37 @@ class TestLankaraniNikravesh(ContactSpecification):
     )
 
 
+PAIRS = [
+    ({"law": "power", "stiffness": 1e10}, {"law": "exact", "restitution": 0.5}),
+    ({"law": "hertz-spheres"}, {"law": "tsuji", "restitution": 0.7, "effective_mass": 2.0}),
+    ({"law": "johnson"}, {"law": "hu-guo", "restitution": 0.3}),
+    ({"law": "liu"}, {"law": "jankowski", "restitution": 0.9, "effective_mass": 0.5}),
+]
+
+
+class TestStiffnessAndDissipation(ContactSpecification):
+    """What any two of the rosters share with other contact laws, on some of them."""
+
+    model = StiffnessAndDissipation
+    laws = st.sampled_from(
+        [
+            StiffnessAndDissipation.model_validate({"stiffness": s, "dissipation": d})
+            for s, d in PAIRS
+        ]
+    )
+
+
+class TestAdamsImpact(ContactSpecification):
+    model = AdamsImpact
+    laws = st.builds(
+        AdamsImpact,
+        stiffness=st.just(1e10),
+        exponent=exponents,
+        damping=st.floats(0.0, 1e4),
+        full_damping_depth=st.floats(1e-5, 1e-4),
+    )
+
+
 class TestModifiedCoulomb(FrictionSpecification):
     model = ModifiedCoulomb
     laws = st.builds(
@@ -50,7 +83,12 @@ class TestModifiedCoulomb(FrictionSpecification):
 
 
 def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> None:
-    specified = {TestLankaraniNikravesh.model, TestModifiedCoulomb.model}
+    specified = {
+        TestLankaraniNikravesh.model,
+        TestStiffnessAndDissipation.model,
+        TestAdamsImpact.model,
+        TestModifiedCoulomb.model,
+    }
     assert {*CONTACT_LAWS.values(), *FRICTION_LAWS.values()} == specified
     for roster in (CONTACT_LAWS, FRICTION_LAWS):
         for name, law in roster.items():
@@ -91,6 +129,22 @@ def test_equation_9_gives_the_stiffness_that_the_literature_prints() -> None:
     effective = 2.07e11 / (1.0 - 0.3**2) / 2.0
     radius = 1.0 / (1.0 / 0.0095 - 1.0 / 0.01)
     assert stiffness == pytest.approx(4.0 / 3.0 * effective * math.sqrt(radius), rel=1e-12)
+
+
+def test_the_law_of_the_paper_is_a_pair_of_the_rosters() -> None:
+    damping = {"law": "lankarani-nikravesh", "restitution": 0.7}
+    for given_one, stiffness in (
+        ({}, {"law": "hertz-spheres"}),
+        ({"stiffness": 5e9, "exponent": 1.2}, {"law": "power", "stiffness": 5e9, "exponent": 1.2}),
+    ):
+        whole = LankaraniNikravesh(restitution=0.7, **given_one)
+        pair = StiffnessAndDissipation.model_validate(
+            {"stiffness": stiffness, "dissipation": damping}
+        )
+        for rate in (-0.1, 0.0, 0.05):
+            assert whole.normal_force(FIT, 1e-6, rate, 0.1) == pair.normal_force(
+                FIT, 1e-6, rate, 0.1
+            )
 
 
 def test_a_given_stiffness_takes_the_place_of_equation_9() -> None:
