@@ -20,7 +20,7 @@ from tests.solver.completed_runs import Run, collect
 from tests.solver.laws.specification import FrictionSpecification
 
 
-class Dahl(FrictionLaw):
+class Bristle(FrictionLaw):
     """F_t = -σ z F_n with z' = v - σ |v| z / μ: bristles bend with the slip until they slide.
 
     Assumes bristles that bend with the slip while apart, too. Fails to tell sticking friction from
@@ -30,7 +30,7 @@ class Dahl(FrictionLaw):
     by Canudas de Wit and Tsiotras 1999, eqs 7-8.
     """
 
-    law: Literal["dahl"] = "dahl"
+    law: Literal["bristle"] = "bristle"
     coefficient: Annotated[float, Field(gt=0.0, le=10.0, json_schema_extra={"unit": "1"})]
     bristle_stiffness: Annotated[float, Field(gt=0.0, le=1e9, json_schema_extra={"unit": "1/m"})]
 
@@ -49,9 +49,11 @@ class Dahl(FrictionLaw):
         return (slip - absolute(slip) * bent,)
 
 
-class TestDahl(FrictionSpecification):
-    model = Dahl
-    laws = st.builds(Dahl, coefficient=st.floats(0.01, 1.0), bristle_stiffness=st.floats(1.0, 1e4))
+class TestBristle(FrictionSpecification):
+    model = Bristle
+    laws = st.builds(
+        Bristle, coefficient=st.floats(0.01, 1.0), bristle_stiffness=st.floats(1.0, 1e4)
+    )
 
 
 COEFFICIENT, BRISTLE = 0.2, 20.0
@@ -65,7 +67,7 @@ FLIGHT = CLEARANCE / SPEED
 
 def thrown(**friction: Any) -> dict[str, Any]:
     """Return a scene: a weightless, spinning journal is thrown at its bearing; a clock goes on."""
-    given = {"law": "dahl", "coefficient": COEFFICIENT, "bristle_stiffness": BRISTLE}
+    given = {"law": "bristle", "coefficient": COEFFICIENT, "bristle_stiffness": BRISTLE}
     return {
         "name": "thrown-journal",
         "ground": {"points": {"O": [0.0, 0.0], "wall": [1.0, 0.0]}},
@@ -111,10 +113,10 @@ SIMULATE = {"kind": "simulate", "duration": 0.05, "output_step": 1e-5, "toleranc
 
 
 @pytest.fixture
-def dahl() -> Iterator[None]:
-    LAWS["dahl"] = Dahl
+def bristles() -> Iterator[None]:
+    LAWS["bristle"] = Bristle
     yield
-    del LAWS["dahl"]
+    del LAWS["bristle"]
 
 
 def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) -> None:
@@ -125,7 +127,7 @@ def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) ->
     assert "'modified-coulomb'" in field.detail
 
 
-@pytest.mark.usefixtures("dahl")
+@pytest.mark.usefixtures("bristles")
 @pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
 @pytest.mark.parametrize("method", ["tsitouras", "rodas"])
 def test_bristles_bend_until_they_slide(platform: Platform, formulation: str, method: str) -> None:
@@ -160,7 +162,7 @@ def run_to_end(simulation: Simulation) -> Run:
     return collect(simulation.admission, list(simulation.slices()), simulation)
 
 
-@pytest.mark.usefixtures("dahl")
+@pytest.mark.usefixtures("bristles")
 @pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
 def test_a_run_that_is_taken_up_again_has_the_same_bits(formulation: str) -> None:
     document = {"scene": thrown(), "formulation": formulation, "duration": 2.0, "output_step": 1e-3}
@@ -177,7 +179,7 @@ def test_a_run_that_is_taken_up_again_has_the_same_bits(formulation: str) -> Non
     assert rest.peaks == whole.peaks
 
 
-@pytest.mark.usefixtures("dahl")
+@pytest.mark.usefixtures("bristles")
 def test_a_continuation_hands_bristles_on_to_the_next_value(platform: Platform) -> None:
     job = platform.computed(
         {
@@ -201,7 +203,7 @@ def test_a_continuation_hands_bristles_on_to_the_next_value(platform: Platform) 
     np.testing.assert_allclose(found, [first, bristle(PERIOD, 0.3, first)], rtol=1e-6)
 
 
-@pytest.mark.usefixtures("dahl")
+@pytest.mark.usefixtures("bristles")
 def test_members_of_an_ensemble_start_with_bristles_of_their_own(platform: Platform) -> None:
     job = platform.computed(
         {

@@ -12,7 +12,13 @@ from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
+from jointplay.solver.laws.friction.bengisu_akay import BengisuAkay
+from jointplay.solver.laws.friction.brown_mcphee import BrownMcPhee
+from jointplay.solver.laws.friction.dahl import Dahl
+from jointplay.solver.laws.friction.lugre import LuGre
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
+from jointplay.solver.laws.friction.stribeck import Stribeck
+from jointplay.solver.laws.friction.threlfall import Threlfall
 from tests.solver.laws.specification import (
     FIT,
     ROUNDING,
@@ -82,12 +88,57 @@ class TestModifiedCoulomb(FrictionSpecification):
     )
 
 
+breakaway = {"static_coefficient": st.just(0.3), "kinetic_coefficient": st.floats(0.05, 0.3)}
+
+
+class TestThrelfall(FrictionSpecification):
+    model = Threlfall
+    laws = st.builds(Threlfall, coefficient=coefficients, full_velocity=st.just(0.1))
+
+
+class TestBengisuAkay(FrictionSpecification):
+    model = BengisuAkay
+    laws = st.builds(BengisuAkay, **breakaway, static_velocity=st.just(0.1))
+
+
+class TestStribeck(FrictionSpecification):
+    model = Stribeck
+    laws = st.builds(Stribeck, **breakaway)
+
+
+class TestBrownMcPhee(FrictionSpecification):
+    model = BrownMcPhee
+    laws = st.builds(BrownMcPhee, **breakaway)
+
+
+class TestDahl(FrictionSpecification):
+    model = Dahl
+    laws = st.builds(Dahl, coefficient=st.floats(0.01, 1.0), bristle_stiffness=st.floats(1.0, 1e4))
+
+
+class TestLuGre(FrictionSpecification):
+    model = LuGre
+    laws = st.builds(
+        LuGre,
+        **breakaway,
+        bristle_stiffness=st.floats(1.0, 1e4),
+        bristle_damping=st.floats(0.0, 0.1),
+        viscous_damping=st.floats(0.0, 0.1),
+    )
+
+
 def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> None:
     specified = {
         TestLankaraniNikravesh.model,
         TestStiffnessAndDissipation.model,
         TestAdamsImpact.model,
         TestModifiedCoulomb.model,
+        TestThrelfall.model,
+        TestBengisuAkay.model,
+        TestStribeck.model,
+        TestBrownMcPhee.model,
+        TestDahl.model,
+        TestLuGre.model,
     }
     assert {*CONTACT_LAWS.values(), *FRICTION_LAWS.values()} == specified
     for roster in (CONTACT_LAWS, FRICTION_LAWS):

@@ -3,6 +3,7 @@
 from typing import Any
 
 CLEARANCE, SPEED, MASS = 5e-4, 0.2, 1.0
+SPIN, INERTIA = 200.0, 5e-5
 APART = 1e-5
 """How much nearer to its bearing than the one before each journal starts, m."""
 
@@ -11,6 +12,16 @@ def pair(stiffness: dict[str, Any], dissipation: dict[str, Any]) -> dict[str, An
     """Return the contact law of two parts."""
     law = "stiffness-and-dissipation"
     return {"law": law, "stiffness": stiffness, "dissipation": dissipation}
+
+
+def spinning(contact: dict[str, Any], *friction: dict[str, Any]) -> dict[str, Any]:
+    """Return a scene with a journal for each friction law, which spin as they are thrown."""
+    scene = thrown(*(len(friction) * [contact]))
+    for i, law in enumerate(friction):
+        scene["joints"][f"bearing{i}"]["clearance"]["friction"] = law
+        scene["bodies"][f"journal{i}"]["inertia"] = INERTIA
+    scene["start"]["angular_velocities"] = dict.fromkeys(scene["bodies"], SPIN)
+    return scene
 
 
 def thrown(*laws: dict[str, Any]) -> dict[str, Any]:
