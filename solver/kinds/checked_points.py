@@ -43,7 +43,7 @@ def check_points(job: MechanismJob, points: Points) -> PlacedPoints:
     """
     document, scene, given = declared(job)
     check_parameters(points, scene)
-    kept, echo = set_parameters(document, scene, given)
+    kept, echo = set_parameters(document, scene, given, points.parameters)
     one = _One(points, document, scene, given)
     base = one.first()
     scenes = PointScenes(base, leaves_of(scene, points.parameters, echo), points.values())

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput, Problem
@@ -26,6 +27,8 @@ from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
 from jointplay.solver.scene.sentences import schema_problems
 
+CONSISTENT = 1e-9
+"""Share of the largest speed, or of 1 m/s, up to which rates of constraints are rounding."""
 Echo = dict[str, float | str | None]
 """The value of every declared parameter; none where the document's own values stand."""
 
@@ -102,7 +105,8 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer
     assembly = assemble(scene)
     coordinates = 3 * len(scene.bodies)
-    if assembly.constraints > coordinates and not assembly.freedom:
+    only_held = _redundant_while_held(scene, assembly)
+    if assembly.constraints > coordinates and not assembly.freedom and not only_held:
         _check_drivers(scene)
         raise InvalidInput.at(
             "/scene/joints",
@@ -131,11 +135,26 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
                 for body in adrift
             ]
         )
-    if assembly.redundant_with_play or assembly.redundant:
+    if (assembly.redundant_with_play or assembly.redundant) and not only_held:
         _check_redundant(scene, assembly)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
         check_length(scene, tree, formulation)
     return tree, assembly
+
+
+def _redundant_while_held(scene: Scene, assembly: Assembly) -> bool:
+    """Whether constraints are redundant at the start alone, where journals are held: as of a stop.
+
+    A mechanism is put together with its journals held, and then let go: what they repeat of
+    other joints does no harm if it agrees with them.
+    """
+    return bool(
+        assembly.redundant
+        and not assembly.freedom
+        and not assembly.redundant_with_play
+        and _closes(scene)
+        and assembly.rate <= CONSISTENT * max(1.0, float(np.abs(assembly.velocity).max()))
+    )
 
 
 def _check_redundant(scene: Scene, assembly: Assembly) -> None:

@@ -65,7 +65,7 @@ class PlacedPoints:
 def place_points(job: MechanismJob, points: Points) -> PlacedPoints:
     """Return the points of a job that was admitted before."""
     document, declared, given = written(job)
-    kept, echo = set_parameters(document, declared, given)
+    kept, echo = set_parameters(document, declared, given, points.parameters)
     first, _ = set_parameters(document, declared, {**given, **points.at(0)})
     leaves = leaves_of(declared, points.parameters, echo)
     scenes = PointScenes(Scene.model_validate(first), leaves, points.values())

@@ -52,6 +52,9 @@ class Assembly:
     """The same once joints with clearance are let go."""
     redundant_with_play: int
     """Dependent rows that remain then."""
+    rate: float
+    """Largest rate at which constraints are violated then, m/s or rad/s; above zero if drivers
+    fight."""
 
     @property
     def redundant(self) -> int:
@@ -162,7 +165,8 @@ def _assembled(scene: Scene) -> Assembly:
 
     loose = AbsoluteMechanism(scene, view(scene), close_play=False)
     velocity = _start_velocity(ideal, pose, scale)
-    _, open_jacobian = arrays(loose.rows(pose, velocity, driven), count)
+    loose_rows = loose.rows(pose, velocity, driven)
+    _, open_jacobian = arrays(loose_rows, count)
     found, loose_rank = rank(jacobian * scale), rank(open_jacobian * scale)
     pose.flags.writeable = velocity.flags.writeable = False
     return Assembly(
@@ -174,6 +178,7 @@ def _assembled(scene: Scene) -> Assembly:
         freedom=count - found,
         freedom_with_play=count - loose_rank,
         redundant_with_play=len(open_jacobian) - loose_rank,
+        rate=max((abs(float(row.rate)) for row in loose_rows), default=0.0),
     )
 
 

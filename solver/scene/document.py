@@ -146,11 +146,16 @@ class Target(Strict):
 
 
 class Parameter(Strict):
-    """A declared knob of a scene; a default of none leaves the document's own values alone."""
+    """A declared knob of a scene; a default of none leaves the document's own values alone.
+
+    One that is required and has no default must be given: what the document says there is a place
+    for it only, because the source does not say.
+    """
 
     help: Annotated[str, Field(max_length=300)]
     unit: Annotated[str, Field(max_length=20)] = "1"
     default: float | str | None = None
+    required: Annotated[bool, Field(description="without a default, it must be given")] = False
     minimum: float | None = None
     maximum: float | None = None
     choices: Annotated[list[str], Field(max_length=16)] | None = None

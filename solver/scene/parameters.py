@@ -2,7 +2,7 @@
 
 import copy
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from pydantic import BaseModel
@@ -16,17 +16,22 @@ PLACE = "/scene/parameters"
 
 
 def set_parameters(
-    document: Mapping[str, Any], scene: Scene, values: Mapping[str, object]
+    document: Mapping[str, Any],
+    scene: Scene,
+    values: Mapping[str, object],
+    varied: Collection[str] = (),
 ) -> tuple[dict[str, Any], dict[str, float | str | None]]:
     """Return the document with its parameters set, and every parameter's value.
 
     Parameters are applied in the order of their declaration, so that a later one overrides an
     earlier one on the same target. What none of them changes is shared with the document given.
+    Those `varied` have their values elsewhere, so that they may be required and yet not given.
 
     Raises
     ------
     InvalidInput
-        A name that is not declared, or a value outside its declared range or choices.
+        A name that is not declared, a value outside its declared range or choices, a required one
+        that is not given.
     """
     problems = [
         Problem(f"{PLACE}/{name}", unknown("parameter", name, scene.parameters))
@@ -37,9 +42,10 @@ def set_parameters(
     echo: dict[str, float | str | None] = {}
     for name, parameter in scene.parameters.items():
         value = values.get(name, parameter.default)
-        complaint = _complaint(name, parameter, value)
+        complaint = _complaint(name, parameter, value, varies=name in varied)
         if complaint is not None:
-            place = f"{PLACE}/{name}" if name in values else f"{PLACE}/{name}/default"
+            own = name not in values and value is not None  # a default that the scene declares
+            place = f"{PLACE}/{name}/default" if own else f"{PLACE}/{name}"
             problems.append(Problem(place, complaint))
             continue
         value = float(value) if isinstance(value, int | float) else value
@@ -95,7 +101,12 @@ def has_place(document: Any, path: str) -> bool:
     return (inside or isinstance(parent, dict)) and not isinstance(value, dict | list)
 
 
-def _complaint(name: str, parameter: Parameter, value: object) -> str | None:
+def _complaint(name: str, parameter: Parameter, value: object, *, varies: bool) -> str | None:
+    if value is None and parameter.required and not varies:
+        return (
+            f"'{name}' has no default and must be given; it {_allowed(parameter)}."
+            f" {parameter.help.rstrip('.')}."
+        )
     if value is None:
         if parameter.default is None:
             return None
@@ -115,6 +126,13 @@ def _outside(name: str, parameter: Parameter, value: float, unit: str) -> str | 
     if low <= value <= high and math.isfinite(value):
         return None
     return f"'{name}' is {value:.12g}; it {allowed_range(parameter)}."
+
+
+def _allowed(parameter: Parameter) -> str:
+    """Return the end of a sentence about a parameter: its choices, or where it lies."""
+    if parameter.choices is not None:
+        return f"is one of {', '.join(parameter.choices)}"
+    return allowed_range(parameter)
 
 
 def allowed_range(parameter: Parameter) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 from jointplay.solver.scene import presets
 from tests.command_line.four_bar import four_bar
+from tests.presets_given import REQUIRED
 
 
 @pytest.mark.parametrize("name", presets.names())
@@ -13,7 +14,8 @@ def test_every_preset_is_listed_shown_and_passes_its_check(jointplay, name):
     assert name in jointplay("scene", "list").out
     shown = jointplay("scene", "show", name).out
     assert all(parameter in shown for parameter in presets.document(name)["parameters"])
-    checked = jointplay("scene", "check", name)
+    settings = [f"{key}={value}" for key, value in REQUIRED.get(name, {}).items()]
+    checked = jointplay("scene", "check", name, *(f"--set={setting}" for setting in settings))
     assert checked.code == 0
     assert "degrees of freedom" in checked.out
     assert "assembly residual" in checked.out

@@ -95,6 +95,10 @@ REFUSED = {
         press_with(clearance=5e-3),
         "/scene/parameters/clearance",
     ),
+    "a required parameter": (
+        press(scene={"preset": "seven-bar-test-bed"}),
+        "/scene/parameters/pivot_distance",
+    ),
     "stiffness missing for another exponent": (
         press_with(exponent=1.2),
         "/scene/parameters/exponent",

@@ -7,7 +7,7 @@ from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
-from jointplay.solver.scene import presets
+from tests.presets_given import compiled, given
 
 LONG = {
     "andrews-squeezer": 0.3,
@@ -33,9 +33,9 @@ def estimated(http, job):
     return answer.json()
 
 
-@pytest.mark.parametrize("name", presets.names())
+@pytest.mark.parametrize("name", compiled())
 def test_an_estimate_is_right_within_a_factor_of_two(http, name):
-    job = {"kind": "simulate", "scene": {"preset": name}, "duration": LONG.get(name, 30.0)}
+    job = {"kind": "simulate", "scene": given(name), "duration": LONG.get(name, 30.0)}
     estimate = estimated(http, job)
     admission = admit(job)
     assert isinstance(admission, Admission)

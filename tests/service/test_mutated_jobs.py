@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from jointplay.solver.scene import presets
+from tests.presets_given import REQUIRED
 
 EXTREMES: list[Any] = [
     None,
@@ -41,7 +42,7 @@ def sound_jobs() -> list[dict[str, Any]]:
     for name in presets.names():
         scene = presets.document(name)
         parameters = {key: one.get("default") for key, one in scene["parameters"].items()}
-        by_name = {"preset": name, "parameters": parameters}
+        by_name = {"preset": name, "parameters": parameters | REQUIRED.get(name, {})}
         more = {"output_step": 0.01, "channels": ["*"], "section": {"crank_angle": 0.1}}
         jobs += [
             {"kind": "simulate", "scene": by_name, "duration": 1.0, "tolerance": 1e-6} | more,

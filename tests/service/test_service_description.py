@@ -23,6 +23,7 @@ from jointplay.solver.kinds.limits import (
 )
 from jointplay.solver.scene import presets
 from jointplay.storage.settings import Settings
+from tests.presets_given import REQUIRED
 from tests.service_in_thread import serving
 
 
@@ -58,6 +59,8 @@ def test_every_scene_is_listed_with_its_parameters_and_can_be_fetched(http):
 def test_a_fetched_scene_is_a_scene(http):
     for name in presets.names():
         scene = http.get(f"/v1/scenes/{name}").json()
+        for parameter, value in REQUIRED.get(name, {}).items():
+            scene["parameters"][parameter]["default"] = value
         answer = http.post("/v1/jobs", json={"kind": "simulate", "scene": scene, "duration": 0.1})
         assert answer.status_code in {200, 202}, answer.text
 

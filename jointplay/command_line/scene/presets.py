@@ -11,7 +11,7 @@ from jointplay.command_line.output import tell
 
 
 def list_presets(as_json: AS_JSON = False) -> None:
-    """List the preset mechanisms with one paragraph on each.
+    """List the preset mechanisms with one paragraph on each, and what must be given.
 
     Example: `jointplay scene list`
     """
@@ -19,7 +19,7 @@ def list_presets(as_json: AS_JSON = False) -> None:
 
     documents = [presets.document(name) for name in presets.names()]
     wanted = ("name", "description", "source", "parameters")
-    lines = (line for one in documents for line in (one["name"], _paragraph(one["description"])))
+    lines = (line for one in documents for line in (one["name"], *_about(one)))
     found = [{key: one.get(key) for key in wanted} for one in documents]
     tell({"scenes": found}, lines, as_json=as_json)
 
@@ -40,8 +40,11 @@ def show(
     tell(scene, _lines(scene), as_json=as_json)
 
 
-def _paragraph(text: str) -> str:
-    return textwrap.fill(text, 88, initial_indent="  ", subsequent_indent="  ")
+def _about(scene: dict[str, Any]) -> Iterator[str]:
+    yield textwrap.fill(scene["description"], 88, initial_indent="  ", subsequent_indent="  ")
+    required = [name for name, one in scene.get("parameters", {}).items() if one.get("required")]
+    if required:
+        yield f"  To be given: {', '.join(required)}."
 
 
 def _lines(scene: dict[str, Any]) -> Iterator[str]:
@@ -49,6 +52,9 @@ def _lines(scene: dict[str, Any]) -> Iterator[str]:
     yield f"source: {scene.get('source') or 'none'}"
     for parameter, declared in scene.get("parameters", {}).items():
         default = declared.get("default")
-        shown = "none" if default is None else f"{default} {declared.get('unit', '1')}"
+        unit = declared.get("unit", "1")
+        shown = f"{default} {unit}"
+        if default is None:
+            shown = f"required, {unit}" if declared.get("required") else "none"
         inferred = " (inferred)" if declared.get("inferred") else ""
         yield f"  {parameter:18} {shown}{inferred}: {declared['help']}"

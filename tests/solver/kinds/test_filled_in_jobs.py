@@ -6,6 +6,7 @@ import pytest
 
 from jointplay.solver.kinds import admit
 from jointplay.solver.scene import presets
+from tests.presets_given import given
 
 JOB: dict[str, Any] = {
     "kind": "simulate",
@@ -16,7 +17,7 @@ JOB: dict[str, Any] = {
 
 @pytest.mark.parametrize("name", presets.names())
 def test_admission_fills_in_everything_and_is_idempotent(name: str) -> None:
-    first = admit({"kind": "simulate", "scene": {"preset": name}, "duration": 1.0})
+    first = admit({"kind": "simulate", "scene": given(name), "duration": 1.0})
     again = admit(first.job)
     assert again == first
     declared = presets.document(name)["parameters"]

@@ -5,9 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.presets_given import REQUIRED
 from tests.solver.completed_runs import CASE_3, run
 
-CASES: dict[str, tuple[str, float, dict[str, Any], str]] = {
+Case = tuple[str, float, dict[str, Any], str]
+CASES: dict[str, Case] = {
     "pendulum": ("pendulum", 3.0, {"angle": 1.0}, "reduced"),
     "bouncing": ("bouncing-journal", 0.2, {"velocity_x": 0.1, "spin": 30.0}, "reduced"),
     "slider-crank": ("slider-crank", 0.024, {}, "reduced"),
@@ -16,6 +18,7 @@ CASES: dict[str, tuple[str, float, dict[str, Any], str]] = {
     "squeezer": ("andrews-squeezer", 0.05, {}, "reduced"),
     "double four-bar": ("double-four-bar", 3.0, {}, "reduced"),
     "quick return": ("quick-return", 0.3, {}, "reduced"),
+    "oscillator": ("impact-oscillator", 2.0, {}, "reduced"),
     "leg": ("jansen-leg", 0.5, {}, "reduced"),
     "press in absolute coordinates": ("seven-bar-press", 0.5, CASE_3, "lagrange"),
     "press with a step of friction": (
@@ -27,12 +30,24 @@ CASES: dict[str, tuple[str, float, dict[str, Any], str]] = {
 }
 
 
+AT_LENGTH: dict[str, Case] = {
+    "double pendulum": ("double-pendulum", 3.0, {}, "reduced"),
+    "driven pendulum": ("driven-pendulum", 5.0, {}, "reduced"),
+    "four-bar": ("four-bar", 0.1, {}, "reduced"),
+    "five four-bars": ("n-four-bar", 1.0, {}, "reduced"),
+    "test bed": ("seven-bar-test-bed", 0.2, REQUIRED["seven-bar-test-bed"], "reduced"),
+}
+"""Kernels that the short run does not compile."""
+
+
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case", [*CASES, *(pytest.param(name, marks=pytest.mark.long) for name in AT_LENGTH)]
+)
 def test_the_residual_of_the_ledger_is_small_against_the_work_done(
     case: str, tolerance: float
 ) -> None:
-    name, duration, parameters, formulation = CASES[case]
+    name, duration, parameters, formulation = {**CASES, **AT_LENGTH}[case]
     found = run(
         name,
         duration,

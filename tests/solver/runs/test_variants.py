@@ -11,6 +11,7 @@ from jointplay.solver.kinds import admit
 from jointplay.solver.runs.results import Slice
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
+from tests.presets_given import REQUIRED, compiled
 from tests.solver.completed_runs import CASE_3, Run, run
 from tests.solver.moved_scenes import mirrored, translated
 from tests.solver.readable_mechanics import at_start, preset
@@ -191,17 +192,7 @@ def test_a_mirrored_press_runs_as_the_mirror_image() -> None:
             )
 
 
-SAME_EQUATIONS = "seven-bar-press-fitted"
-"""As the press but for the exponent and the slip velocity: its two kernels take half a minute."""
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.long) if name == SAME_EQUATIONS else name
-        for name in presets.names()
-    ],
-)
+@pytest.mark.parametrize("name", compiled())
 def test_both_formulations_give_the_same_run_across_periods(name: str) -> None:
     duration = {
         "seven-bar-press": 0.05,
@@ -213,11 +204,17 @@ def test_both_formulations_give_the_same_run_across_periods(name: str) -> None:
         "double-four-bar": 1.0,
         "quick-return": 0.05,
         "jansen-leg": 0.05,
+        "seven-bar-test-bed": 0.05,
+        "four-bar": 0.02,
+        "n-four-bar": 0.5,
+        "double-pendulum": 1.0,
+        "driven-pendulum": 3.0,
+        "impact-oscillator": 0.5,
     }[name]
-    parameters: dict[str, float] = {}
+    parameters = REQUIRED.get(name, {})
     if name.startswith("seven-bar-press"):
         parameters = {**CASE_3, "speed": 150.0}  # more than one period within the horizon
-    if name == SAME_EQUATIONS:
+    if name == "seven-bar-press-fitted":
         parameters.pop("stiffness")  # its own goes with its exponent
     runs = [
         run(

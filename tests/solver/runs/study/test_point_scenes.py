@@ -13,10 +13,12 @@ from hypothesis import strategies as st
 from jointplay.records.failure import InvalidInput, LimitExceeded
 from jointplay.solver.kinds import admit, parse
 from jointplay.solver.kinds.limits import MOST_GEOMETRIES
+from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.document import Parameter, Scene
 from jointplay.solver.scene.parameters import set_parameters
+from tests.presets_given import REQUIRED
 from tests.solver.runs.study.jobs_of_studies import BIFURCATION, PRESS, STUDIES, study
 
 SCENES = {name: Scene.model_validate(presets.document(name)) for name in presets.names()}
@@ -48,7 +50,9 @@ def sweeps(draw: st.DrawFn) -> dict[str, Any]:
     varied = draw(st.lists(st.sampled_from(numeric(scene)), min_size=1, max_size=3, unique=True))
     point = st.fixed_dictionaries({p: values(scene.parameters[p]) for p in varied})
     points = draw(st.lists(point, min_size=1, max_size=6))
-    fixed = {"stiffness": 5e9} if draw(st.booleans()) and "stiffness" in scene.parameters else {}
+    fixed = dict(REQUIRED.get(name, {}))
+    if draw(st.booleans()) and "stiffness" in scene.parameters:
+        fixed["stiffness"] = 5e9
     fixed = {key: value for key, value in fixed.items() if key not in varied}
     return {
         "kind": "sweep",
@@ -97,11 +101,8 @@ def test_a_study_refuses_just_those_points_that_are_refused_alone(sweep: dict[st
 
 
 def is_ideal(job: dict[str, Any]) -> bool:
-    """Whether every clearance is zero: a run, but no point of a study."""
-    scene = Scene.model_validate(admit(job).scene)
-    joints = scene.joints.values()
-    clearances = [getattr(joint, "clearance", None) for joint in joints]
-    return all(c is None or c.radial_clearance == 0.0 for c in clearances) and bool(scene.drivers)
+    """Whether nothing is left to integrate: a run, but no point of a study."""
+    return assemble(admit(job).scene).freedom_with_play == 0
 
 
 def assert_scenes_equal_full_validation(found: Study) -> None:
