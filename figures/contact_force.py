@@ -15,12 +15,12 @@ _MOST_IMPACTS = 4000
 
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
-    joints = scene_facts.chosen_joints(source, selection)
-    return scene_facts.stored(source, [f"{joint}.normal_force" for joint in joints])
+    pairs = scene_facts.chosen_pairs(source, selection)
+    return scene_facts.stored(source, [f"{pair}.normal_force" for pair in pairs])
 
 
 def _draw(source: Source, selection: Selection) -> page.Figure:
-    joints = list(scene_facts.chosen_joints(source, selection))
+    joints = scene_facts.chosen_pairs(source, selection)
     curves = [sampling.over_time(source, f"{joint}.normal_force", selection) for joint in joints]
     step = _sample_step(source, selection)
     impacts = [_between_samples(source, joint, selection, step) for joint in joints]

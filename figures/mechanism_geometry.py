@@ -107,9 +107,10 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         return _placed(pose[body], scene["bodies"][body]["points"][point])
 
     bearings = [
-        joint["clearance"]["bearing_radius"]
+        size
         for joint in scene["joints"].values()
-        if joint.get("clearance")
+        for field, size in (joint.get("clearance") or {}).items()
+        if field in ("bearing_radius", "pin_radius", "height")
     ]
     driven = {driver["joint"] for driver in scene.get("drivers", {}).values()}
     joints = []
@@ -118,11 +119,12 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         first, second = {
             "revolute": ("bearing", "journal"),
             "prismatic": ("guide", "slider"),
+            "pin-in-slot": ("slot", "pin"),
             "fixed": ("base", "part"),
         }[kind]
         bodies = (joint[first].partition(".")[0], joint[second].partition(".")[0])
         axis = None
-        if kind == "prismatic":
+        if kind in ("prismatic", "pin-in-slot"):
             turned = 0.0 if bodies[0] == GROUND else pose[bodies[0]][2]
             axis = turned + math.atan2(joint["axis"][1], joint["axis"][0])
         joints.append(
@@ -152,10 +154,10 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
 
 def _look(joint: Mapping[str, Any], driven: bool) -> str:
     """Name the sign that a joint is drawn with; sliders have a rail instead."""
-    if joint["type"] != "revolute":
+    if joint["type"] in ("prismatic", "fixed"):
         return "weld" if joint["type"] == "fixed" else ""
-    clearance = joint.get("clearance")
-    if clearance and clearance["radial_clearance"] > 0.0:
+    clearance = joint.get("clearance") or {}
+    if clearance.get("radial_clearance", clearance.get("wall_clearance", 0.0)) > 0.0:
         return WITH_CLEARANCE
     return "driven joint" if driven else "ideal joint"
 

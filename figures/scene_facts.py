@@ -3,7 +3,7 @@
 Names come from the scene document alone; no mechanism is known here.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from jointplay.figures.kind import NotDrawable, Selection
@@ -19,24 +19,46 @@ def outputs(source: Source) -> tuple[str, ...]:
 
 
 def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
-    """Give the radial clearance [m] of every joint that has one above zero."""
+    """Give the clearance [m] of every joint that has one above zero: radial, or to a wall."""
     found: dict[str, float] = {}
     for name, joint in scene_document.get("joints", {}).items():
-        clearance = joint.get("clearance")
-        if clearance and clearance["radial_clearance"] > 0.0:
-            found[name] = float(clearance["radial_clearance"])
+        clearance = joint.get("clearance") or {}
+        play = clearance.get("radial_clearance", clearance.get("wall_clearance", 0.0))
+        if play > 0.0:
+            found[name] = float(play)
     return found
 
 
 def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
-    """Give the clearance joints to draw with their radial clearance [m].
+    """Give the journals with clearance to draw with their radial clearance [m].
 
     Raises
     ------
     NotDrawable
         There is none, or one was asked for that has no clearance.
     """
-    known = clearances(scene(source))
+    joints = scene(source).get("joints", {})
+    found = clearances(scene(source))
+    known = {name: play for name, play in found.items() if joints[name]["type"] == "revolute"}
+    _check_joints(known, selection)
+    return {name: known[name] for name in selection.joints or known}
+
+
+def chosen_pairs(source: Source, selection: Selection) -> list[str]:
+    """Name the contact pairs to draw: those of the clearance joints that were chosen.
+
+    Raises
+    ------
+    NotDrawable
+        There is none, or one was asked for that has no clearance.
+    """
+    owners = (pair.partition(".")[0] for pair in source.joints)
+    _check_joints(list(dict.fromkeys([*owners, *source.joints])), selection)
+    chosen = selection.joints or source.joints
+    return [pair for name in chosen for pair in source.joints if f"{pair}.".startswith(f"{name}.")]
+
+
+def _check_joints(known: Collection[str], selection: Selection) -> None:
     if not known:
         raise NotDrawable("This figure needs a joint with clearance, and the scene has none.")
     for name in selection.joints:
@@ -44,7 +66,6 @@ def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
             raise NotDrawable(
                 f"No joint {name!r} has clearance; those that do are {', '.join(known)}.", "joints"
             )
-    return {name: known[name] for name in selection.joints or known}
 
 
 def stored(source: Source, names: Sequence[str]) -> tuple[str, ...]:

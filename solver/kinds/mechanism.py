@@ -122,7 +122,8 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         )
         raise InvalidInput.at(f"/scene/forces/{name}", sentence)
     pairs = [(force.first, force.second) for force in scene.forces.values()]
-    pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in tree.play)]
+    between = (*tree.closing, *tree.play)
+    pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in between)]
     held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
     adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
     if adrift:

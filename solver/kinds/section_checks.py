@@ -16,6 +16,7 @@ from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
+from jointplay.solver.scene.document import Revolute
 from jointplay.solver.scene.pairs import pairs_of
 
 
@@ -165,6 +166,8 @@ def _play(seen: _Seen, joint: str, quantity: str, checked: PlacedPoints) -> Iter
     if quantity == "normal_force" and value <= 0.0:
         yield Problem(PLACE, "A normal force is never below zero; give a value above.")
     if quantity not in ("eccentricity_x", "eccentricity_y", "penetration"):
+        return
+    if not isinstance(checked.declared.joints[joint], Revolute):
         return
     clearance = checked.scenes.numbers(f"/joints/{joint}/clearance/radial_clearance")
     farthest = FARTHEST * clearance

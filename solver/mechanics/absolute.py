@@ -4,16 +4,16 @@ Every body has x, y (centre of mass, m) and theta (rad) in the world frame; join
 give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded expressions.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.mechanics.frames import Pair, unit
 from jointplay.solver.mechanics.motion import Forces
-from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine, sqrt
+from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import Fixed, JournalStart, Prismatic, Scene
+from jointplay.solver.scene.document import Fixed, JournalStart, PinInSlot, Prismatic, Scene
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 
@@ -33,6 +33,8 @@ class Marker(NamedTuple):
     velocity: Pair
     angle: Scalar
     spin: Scalar
+    turned: Pair = (1.0, 0.0)
+    """Cosine and sine of the angle."""
 
 
 @dataclass(frozen=True)
@@ -93,13 +95,14 @@ class AbsoluteMechanism:
             (v[3 * i] - spin * arm[1], v[3 * i + 1] + spin * arm[0]),
             q[3 * i + 2],
             spin,
+            (cosine, sine),
         )
 
     def ends(self, points: tuple[str, str], q: Scalars, v: Scalars) -> Ends:
         """Return how the second of two named points lies and moves against the first."""
         here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
         gap, rate = _less(there.position, here.position), _less(there.velocity, here.velocity)
-        return Ends(gap, rate, (here.spin, there.spin))
+        return Ends(gap, rate, (here.spin, there.spin), (here.turned, there.turned))
 
     def apply(self, between: Forces, forces: list[Scalar], q: Scalars, v: Scalars) -> None:
         """Add forces between bodies to generalised forces, (3 bodies,) N, N, N m."""
@@ -130,6 +133,10 @@ class AbsoluteMechanism:
             first, second = self.marker(here, q, v), self.marker(there, q, v)
             if isinstance(joint, Prismatic):
                 rows += _guided(name, first, second, self.axis(joint, first), joint.angle, motion)
+                continue
+            if isinstance(joint, PinInSlot):
+                x, y = self.axis(joint, first)
+                rows.append(_projection(name, "normal", (-y, x), (0.0, 0.0), first, second))
                 continue
             rows += self._coincidence(name, first, second)
             if isinstance(joint, Fixed):
@@ -203,7 +210,7 @@ class AbsoluteMechanism:
                 moments[row.joint] = -multiplier
         return forces, moments, efforts
 
-    def axis(self, joint: Prismatic, guide: Marker) -> Pair:
+    def axis(self, joint: Prismatic | PinInSlot, guide: Marker) -> Pair:
         """Return the guide's unit axis in world components."""
         x, y = unit(joint.axis)
         if guide.body < 0:
@@ -276,10 +283,3 @@ def _projection(
 
 def _less(first: Pair, second: Pair) -> Pair:
     return first[0] - second[0], first[1] - second[1]
-
-
-def unit(axis: Sequence[Scalar]) -> Pair:
-    """Return a direction of unit length."""
-    x, y = axis
-    length = sqrt(x * x + y * y)
-    return x / length, y / length

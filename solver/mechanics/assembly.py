@@ -13,8 +13,9 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
-from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import ends
 
 ASSEMBLED = 1e-11
@@ -65,14 +66,13 @@ class Assembly:
 def shortest_link(scene: Scene) -> float:
     """Return the shortest distance between two joints on one body, m; the scene's length scale.
 
-    Without any: the largest bearing radius, else 1 m.
+    Without any: the largest bearing radius or slider, else 1 m.
     """
     distances = link_lengths(scene)
     if distances:
         return min(distances)
-    clearances = [getattr(joint, "clearance", None) for joint in scene.joints.values()]
-    radii = [c.bearing_radius for c in clearances if c is not None]
-    return max(radii, default=1.0)
+    pairs = [pair for name, joint in scene.joints.items() for pair in pairs_of(name, joint)]
+    return max((pair.size for pair in pairs), default=1.0)
 
 
 def link_lengths(scene: Scene) -> list[float]:
@@ -222,7 +222,7 @@ def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
 
 
 def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
-    """Velocities of the ideal mechanism; those given, where play lets a journal be thrown."""
+    """Velocities of the ideal mechanism; those given, where play lets a body be thrown."""
     scene, driven = ideal.scene, driver_positions(ideal.scene)
     velocity = np.zeros(len(pose))
     for i, body in enumerate(ideal.bodies):
@@ -235,9 +235,15 @@ def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Fl
         _admissible(ideal, pose, velocity, driven, scale, columns)
     if not scene.start.velocities:
         return velocity
+    loosely = [joint for joint in scene.joints.values() if has_play(joint)]
+    guided = {
+        end.split(".")[0] for joint in loosely if joint.type in HOLDING for _, end in ends(joint)
+    }
     for body, given in scene.start.velocities.items():
         i = 3 * ideal.bodies.index(body)
         velocity[i : i + 2] = given
+        if body in guided:
+            velocity[i + 2] = scene.start.angular_velocities.get(body, velocity[i + 2])
     thrown = [name for name, start in scene.start.joints.items() if start.rate is not None]
     loose = AbsoluteMechanism(scene, ideal.numbers, close_play=False, held=thrown)
     for _ in range(2):

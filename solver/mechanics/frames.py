@@ -6,9 +6,10 @@ of vectors fixed in two bodies only the cosine and sine of the angle between the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.scalars import Scalar, sqrt
 
 WORLD = "ground"
 """Name of the frame that never turns."""
@@ -78,3 +79,10 @@ class FrameVector:
 def cross(first: Pair, second: Pair) -> Scalar:
     """Return the z component of first x second."""
     return first[0] * second[1] - first[1] * second[0]
+
+
+def unit(axis: Sequence[Scalar]) -> Pair:
+    """Return a direction of unit length."""
+    x, y = axis
+    length = sqrt(x * x + y * y)
+    return x / length, y / length

@@ -8,11 +8,10 @@ coordinates and of the drivers, its acceleration Σ partial_i u̇_i + bias.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from jointplay.solver.mechanics.absolute import unit
-from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair
+from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.document import Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import PinInSlot, Prismatic, Revolute, Scene
 
 
 @dataclass
@@ -117,7 +116,7 @@ class Kinematics:
                 name = branch.coordinates[0]
                 angle, spin = self.position[name], self.speed[name]
                 spin_partials = {name: 1.0}
-        else:
+        elif not isinstance(joint, PinInSlot):
             angle = angle + sense * joint.angle
         self._orient(branch.body, angle)
         if isinstance(joint, Prismatic):

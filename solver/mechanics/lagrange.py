@@ -54,6 +54,7 @@ class LagrangeMechanism:
         bodies = body_motions(self.constraints.bodies, self.q, self.v, accelerations)
         joint_force, held, efforts = self.constraints.reactions(rows, multipliers)
         joint_force |= forces.of_joints()
+        held |= forces.held(self.numbers.joints)
         speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
         return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
 

@@ -12,19 +12,18 @@ Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection; not yet check
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from jointplay.solver.mechanics.absolute import unit
 from jointplay.solver.mechanics.elimination import (
     Matrix,
     is_zero,
     solve_semidefinite,
     solve_symmetric,
 )
-from jointplay.solver.mechanics.frames import FrameVector, Pair, cross
+from jointplay.solver.mechanics.frames import FrameVector, Pair, cross, unit
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.play import Interaction
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import Fixed, Prismatic, Revolute
+from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.references import ends
 
 
@@ -130,6 +129,10 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
             rows += [between.projection("normal", axis.turned()), between.angle(joint.angle)]
             rows += [between.projection("along", axis, *motion)] if motion else []
             continue
+        if isinstance(joint, PinInSlot):
+            axis = _axis(kinematics, between.first, joint)
+            rows.append(between.projection("normal", axis.turned()))
+            continue
         rows += between.coincidence()
         if isinstance(joint, Fixed):
             rows.append(between.angle(joint.angle))
@@ -138,7 +141,7 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
     return rows
 
 
-def _axis(kinematics: Kinematics, guide: str, joint: Prismatic) -> FrameVector:
+def _axis(kinematics: Kinematics, guide: str, joint: Prismatic | PinInSlot) -> FrameVector:
     return FrameVector(kinematics.orientations, {guide: unit(joint.axis)})
 
 
@@ -204,7 +207,7 @@ class Loops:
             turning = parts.get("angle", 0.0)
             force: Pair = (parts.get("x", 0.0), parts.get("y", 0.0))
             offset: Scalar = 0.0
-            if isinstance(joint, Prismatic):
+            if isinstance(joint, Prismatic | PinInSlot):
                 axis = _axis(k, between.first, joint)
                 pushed = axis.turned().scaled(parts["normal"])
                 if "along" in parts:

@@ -9,8 +9,12 @@ from typing import Any
 from jointplay.solver.laws.force import Effect, Ends
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.play import Contact, Interaction, contact
+from jointplay.solver.mechanics.walls import wall_contact
 from jointplay.solver.quantities.scalars import Scalar, Scalars
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.channels import HOLDING
+from jointplay.solver.scene.document import Joint, PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.pairs import pairs_of
+from jointplay.solver.scene.references import ends as points_of
 
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
@@ -46,6 +50,15 @@ class Forces:
         for acting in self.contacts.values():
             (x, y), before = acting.interaction.force_on_second, found.get(acting.joint)
             found[acting.joint] = (x, y) if before is None else (before[0] + x, before[1] + y)
+        return found
+
+    def held(self, joints: Mapping[str, Joint]) -> dict[str, Scalar]:
+        """Return the moment on the second body of each guide with play, about its point, N m."""
+        found: dict[str, Scalar] = {}
+        for acting in self.contacts.values():
+            if joints[acting.joint].type in HOLDING:
+                moment = acting.interaction.moment_on_second
+                found[acting.joint] = found.get(acting.joint, 0.0) + moment
         return found
 
 
@@ -114,11 +127,14 @@ def forces_between(
     forces = Forces()
     for name in play:
         joint = numbers.joints[name]
-        assert isinstance(joint, Revolute)  # noqa: S101  (narrows the type)
-        between = ends(joint.bearing, joint.journal)
-        forces.contacts[name] = contact(
-            name, joint, between, modes[name], impact_rates[name], inner.get(name, ())
-        )
+        (_, here), (_, there) = points_of(joint)
+        between = ends(here, there)
+        for pair in pairs_of(name, joint):
+            state = modes[pair.name], impact_rates[pair.name], inner.get(pair.name, ())
+            if isinstance(joint, Revolute):
+                forces.contacts[pair.name] = contact(name, joint, between, *state)
+            elif isinstance(joint, Prismatic | PinInSlot):
+                forces.contacts[pair.name] = wall_contact(pair, joint, between, *state)
     for name, element in numbers.forces.items():
         between = ends(element.first, element.second)
         effect = element.effect(between)

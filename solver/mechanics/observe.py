@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY
+from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, WALL
 from jointplay.solver.scene.document import Scene
 
 
@@ -18,9 +18,13 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     for name, moment in motion.held_moment.items():
         values |= _named(name, HELD, (moment,))
     for name, found in motion.contacts.items():
-        pairs = (*found.eccentricity, *found.eccentricity_rate)
         forces = (found.normal_force, found.friction_force, found.slip_velocity)
-        values |= _named(name, PLAY, (*pairs, found.penetration, *forces))
+        if found.enclosure == "circle":
+            centre = (*found.eccentricity, *found.eccentricity_rate)
+            values |= _named(name, PLAY, (*centre, found.penetration, *forces))
+        else:
+            depth = found.penetration, found.penetration_rate
+            values |= _named(name, WALL, (*depth, *forces))
         values |= {f"{name}.{state}": value for state, value in found.inner.items()}
     for name, effort in motion.driver_effort.items():
         values[f"{name}.torque"] = effort

@@ -9,8 +9,10 @@ forces is exactly that of the slip and of the penetration, and the energy ledger
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
 from jointplay.solver.scene.document import Revolute
@@ -34,26 +36,38 @@ class Interaction:
     moment_on_second: Scalar = 0.0
 
 
+class Rubbing(NamedTuple):
+    """What the friction law of a contact pair makes of its slip; SI units."""
+
+    friction: Scalar
+    inner: Mapping[str, Scalar]
+    inner_rates: Sequence[Scalar]
+
+
 @dataclass(frozen=True)
 class Contact:
     """Action of a contact pair at one instant; SI units, world components."""
 
     joint: str
     """The joint that owns the pair."""
+    enclosure: Literal["circle", "wall", "none"]
+    """What encloses `eccentricity` while the gap is open: a circle as wide as the play, the half
+    plane whose first component is less than it, or nothing that is known."""
     eccentricity: Pair
+    """Of a point at a wall: how far it is from where it is centred, towards the wall, and 0."""
     eccentricity_rate: Pair
     penetration: Scalar
-    """e - c (eq. 3): negative apart, m."""
+    """e - c (eq. 3), or the depth in a wall: negative apart, m."""
     penetration_rate: Scalar
     normal: Pair
     normal_force: Scalar
     elastic_energy: Scalar
     friction_force: Scalar
-    """F_t, on the journal along t, N."""
+    """F_t, on the joint's second body along t, N."""
     slip_velocity: Scalar
-    """Velocity of the journal's material against the bearing's, m/s."""
+    """Velocity of the second body's material against the first's along t, m/s."""
     interaction: Interaction
-    """At the centres of bearing (first) and journal (second)."""
+    """At the points of the joint."""
     inner: Mapping[str, Scalar]
     """Inner states of the friction law, by name."""
     inner_rates: Sequence[Scalar]
@@ -67,6 +81,18 @@ class Contact:
     def friction_loss(self) -> Scalar:
         """Power lost to friction, W."""
         return -(self.friction_force * self.slip_velocity)
+
+
+def rub(
+    law: FrictionLaw | None, normal_force: Scalar, slip: Scalar, inner: Sequence[Scalar]
+) -> Rubbing:
+    """Evaluate a friction law, if there is one; the normal force in N, slip in m/s."""
+    if law is None or law.is_off:
+        return Rubbing(0.0, {}, ())
+    friction = law.friction_force(normal_force, slip, inner)
+    rates = law.inner_rates(normal_force, slip, inner)
+    named = {state.name: value for state, value in zip(law.inner_states, inner, strict=True)}
+    return Rubbing(friction, named, rates)
 
 
 def contact(
@@ -86,7 +112,7 @@ def contact(
     """
     clearance = joint.clearance
     assert clearance is not None  # noqa: S101  (narrows the type)
-    (ex, ey), (vx, vy), spins = between
+    (ex, ey), (vx, vy), spins = between.gap, between.rate, between.spins
     square = ex * ex + ey * ey
     distance = sqrt(square) + CENTRED
     inverse = distance * (1.0 / (square + CENTRED))  # beside the root, not after it
@@ -103,24 +129,19 @@ def contact(
     law = clearance.contact
     normal_force = law.normal_force(clearance, depth, penetration_rate, impact_rate)
     stored = law.elastic_energy(clearance, depth)
-    friction: Scalar = 0.0
-    named: dict[str, Scalar] = {}
-    rates: Sequence[Scalar] = ()
-    if clearance.friction is not None and not clearance.friction.is_off:
-        seen = slip
-        if not clearance.friction.slips_with_material:
-            # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
-            # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
-            seen = orbiting - clearance.radial_clearance * orbiting * inverse
-        friction = clearance.friction.friction_force(normal_force, seen, inner)
-        rates = clearance.friction.inner_rates(normal_force, seen, inner)
-        states = clearance.friction.inner_states
-        named = {state.name: value for state, value in zip(states, inner, strict=True)}
+    seen = slip
+    if clearance.friction is not None and not clearance.friction.slips_with_material:
+        # eqs (5)-(7) literally: r^N = r^M + R n, so the points move with R dn/dt and the spins
+        # of the bodies do not count; t . dn/dt is the orbiting velocity over the eccentricity
+        seen = orbiting - clearance.radial_clearance * orbiting * inverse
+    rubbing = rub(clearance.friction, normal_force, seen, inner)
+    friction = rubbing.friction
     # eqs (13)-(17), on the journal: -(F_n n) + F_t t
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
     return Contact(
         name,
+        "circle",
         between.gap,
         between.rate,
         penetration,
@@ -137,6 +158,6 @@ def contact(
             moment_on_second=journal_radius * friction,
             moment_on_first=-(bearing_radius * friction),
         ),
-        named,
-        rates,
+        rubbing.inner,
+        rubbing.inner_rates,
     )

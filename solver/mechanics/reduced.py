@@ -75,7 +75,11 @@ class ReducedMechanism:
         joint_force |= forces.of_joints()
         for name, holding in cut.interactions.items():
             joint_force[name] = holding.force_on_second
-        held = self._held_moments(joint_force, moments) | cut.moments
+        held = (
+            self._held_moments(joint_force, moments)
+            | cut.moments
+            | forces.held(self.numbers.joints)
+        )
         efforts = self._efforts(joint_force, moments, cut.efforts)
         speeds = {name: self.kinematics.speed[name] for name in self.numbers.drivers}
         return Motion(
@@ -95,6 +99,7 @@ class ReducedMechanism:
             (end + start.scaled(-1.0)).world(),
             (end_rate + start_rate.scaled(-1.0)).world(),
             (k.carried[here].spin, k.carried[there].spin),
+            (k.orientations.cosine_sine[here], k.orientations.cosine_sine[there]),
         )
 
     def _accelerations(self, loads: Loads) -> list[Scalar]:

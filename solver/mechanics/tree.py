@@ -6,7 +6,7 @@ Pure structure: no number of the scene is used but whether a clearance is zero.
 from dataclasses import dataclass
 from typing import Literal
 
-from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute, Scene
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.references import ends
 from jointplay.solver.scene.structure import per_structure
@@ -71,6 +71,8 @@ def spanning_tree(scene: Scene) -> Tree:
             parent = reached[position]
             position += 1
             for name, joint in ideal.items():
+                if isinstance(joint, PinInSlot):  # it holds a body less than the tree needs
+                    continue
                 (_, first), (_, second) = ends(joint)
                 sides = [first.split("."), second.split(".")]
                 if name in used or parent not in (sides[0][0], sides[1][0]):

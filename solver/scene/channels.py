@@ -6,7 +6,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Revolute, Scene
-from jointplay.solver.scene.pairs import has_play
+from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
 
@@ -38,6 +38,13 @@ PLAY = (
     ("friction_force", "N", "friction force on the journal along the tangent"),
     ("slip_velocity", "m/s", "slip velocity of the journal against the bearing"),
 )
+WALL = (
+    ("penetration", "m", "depth in the wall; negative apart"),
+    ("penetration_rate", "m/s", "rate of the penetration"),
+    ("normal_force", "N", "normal contact force"),
+    ("friction_force", "N", "friction force on the slider along the tangent"),
+    ("slip_velocity", "m/s", "slip velocity of the slider against the wall"),
+)
 ENERGY = (("kinetic", "J", "kinetic energy"), ("potential", "J", "potential energy of gravity"))
 
 MOST_GLOBS, MOST_UNKNOWN = 256, 32
@@ -66,9 +73,10 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
         add(name, "joint", JOINT)
         if joint.type in HOLDING:
             add(name, "joint", HELD)
-        if has_play(joint):
-            add(name, "joint", PLAY)
-            add(name, "joint", tuple((s.name, s.unit, s.long_name) for s in inner.get(name, ())))
+        for pair in pairs_of(name, joint) if has_play(joint) else ():
+            states = inner.get(pair.name, ())
+            add(pair.name, "joint", PLAY if pair.is_journal else WALL)
+            add(pair.name, "joint", tuple((s.name, s.unit, s.long_name) for s in states))
     for name, driver in scene.drivers.items():
         turning = isinstance(scene.joints[driver.joint], Revolute)
         kind, unit = ("torque", "N m") if turning else ("force", "N")

@@ -60,6 +60,33 @@ class Clearance(Strict):
     friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
 
 
+class SliderClearance(Strict):
+    """Play of a slider in its guide, whose walls its four corners may touch.
+
+    The slider is a rectangle about its point, `length` long along the axis and `height` high across
+    it; the guide's walls are straight, without end, and `wall_clearance` away from the centred
+    slider on both sides. A wall clearance of zero is an ideal joint.
+    """
+
+    wall_clearance: RadialClearance
+    length: Radius
+    height: Radius
+    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
+    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
+
+
+class PinClearance(Strict):
+    """Play of a pin in a slot, whose two straight walls, without end, it may touch.
+
+    Both are `wall_clearance` away from the centred pin. A wall clearance of zero is an ideal joint.
+    """
+
+    wall_clearance: RadialClearance
+    pin_radius: Radius
+    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
+    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
+
+
 class Revolute(Strict):
     """A pin joint between a point of the bearing body and a point of the journal body."""
 
@@ -73,7 +100,7 @@ class Prismatic(Strict):
     """A slider: its point moves along the axis through the guide's point, without turning.
 
     `axis` is a direction in the guide body's coordinates; `angle` is the slider body's angle less
-    the guide body's.
+    the guide body's. With a clearance both are those of the slider centred in its guide.
     """
 
     type: Literal["prismatic"]
@@ -81,6 +108,20 @@ class Prismatic(Strict):
     slider: PointReference
     axis: Direction
     angle: Angle = 0.0
+    clearance: SliderClearance | None = None
+
+
+class PinInSlot(Strict):
+    """A pin in a straight slot: its point stays on the axis through the slot's point, and may turn.
+
+    `axis` is a direction in the slot body's coordinates.
+    """
+
+    type: Literal["pin-in-slot"]
+    slot: PointReference
+    pin: PointReference
+    axis: Direction
+    clearance: PinClearance | None = None
 
 
 class Fixed(Strict):
@@ -92,7 +133,7 @@ class Fixed(Strict):
     angle: Angle = 0.0
 
 
-Joint = Annotated[Revolute | Prismatic | Fixed, Field(discriminator="type")]
+Joint = Annotated[Revolute | Prismatic | PinInSlot | Fixed, Field(discriminator="type")]
 
 
 Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
@@ -126,7 +167,8 @@ class Start(Strict):
 
     Journals start concentric unless `joints` says where; positions and velocities are those of the
     mechanism that holds them there, but for a body whose velocity is given: its journal may move in
-    its bearing from the start. Angles choose between the assemblies that a mechanism allows.
+    its bearing from the start, and its slider move and turn in its guide. Angles choose between the
+    assemblies that a mechanism allows.
     """
 
     angles: Annotated[dict[Name, Angle], Field(max_length=64)] = {}

@@ -1,42 +1,100 @@
 """Contact pairs: the places where the bodies of a joint with play may touch.
 
 Each pair has a gap, a mode, an impact rate, channels and impacts of its own. A journal in its
-bearing is one pair, named after its joint.
+bearing is one pair, named after its joint; a slider has one at each corner, ``<joint>.corner_1`` to
+``<joint>.corner_4``, numbered as the quadrants of its axis and the direction to the left of that; a
+pin in a slot has ``<joint>.wall_1`` to the left of the axis and ``<joint>.wall_2`` to the right.
 """
 
+import math
 from dataclasses import dataclass
 
-from jointplay.solver.scene.document import Clearance, Joint, Revolute, Scene
+from jointplay.solver.scene.document import (
+    Clearance,
+    Fixed,
+    Joint,
+    PinClearance,
+    PinInSlot,
+    Prismatic,
+    Revolute,
+    Scene,
+    SliderClearance,
+)
+
+AnyClearance = Clearance | SliderClearance | PinClearance
+
+CORNERS = {"corner_1": (1.0, 1.0), "corner_2": (-1.0, 1.0)}
+CORNERS |= {"corner_3": (-1.0, -1.0), "corner_4": (1.0, -1.0)}
+"""Where a slider's corners are along the axis and across it, in halves of its length and height."""
+WALLS = {"wall_1": 1.0, "wall_2": -1.0}
+"""On which side of a slot's axis its walls are."""
 
 
 @dataclass(frozen=True)
 class ContactPair:
     """A place where the bodies of a joint with play may touch."""
 
-    name: str
-    """Owner of its channels and impacts: ``<joint>``."""
     joint: str
-    clearance: Clearance
+    part: str
+    """Which of the joint's pairs; empty where there is one."""
+    clearance: AnyClearance
+
+    @property
+    def name(self) -> str:
+        """Owner of its channels and impacts: ``<joint>`` or ``<joint>.<part>``."""
+        return f"{self.joint}.{self.part}" if self.part else self.joint
+
+    @property
+    def is_journal(self) -> bool:
+        """Whether it is a journal in its bearing, else a point at a straight wall."""
+        return isinstance(self.clearance, Clearance)
 
     @property
     def play(self) -> float:
         """How far it is from touching where it is centred, m."""
-        return self.clearance.radial_clearance
+        return play_of(self.clearance)
+
+    @property
+    def loosened(self) -> dict[str, float]:
+        """How far the joint's constraints are off at most, m or rad, by part of the constraint."""
+        if isinstance(self.clearance, Clearance):
+            return {"x": self.play, "y": self.play}
+        if isinstance(self.clearance, PinClearance):
+            return {"normal": self.play}
+        return {"normal": self.play, "angle": 2.0 * self.play / self.clearance.length}
+
+    @property
+    def size(self) -> float:
+        """Length of what touches, m: radius of bearing or pin, half a slider's diagonal."""
+        if isinstance(self.clearance, Clearance):
+            return self.clearance.bearing_radius
+        if isinstance(self.clearance, PinClearance):
+            return self.clearance.pin_radius
+        return 0.5 * math.hypot(self.clearance.length, self.clearance.height)
+
+
+def play_of(clearance: AnyClearance) -> float:
+    """Return how far centred bodies are from touching, m."""
+    if isinstance(clearance, Clearance):
+        return clearance.radial_clearance
+    return clearance.wall_clearance
 
 
 def has_play(joint: Joint) -> bool:
     """Whether the bodies of a joint act on each other by contact, not by a constraint."""
-    return (
-        isinstance(joint, Revolute)
-        and joint.clearance is not None
-        and joint.clearance.radial_clearance > 0.0
-    )
+    if isinstance(joint, Fixed) or joint.clearance is None:
+        return False
+    return play_of(joint.clearance) > 0.0
 
 
 def pairs_of(name: str, joint: Joint) -> tuple[ContactPair, ...]:
     """Return the pairs of a joint, were its clearance above zero; none without a clearance."""
     if isinstance(joint, Revolute) and joint.clearance is not None:
-        return (ContactPair(name, name, joint.clearance),)
+        return (ContactPair(name, "", joint.clearance),)
+    if isinstance(joint, Prismatic) and joint.clearance is not None:
+        return tuple(ContactPair(name, corner, joint.clearance) for corner in CORNERS)
+    if isinstance(joint, PinInSlot) and joint.clearance is not None:
+        return tuple(ContactPair(name, wall, joint.clearance) for wall in WALLS)
     return ()
 
 

@@ -7,10 +7,13 @@ from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.scene.document import Fixed, Joint, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Fixed, Joint, PinInSlot, Prismatic, Revolute, Scene
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
+
+UNDRIVEN = {"fixed": "fixed", "pin-in-slot": "a pin in a slot"}
+"""Types of joints that have no motion to be driven."""
 
 
 def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -19,6 +22,8 @@ def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
         return ("bearing", joint.bearing), ("journal", joint.journal)
     if isinstance(joint, Prismatic):
         return ("guide", joint.guide), ("slider", joint.slider)
+    if isinstance(joint, PinInSlot):
+        return ("slot", joint.slot), ("pin", joint.pin)
     return ("base", joint.base), ("part", joint.part)
 
 
@@ -79,6 +84,12 @@ def _start(scene: Scene) -> Iterator[Problem]:
             yield Problem(
                 f"/start/joints/{name}",
                 f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
+            )
+        elif not isinstance(scene.joints[name], Revolute):
+            yield Problem(
+                f"/start/joints/{name}",
+                f"Joint '{name}' is no journal in a bearing: what it guides starts centred; leave"
+                " it out, and give a velocity of the body instead.",
             )
 
 
@@ -149,10 +160,10 @@ def _driver(scene: Scene, name: str, joint_name: str) -> Iterator[Problem]:
     joint = scene.joints.get(joint_name)
     if joint is None:
         yield Problem(f"/drivers/{name}/joint", unknown("joint", joint_name, scene.joints))
-    elif isinstance(joint, Fixed) or has_play(joint):
+    elif isinstance(joint, Fixed | PinInSlot) or has_play(joint):
         yield Problem(
             f"/drivers/{name}/joint",
             f"Joint '{joint_name}' cannot be driven: it is "
-            + ("fixed" if isinstance(joint, Fixed) else "a joint with clearance")
+            + UNDRIVEN.get(joint.type, "a joint with clearance")
             + "; drive an ideal revolute or prismatic joint.",
         )

@@ -12,7 +12,7 @@ from jointplay.records.suggestions import instead
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.scene.unions import is_form
 
-JOINTS = frozenset({"revolute", "prismatic", "fixed"})
+JOINTS = frozenset({"revolute", "prismatic", "pin-in-slot", "fixed"})
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
 
@@ -35,7 +35,9 @@ SENTENCES = {
     "model_type": "'{field}' must be an object.",
     "literal_error": "'{field}' must be {expected}.",
     "union_tag_invalid": "'type' must be one of {expected_tags}.",
-    "union_tag_not_found": "The field 'type' is required: 'revolute', 'prismatic' or 'fixed'.",
+    "union_tag_not_found": (
+        "The field 'type' is required: 'revolute', 'prismatic', 'pin-in-slot' or 'fixed'."
+    ),
     "too_short": "'{field}' needs at least {min_length} entries.",
     "too_long": "'{field}' may have at most {max_length} entries.",
     "string_too_long": "'{field}' may have at most {max_length} characters.",

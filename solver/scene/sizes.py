@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.solver.quantities.units import Rule
-from jointplay.solver.scene.document import Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute, Scene
 
 CLEARANCE = (
     Rule(
@@ -29,6 +29,44 @@ GUIDE = (
         lambda _joint: "The axis has no direction; give e.g. [1, 0].",
     ),
 )
+WALL = (
+    Rule(
+        "contact",
+        lambda clearance: clearance.contact.needs_radii,
+        lambda clearance: (
+            f"The law '{clearance.contact.title}' takes its stiffness from the radii of journal and"
+            " bearing, which a straight wall has not; give a stiffness (N/m^n)."
+        ),
+    ),
+    Rule(
+        "friction",
+        lambda clearance: (
+            clearance.friction is not None and not clearance.friction.slips_with_material
+        ),
+        lambda _clearance: (
+            "The slip velocity 'as-published' is that of a journal in its bearing; at a straight"
+            " wall take 'material'."
+        ),
+    ),
+)
+SLIDER = (
+    *WALL,
+    Rule(
+        "length",
+        lambda clearance: (
+            np.hypot(clearance.length, clearance.height)
+            <= clearance.height + 2.0 * clearance.wall_clearance
+        ),
+        lambda clearance: (
+            f"A slider {clearance.length:g} m long and {clearance.height:g} m high could turn over"
+            f" between walls {clearance.height + 2.0 * clearance.wall_clearance:g} m apart; make it"
+            " longer."
+        ),
+    ),
+)
+
+PLAY = {"revolute": CLEARANCE, "prismatic": SLIDER, "pin-in-slot": WALL}
+"""Rules of the clearance of each type of joint."""
 
 
 def out_of_reach(start: Any, joint: Any) -> Any:
@@ -101,11 +139,12 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
     """Yield the place, the rules and the part of everything in a scene that has rules."""
     for name, joint in scene.joints.items():
         place = f"/joints/{name}"
-        if isinstance(joint, Prismatic):
+        if isinstance(joint, Prismatic | PinInSlot):
             yield place, GUIDE, joint
-        elif isinstance(joint, Revolute) and joint.clearance is not None:
-            play = joint.clearance
-            yield f"{place}/clearance", (*CLEARANCE, *play.contact.clearance_rules), play
+        play = None if isinstance(joint, Fixed) else joint.clearance
+        if play is not None:
+            own = play.contact.clearance_rules if isinstance(joint, Revolute) else ()
+            yield f"{place}/clearance", (*PLAY[joint.type], *own), play
             yield from _ruled(f"{place}/clearance", play)
     for name, element in scene.forces.items():
         yield f"/forces/{name}", element.rules, element

@@ -142,7 +142,7 @@ def test_a_choice_that_means_nothing_for_a_figure_is_refused(motion, each, selec
 
 @pytest.mark.parametrize("each", ["contact-force", "orbit", "phase-portrait"])
 def test_a_scene_without_clearance_has_no_such_figure(motion, each):
-    bare = replace(motion, attributes={"scene": {**SCENE, "joints": {}}})
+    bare = replace(motion, joints=(), attributes={"scene": {**SCENE, "joints": {}}})
     with pytest.raises(NotDrawable, match="the scene has none"):
         figures.draw(bare, each)
 

@@ -16,6 +16,7 @@ not limit, geometry must. Two rules make a step's inside known from its ends:
 
 import math
 from collections.abc import Callable, Iterable
+from functools import reduce
 
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION
@@ -81,13 +82,20 @@ def remainder(
     return away
 
 
-def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expression:
-    """Return a number that is positive unless pair j's journal stays off the wall all the step.
+def beyond(v: Callable[[str], Expression], j: int, away: Expression, enclosure: str) -> Expression:
+    """Return a number that is positive unless pair j surely stays apart all the step.
 
     Of the control points the first and the last are the ends of the step, whose gaps are known.
 
-    away : what the journal may be away from the quintic, m.
+    Parameters
+    ----------
+    away
+        What the pair may be away from the quintic, m.
+    enclosure
+        What its points are compared with, see `Contact`.
     """
+    if enclosure == "none":
+        return v("tried")
     step = v("tried")
     points: list[list[Expression]] = []
     for axis in range(2):
@@ -97,6 +105,9 @@ def beyond(v: Callable[[str], Expression], j: int, away: Expression) -> Expressi
             fifth = 0.2 * sense * step * rate
             between += [place + fifth, place + 2.0 * fifth + 0.05 * step * step * bend]
         points.append(between)
+    if enclosure == "wall":
+        farthest: Expression = reduce(maximum, points[0]) + away - v(f"inner{j}")
+        return farthest
     square: Expression | float = 0.0
     for x, y in zip(*points, strict=True):
         square = maximum(square, x * x + y * y)

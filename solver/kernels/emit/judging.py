@@ -38,7 +38,7 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
 
 
 def contact_flags(
-    v: Callable[[str], Expression], j: int, away: Expression, *, shortened: bool
+    v: Callable[[str], Expression], j: int, away: Expression, enclosure: str, *, shortened: bool
 ) -> tuple[Expression, ...]:
     """Flag a gap that closed, or perhaps did; one in contact that opened; passages.
 
@@ -52,7 +52,7 @@ def contact_flags(
     perhaps: Expression | float = 0.0
     dip: Expression | float = 0.0
     if shortened:
-        perhaps = _where(ONSET, beyond(v, j, away))
+        perhaps = _where(ONSET, beyond(v, j, away, enclosure))
         # the extreme of the cubic through both ends, at the zero of the linear rate
         turn = start_rate / (start_rate - rate + 1e-300)
         rest = 1.0 - turn
@@ -66,7 +66,9 @@ def contact_flags(
     onset = select_positive(gap, ONSET, perhaps)
     opened = _where(RELEASE, maximum(-rate, start - LANDED))
     release = select_positive(gap, dip, opened)
-    passing = _where(PASSING, whips_round(v, j), rate, -start_rate)
+    passing: Expression | float = 0.0
+    if enclosure == "circle":
+        passing = _where(PASSING, whips_round(v, j), rate, -start_rate)
     touching = v(f"mode{j}")
     return (
         select_positive(touching, 0.0, onset),

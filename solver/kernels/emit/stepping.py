@@ -178,7 +178,8 @@ class StepRecorder:
         flag = REJECTED * (1.0 - good) + due + pace
         away = self._away()
         flags = [
-            contact_flags(v, j, away, shortened=bool(self.tableau.error)) for j in range(self.pairs)
+            contact_flags(v, j, away, enclosure, shortened=bool(self.tableau.error))
+            for j, enclosure in enumerate(self.equations.enclosures)
         ]
         for kind in zip(*flags, strict=True):
             flag = flag + reduce(maximum, kind)

@@ -26,6 +26,7 @@ from jointplay.solver.kernels.loop.contacts import (
     end_contact,
     is_touching,
     land,
+    lands_beside,
 )
 from jointplay.solver.kernels.loop.dense_rows import hand_out
 from jointplay.solver.kernels.loop.events import (
@@ -109,17 +110,20 @@ def settle(
     full = False
     landed = run.landing
     if landed != NO_PAIR:
-        begin_contact(landed, now, lane, at, work)
-        weigh(work)  # where a fixed step ends, a contact may begin deep: with energy from nowhere
-        work[at.stored_start, lane] = work[at.stored, lane]
-        if tangents:
-            tangent_gaps(work)
-            latch_tangent(landed, lane, at, work)
-        run.onsets += 1
+        for j in range(at.pairs):
+            if j != landed and not lands_beside(j, lane, at, work):
+                continue
+            begin_contact(j, now, lane, at, work)
+            weigh(work)  # where a fixed step ends, one may begin deep: with energy from nowhere
+            work[at.stored_start, lane] = work[at.stored, lane]
+            if tangents:
+                tangent_gaps(work)
+                latch_tangent(j, lane, at, work)
+            run.onsets += 1
+            if run.section_kind == SectionKind.ONSET and run.section_place == j:
+                full |= record_event(lane, lane, run, at, work, work, buffers.rows)
         run.landing = NO_PAIR
         run.landings = 0
-        if run.section_kind == SectionKind.ONSET and run.section_place == landed:
-            full |= record_event(lane, lane, run, at, work, work, buffers.rows)
     if flag & RELEASE:
         for j in range(at.pairs):
             opened = work[at.opened + j, lane]

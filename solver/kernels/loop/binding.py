@@ -109,7 +109,8 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane.run["unit"] = unit
     lane["step"] = problem.step or FIRST_STEP * unit
     lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
-    lane["lever"] = mechanism_size(scene, length)
+    sliders = [pair.size for pair in contact_pairs(scene).values() if not pair.is_journal]
+    lane["lever"] = max([mechanism_size(scene, length), *sliders])
     turning = [
         abs(driver.speed)
         for driver in scene.drivers.values()

@@ -92,8 +92,8 @@ def earliest_onset(
 ) -> tuple[int, float]:
     """Return the open pair whose gap closes first inside the step, and the share of it before.
 
-    A target that has landed does not count. One that is too deep at the end counts as before all
-    others, for when it closed does not matter then.
+    A target that has landed does not count, nor what lands beside it. One that is too deep at the
+    end counts as before all others, for when it closed does not matter then.
     """
     pair, share = NO_PAIR, NO_ONSET
     overshot = False
@@ -102,6 +102,8 @@ def earliest_onset(
             continue
         gap = work[at.gap + j, lane]
         if j == target and abs(gap) <= LANDED:
+            continue
+        if target != NO_PAIR and lands_beside(j, lane, at, work):
             continue
         if j == target and gap > 0.0:
             overshot = True
@@ -116,6 +118,13 @@ def earliest_onset(
         if found < share:
             pair, share = target, found
     return pair, share
+
+
+@kernel()
+def lands_beside(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
+    """Whether an open pair's gap closes at the end of the step, too: both corners of a side."""
+    apart = work[at.mode + j, lane] <= 0.0 < work[at.gap_rate + j, lane]
+    return bool(apart and abs(work[at.gap + j, lane]) <= LANDED)
 
 
 @kernel()

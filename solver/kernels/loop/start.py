@@ -43,7 +43,8 @@ def travel(scene: Scene, body: str, pose: Floats, velocity: Floats) -> tuple[flo
     joint = numbers.joints[spanning_tree(scene).branch(body).joint]
     assert isinstance(joint, Prismatic)  # noqa: S101  (narrows the type)
     ux, uy = mechanism.axis(joint, mechanism.marker(joint.guide, pose, velocity))
-    gap, rate, (spin, _) = mechanism.ends((joint.guide, joint.slider), pose, velocity)
+    between = mechanism.ends((joint.guide, joint.slider), pose, velocity)
+    gap, rate, (spin, _) = between.gap, between.rate, between.spins
     turned = spin * (-uy * gap[0] + ux * gap[1])
     return float(ux * gap[0] + uy * gap[1]), float(ux * rate[0] + uy * rate[1] + turned)
 

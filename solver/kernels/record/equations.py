@@ -49,7 +49,9 @@ class Equations:
     gaps: tuple[tuple[Expression, Expression], ...]
     """Penetration (m) and its rate (m/s) of each contact pair."""
     eccentricities: tuple[tuple[Expression, ...], ...]
-    """Motion of each pair's journal in its bearing, as `MOTION` says."""
+    """Motion of each pair, as `MOTION` says."""
+    enclosures: tuple[str, ...]
+    """What encloses that motion while the pair is apart, see `Contact`."""
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
     loops: Loops | None
@@ -148,6 +150,7 @@ def record(
             _path(recorder, found.eccentricity, found.eccentricity_rate, derivative)
             for found in motion.contacts.values()
         ),
+        tuple(found.enclosure for found in motion.contacts.values()),
         channels,
         loops,
         tuple(lift(multiplier) for multiplier in motion.multipliers),

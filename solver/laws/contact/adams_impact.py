@@ -48,5 +48,10 @@ class AdamsImpact(ContactLaw):
         """Return K δ^(n+1) / (n + 1), J."""
         return self._elastic_force(depth) * positive_part(depth) / (self.exponent + 1.0)
 
+    @property
+    def needs_radii(self) -> bool:
+        """No: its stiffness is given."""
+        return False
+
     def _elastic_force(self, depth: Scalar) -> Scalar:
         return self.stiffness * power(positive_part(depth), self.exponent)

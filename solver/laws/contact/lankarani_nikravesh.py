@@ -82,6 +82,11 @@ class LankaraniNikravesh(ContactLaw):
         )
 
     @property
+    def needs_radii(self) -> bool:
+        """Whether eq. 9 supplies the stiffness."""
+        return self.stiffness is None
+
+    @property
     def least_impact_rate(self) -> float:
         """The floor, m/s."""
         return self.impact_rate_floor

@@ -51,6 +51,11 @@ class ContactLaw(Strict):
         return 0.0
 
     @property
+    def needs_radii(self) -> bool:
+        """Whether the force depends on the radii of journal and bearing, which a wall has not."""
+        return True
+
+    @property
     def tangent_obstacle(self) -> str:
         """Why no tangent vector can follow a run with this law, and the remedy; empty: one can."""
         return ""

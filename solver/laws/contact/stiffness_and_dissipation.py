@@ -47,6 +47,11 @@ class StiffnessAndDissipation(ContactLaw):
         return self.stiffness.fit_rules
 
     @property
+    def needs_radii(self) -> bool:
+        """Whether the stiffness does."""
+        return self.stiffness.needs_radii
+
+    @property
     def least_impact_rate(self) -> float:
         """The floor of the dissipation, m/s."""
         return self.dissipation.least_impact_rate

@@ -9,7 +9,7 @@ from jointplay.solver.quantities.units import PointReference, Rule, Strict
 
 
 class Ends(NamedTuple):
-    """Position and velocity of an element's second point against its first, world components."""
+    """How the second of two points lies and moves against the first, world components."""
 
     gap: tuple[Scalar, Scalar]
     """Position of the second point less that of the first, m."""
@@ -17,6 +17,8 @@ class Ends(NamedTuple):
     """Its rate, m/s."""
     spins: tuple[Scalar, Scalar]
     """Angular velocities of the first point's body and of the second's, rad/s."""
+    turned: tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]] = ((1.0, 0.0), (1.0, 0.0))
+    """Cosine and sine of the angle of either body."""
 
 
 class Effect(NamedTuple):

@@ -20,6 +20,8 @@ class Stiffness(Strict):
     """Rules that the parameters must keep."""
     fit_rules: ClassVar[tuple[Rule, ...]] = ()
     """Rules that a clearance with this law must keep."""
+    needs_radii: ClassVar[bool] = True
+    """Whether the force depends on the radii of journal and bearing, which a wall has not."""
 
     @abstractmethod
     def force(self, fit: Fit, depth: Scalar) -> Scalar:

@@ -1,6 +1,6 @@
 """A force that grows as a power of the depth, its stiffness given."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -33,6 +33,8 @@ class Power(Stiffness):
     Source: Hertz 1882 for n = 1.5; any n: Lankarani and Nikravesh 1990, as printed in the press
     paper (Meccanica 2022), eq. 8.
     """
+
+    needs_radii: ClassVar[bool] = False
 
     law: Literal["power"] = "power"
     stiffness: Annotated[

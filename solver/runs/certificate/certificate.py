@@ -173,7 +173,8 @@ def _nothing_known(horizon: float, time: Floats) -> str:
 
 def _motion(scene: Scene) -> dict[str, str]:
     """Return channels whose errors say how long the trajectory is known, with their units."""
-    found = {f"{name}.{part}": "m" for name in contact_pairs(scene) for part in JOURNAL[:2]}
+    journals = [name for name, pair in contact_pairs(scene).items() if pair.is_journal]
+    found = {f"{name}.{part}": "m" for name in journals for part in JOURNAL[:2]}
     for body in scene.bodies:
         found |= {f"{body}.{part}": "rad" if part == "theta" else "m" for part in COORDINATES}
     return found

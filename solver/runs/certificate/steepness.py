@@ -5,6 +5,8 @@ a ramp of friction, whose forces the truth has not. So channels are evaluated ag
 is several times as far from the trajectory's as a companion's is, and as far on the other side.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats, Integers
@@ -27,7 +29,9 @@ CONTACT = (
     "eccentricity_rate_x",
     "eccentricity_rate_y",
 )
-"""Channels of a contact pair that tell whether, and how fast, its journal has entered."""
+"""Channels of a journal that tell whether, and how fast, it has entered."""
+WALL = ("penetration", "penetration_rate")
+"""Those of a point at a wall."""
 
 
 def steepness(
@@ -60,18 +64,28 @@ def steepness(
 def _observed(bundle: Bundle, moved: Floats, columns: Integers) -> Floats:
     """Return channels, (count, channels), at states of which some have entered a contact."""
     rows, row = bundle.kernel.rows, bundle.kernel.row
-    seen = [rows.index(f"{pair}.{name}") for pair in bundle.kernel.pairs for name in CONTACT]
+    shapes = zip(bundle.kernel.pairs, bundle.kernel.equations.enclosures, strict=True)
+    told = [(pair, CONTACT if shape == "circle" else WALL) for pair, shape in shapes]
+    seen = [rows.index(f"{pair}.{name}") for pair, names in told for name in names]
     found = bundle.observe(RUN, moved, np.concatenate([columns, seen]).astype(np.int64))
     values = found[:, : len(columns)]
-    contact = found[:, len(columns) :].reshape(len(moved), len(bundle.kernel.pairs), len(CONTACT))
-    depth, ex, ey, vx, vy = np.moveaxis(contact, -1, 0)
+    ends = np.cumsum([len(columns), *(len(names) for _, names in told)])
+    contacts = [_entering(found[:, a:b].T) for a, b in pairwise(ends)]
+    depth, rate = np.array(contacts).reshape(-1, 2, len(moved)).transpose(1, 2, 0)
     entered = (depth > 0.0) & (moved[:, row.mode : row.impact_rate] <= 0.0)
     again = entered.any(axis=1)
     if again.any():
-        with np.errstate(invalid="ignore"):  # a journal at the centre of its bearing enters nothing
-            rate = np.abs(ex * vx + ey * vy) / np.hypot(ex, ey)
         latched = np.maximum(rate, bundle.lane(RUN)["impact_floor"])
         np.copyto(moved[:, row.mode : row.impact_rate], 1.0, where=entered)
         np.copyto(moved[:, row.impact_rate : row.width], latched, where=entered)
         values[again] = bundle.observe(RUN, moved[again], columns)
     return values
+
+
+def _entering(contact: Floats) -> tuple[Floats, Floats]:
+    """Return depth, m, and the magnitude of its rate, m/s, from rows of `CONTACT` or `WALL`."""
+    if len(contact) == len(WALL):
+        return contact[0], np.abs(contact[1])
+    depth, ex, ey, vx, vy = contact
+    with np.errstate(invalid="ignore"):  # a journal at the centre of its bearing enters nothing
+        return depth, np.abs(ex * vx + ey * vy) / np.hypot(ex, ey)

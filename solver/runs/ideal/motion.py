@@ -89,10 +89,11 @@ class IdealMotion:
             force[:, 3 * i + 2] = -body.inertia * accelerations[:, 3 * i + 2]
         return force
 
-    def displacements(self, play: Mapping[str, float]) -> Floats:
+    def displacements(self, play: Mapping[str, Mapping[str, float]]) -> Floats:
         """Return (poses of `table`, 3 bodies) m, rad: how far play lets bodies leave their poses.
 
-        To first order, every journal at its clearance (m, by joint) in the worst direction.
+        To first order, with every constraint that play loosens as far off as it lets it, in the
+        worst direction; `play` : m or rad by joint and by part of its constraint.
         """
         count, n = self.table.shape
         still = np.zeros_like(self.table)
@@ -100,7 +101,7 @@ class IdealMotion:
         rows = self.mechanism.rows(_columns(self.table), _columns(still), driven)
         gaps = np.zeros((count, len(rows), len(rows)))
         for i, row in enumerate(rows):
-            gaps[:, i, i] = play.get(row.joint, 0.0)
+            gaps[:, i, i] = play.get(row.joint, {}).get(row.part, 0.0)
         displaced = np.linalg.solve(_jacobian(rows, count, n), gaps)
         return np.asarray(np.abs(displaced).sum(axis=2), np.float64)
 

@@ -36,7 +36,7 @@ class MotionReach:
     def __init__(self, scene: Scene, period: float) -> None:
         self.motion = IdealMotion(scene, period, period)
         self.bodies = list(scene.bodies)
-        play = {pair.joint: pair.play for pair in contact_pairs(scene).values()}
+        play = {pair.joint: pair.loosened for pair in contact_pairs(scene).values()}
         self.strayed = SECOND_ORDER * self.motion.displacements(play)
 
     def of(self, body: str, quantity: str) -> Reach | None:

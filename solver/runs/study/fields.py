@@ -16,7 +16,7 @@ from jointplay.records.arrays import Flags, Floats, Integers
 from jointplay.solver.mechanics.assembly import link_lengths
 from jointplay.solver.quantities.units import Strict
 from jointplay.solver.runs.study.scenes import PointScenes, replaced
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import value_at
 
 _CONFIG = ConfigDict(
@@ -25,11 +25,12 @@ _CONFIG = ConfigDict(
 )
 HARMLESS = re.compile(
     r"/(bodies/[^/]+/(mass|inertia)|gravity/\d|drivers/[^/]+/speed"
-    r"|joints/[^/]+/clearance/(radial_clearance|bearing_radius|(contact|friction)/[^/]+)"
+    r"|joints/[^/]+/clearance/(radial_clearance|wall_clearance|bearing_radius|pin_radius|length|height|(contact|friction)/[^/]+)"
     r"|start/(velocities/[^/]+/\d|angular_velocities/[^/]+))"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
 `structure_columns` has of them. Everything else counts as geometry."""
+SIZES = ("/bearing_radius", "/pin_radius", "/length", "/height")
 
 
 def inadmissible(scenes: PointScenes) -> Flags:
@@ -70,8 +71,8 @@ def geometry_columns(scenes: PointScenes) -> Iterator[Floats]:
     """Yield (points,) numbers on which the assembly depends."""
     without_lengths = not link_lengths(scenes.base)
     for leaf in scenes.leaves:
-        # bearings give the scale of a mechanism none of whose bodies has two joints apart
-        scale = without_lengths and leaf.path.endswith("/bearing_radius")
+        # what touches gives the scale of a mechanism none of whose bodies has two joints apart
+        scale = without_lengths and leaf.path.endswith(SIZES)
         if scale or not HARMLESS.fullmatch(leaf.path):
             yield scenes.column(leaf)
 
@@ -89,8 +90,8 @@ def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
 
 
 def _is_clearance(scene: Scene, path: str) -> bool:
-    found = re.fullmatch(r"/joints/([^/]+)/clearance/radial_clearance", path)
-    return found is not None and isinstance(scene.joints.get(found[1]), Revolute)
+    found = re.fullmatch(r"/joints/([^/]+)/clearance/(radial|wall)_clearance", path)
+    return found is not None and found[1] in scene.joints
 
 
 def _structural(scene: Scene, path: str) -> tuple[float, ...]:

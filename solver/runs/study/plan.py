@@ -9,7 +9,7 @@ from jointplay.solver.integrators import method_for
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.document import Scene
-from jointplay.solver.scene.pairs import pairs_of
+from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.statistics import Output, outputs_of
 
 
@@ -85,8 +85,11 @@ class Study:
 
     def own_outputs(self) -> dict[str, Output]:
         """Return unit and long name of numbers a point that not every study has."""
-        joints = self.point_scene(0).joints.items()
-        pairs = tuple(pair.name for name, joint in joints for pair in pairs_of(name, joint))
+        joints = self.point_scene(0).joints
+        sizes = (leaf.path for leaf in self.scenes.leaves if leaf.path.endswith("_clearance"))
+        varied = {path.split("/")[2] for path in sizes}
+        loose = [name for name, joint in joints.items() if has_play(joint) or name in varied]
+        pairs = tuple(pair.name for name in loose for pair in pairs_of(name, joints[name]))
         return outputs_of(self.statistics, self.channels, pairs)
 
     def attributes(self) -> dict[str, Any]:

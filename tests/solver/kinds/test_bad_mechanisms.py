@@ -36,6 +36,16 @@ PLAY = {
     "bearing_radius": 1e-2,
     "contact": {"law": "lankarani-nikravesh", "restitution": 0.9},
 }
+LAW = "lankarani-nikravesh"
+GUIDE = {"type": "prismatic", "guide": "ground.O", "slider": "crank.a", "axis": [1.0, 0.0]}
+SLOT = {"type": "pin-in-slot", "slot": "ground.O", "pin": "crank.a", "axis": [1.0, 0.0]}
+WALLS = {
+    "wall_clearance": 1e-3,
+    "length": 0.1,
+    "height": 0.05,
+    "contact": {"law": LAW, "stiffness": 1e8},
+}
+PUBLISHED = {"coefficient": 0.1, "slip_velocity": "as-published"}
 BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a spring to an unknown point": (
         {"/forces": {"spring": SPRING | {"second": "crank.pin"}}},
@@ -100,12 +110,45 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a field of another joint": (
         {"/joints/guide": {"type": "prismatic", "guide": "ground.O", "journal": "crank.a"}},
         "/joints/guide/journal",
-        ["there are: angle, axis, guide, slider, type."],
+        ["there are: angle, axis, clearance, guide, slider, type."],
     ),
     "a field of another element": (
         {"/forces": {"spring": SPRING | {"moment": 1.0}}},
         "/forces/spring/moment",
         ["there are: damping, first, free_length, second, stiffness, type."],
+    ),
+    "a guide whose law needs radii": (
+        {"/joints/guide": GUIDE | {"clearance": WALLS | {"contact": {"law": LAW}}}},
+        "/joints/guide/clearance/contact",
+        ["radii of journal and bearing, which a straight wall has not", "give a stiffness"],
+    ),
+    "a slip of journals in a guide": (
+        {"/joints/guide": GUIDE | {"clearance": WALLS | {"friction": PUBLISHED}}},
+        "/joints/guide/clearance/friction",
+        ["'as-published' is that of a journal", "take 'material'"],
+    ),
+    "a slider that could turn over": (
+        {"/joints/guide": GUIDE | {"clearance": WALLS | {"length": 0.001}}},
+        "/joints/guide/clearance/length",
+        ["0.001 m long and 0.05 m high could turn over between walls 0.052 m apart", "longer"],
+    ),
+    "a slot without direction": (
+        {"/joints/guide": SLOT | {"axis": [0.0, 0.0]}},
+        "/joints/guide/axis",
+        ["The axis has no direction"],
+    ),
+    "a driven pin in a slot": (
+        {"/joints/guide": SLOT, "/drivers/second": {"joint": "guide", "speed": 1.0}},
+        "/drivers/second/joint",
+        ["cannot be driven: it is a pin in a slot", "drive an ideal revolute or prismatic joint"],
+    ),
+    "a start of a slider in its guide": (
+        {
+            "/joints/guide": GUIDE | {"clearance": WALLS},
+            "/start/joints": {"guide": {"eccentricity": [0.0, 1e-3]}},
+        },
+        "/start/joints/guide",
+        ["what it guides starts centred", "give a velocity of the body"],
     ),
     "a field misspelt": (
         {"/joints/B/clearance": PLAY | {"contact": PLAY["contact"] | {"stifness": 1e9}}},

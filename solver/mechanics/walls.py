@@ -1,0 +1,134 @@
+"""A point at a straight wall: the corner of a slider in its guide, or a pin in a slot.
+
+The wall's normal n is fixed in the guide and points out of it; t = (-n_y, n_x). Both bodies are
+pushed where the point is, so that the energy ledger closes: with r and d from the slider's and the
+guide's points to there, the force f = -F_n n + F_t t on the slider has the moments r x f about the
+slider's point and -(d x f) about the guide's. A pin's point is where it is nearest to the wall.
+
+Source: Flores, Leine and Glocker 2008, Multibody System Dynamics, "Modeling and analysis of planar
+rigid multibody systems with translational clearance joints based on the non-smooth dynamics
+approach" (gaps of the corners; equation numbers not yet checked).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from jointplay.solver.laws.fit import Fit
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.mechanics.frames import WORLD, Pair, cross, unit
+from jointplay.solver.mechanics.play import Contact, Interaction, rub
+from jointplay.solver.quantities.scalars import Scalar, select_positive, sine_cosine
+from jointplay.solver.scene.document import PinClearance, PinInSlot, Prismatic, SliderClearance
+from jointplay.solver.scene.pairs import CORNERS, WALLS, ContactPair
+from jointplay.solver.scene.references import ends
+
+
+@dataclass(frozen=True)
+class Straight:
+    """The fit of a point at a wall, which has no radii: laws that need them are refused."""
+
+    bearing_radius: Scalar = math.nan
+    radial_clearance: Scalar = math.nan
+    bearing_width: Scalar = math.nan
+
+
+STRAIGHT: Fit = Straight()
+
+
+def wall_contact(
+    pair: ContactPair,
+    joint: Prismatic | PinInSlot,
+    between: Ends,
+    mode: Scalar,
+    impact_rate: Scalar,
+    inner: Sequence[Scalar] = (),
+) -> Contact:
+    """Evaluate the contact of one pair of a guide or slot.
+
+    `between` : the slider's point (or the pin's) against the guide's. `mode`, `impact_rate` (m/s),
+    `inner` : see `contact` of a journal.
+    """
+    clearance = joint.clearance
+    assert clearance is not None  # noqa: S101  (narrows the type)
+    side = CORNERS[pair.part][1] if pair.part in CORNERS else WALLS[pair.part]
+    n = _scaled(_perpendicular(_turned(unit(joint.axis), between.turned[0])), side)
+    if isinstance(joint, Prismatic) and isinstance(clearance, SliderClearance):
+        reach = 0.5 * clearance.height
+        r = _corner(joint, clearance, pair.part, between.turned[1])
+    elif isinstance(clearance, PinClearance):
+        reach = clearance.pin_radius
+        r = _scaled(n, reach)
+    d = _sum(between.gap, r)
+    t = _perpendicular(n)
+    # of the slider's material there against the guide's
+    velocity = _sum(
+        between.rate,
+        _sum(
+            _scaled(_perpendicular(r), between.spins[1]),
+            _scaled(_perpendicular(d), -between.spins[0]),
+        ),
+    )
+    centred = _dot(n, d) - reach
+    penetration = centred - clearance.wall_clearance
+    rate, slip = _dot(n, velocity), _dot(t, velocity)
+    depth = select_positive(mode, penetration, 0.0)
+    normal_force = clearance.contact.normal_force(STRAIGHT, depth, rate, impact_rate)
+    stored = clearance.contact.elastic_energy(STRAIGHT, depth)
+    rubbing = rub(clearance.friction, normal_force, slip, inner)
+    force = _sum(_scaled(n, -normal_force), _scaled(t, rubbing.friction))
+    (_, first), (_, second) = ends(joint)
+    return Contact(
+        pair.joint,
+        "wall" if first.split(".")[0] == WORLD else "none",
+        (centred, 0.0),
+        (rate, 0.0),
+        penetration,
+        rate,
+        n,
+        normal_force,
+        stored,
+        rubbing.friction,
+        slip,
+        Interaction(
+            first,
+            second,
+            force,
+            moment_on_first=-cross(d, force),
+            moment_on_second=cross(r, force),
+        ),
+        rubbing.inner,
+        rubbing.inner_rates,
+    )
+
+
+def _corner(joint: Prismatic, slider: SliderClearance, corner: str, turned: Pair) -> Pair:
+    """Return the vector from a slider's point to a corner."""
+    along, side = CORNERS[corner]
+    (sine, cosine), (ux, uy) = sine_cosine(joint.angle), unit(joint.axis)
+    axis = _turned((cosine * ux + sine * uy, cosine * uy - sine * ux), turned)
+    return _sum(
+        _scaled(axis, 0.5 * along * slider.length),
+        _scaled(_perpendicular(axis), 0.5 * side * slider.height),
+    )
+
+
+def _turned(vector: Pair, by: Pair) -> Pair:
+    (x, y), (cosine, sine) = vector, by
+    return cosine * x - sine * y, sine * x + cosine * y
+
+
+def _perpendicular(vector: Pair) -> Pair:
+    return -vector[1], vector[0]
+
+
+def _scaled(vector: Pair, factor: Scalar) -> Pair:
+    return factor * vector[0], factor * vector[1]
+
+
+def _sum(first: Pair, second: Pair) -> Pair:
+    return first[0] + second[0], first[1] + second[1]
+
+
+def _dot(first: Pair, second: Pair) -> Scalar:
+    return first[0] * second[0] + first[1] * second[1]
