@@ -58,6 +58,19 @@ def bead(restitution: float = 1.0) -> dict[str, Any]:
     }
 
 
+def hanging() -> dict[str, Any]:
+    """Return a bar that hangs by a pin in a slot of the ground, free to slide and to swing."""
+    slot = {"type": "pin-in-slot", "slot": "ground.O", "pin": "bar.P", "axis": [1.0, 0.2]}
+    return {
+        "name": "hanging",
+        "gravity": [0.0, -9.81],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"bar": {"mass": 2.0, "inertia": 0.06, "points": {"P": [-0.3, 0.01]}}},
+        "joints": {"slot": slot},
+        "start": {"angles": {"bar": -0.5}},
+    }
+
+
 def rocker(wall_clearance: float) -> dict[str, Any]:
     """Return a driven crank whose pin slides in the slot of a rocker, as in a shaper."""
     law = {"law": "lankarani-nikravesh", "stiffness": 1e8}

@@ -12,7 +12,7 @@ from jointplay.solver.scene.references import reference_problems
 from tests.solver.moved_scenes import mirrored, turned
 from tests.solver.random_mechanisms import near_start, numbers
 from tests.solver.readable_mechanics import Instant, at_start, scene_of
-from tests.solver.sliders import HEIGHT, LENGTH, block, rocker, swinging
+from tests.solver.sliders import HEIGHT, LENGTH, block, hanging, rocker, swinging
 
 MIRRORED = {1: 4, 2: 3, 3: 2, 4: 1}
 """Corners that a mirror along the guide's axis makes of each other."""
@@ -32,6 +32,34 @@ slotted = near_start(scene_of(rocker(1e-3)), 2e-3)
 def assert_close(found: object, expected: object) -> None:
     # rounding: forces of up to 1e4 N are differences of positions of 1 m in stiffnesses of 1e8
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-7)
+
+
+def on_its_slot(instant: Instant) -> Instant:
+    """Return a hanging bar with its pin on the slot's axis, and moving along it."""
+    body, (x, y) = "bar", instant.scene.bodies["bar"].points["P"]
+    q, v = dict(instant.position), dict(instant.speed)
+    c, s = np.cos(q[f"{body}.theta"]), np.sin(q[f"{body}.theta"])
+    arm = np.array([c * x - s * y, s * x + c * y])
+    pin = np.array([q["bar.x"], q["bar.y"]]) + arm
+    rate = [v["bar.x"] - v["bar.theta"] * arm[1], v["bar.y"] + v["bar.theta"] * arm[0]]
+    q["bar.y"] += 0.2 * pin[0] - pin[1]
+    v["bar.y"] += 0.2 * rate[0] - rate[1]
+    return replace(instant, position=q, speed=v)
+
+
+@given(near_start(scene_of(hanging()), 0.3).map(on_its_slot))
+def test_an_ideal_slot_only_pushes_across_and_both_formulations_agree(instant: Instant) -> None:
+    one, two = instant.reduced(), instant.lagrange()
+    x, y = one.joint_force["slot"]
+    assert x + 0.2 * y == pytest.approx(0.0, abs=1e-9 * abs(y))
+    assert_close(one.bodies["bar"].acceleration, two.bodies["bar"].acceleration)
+    assert_close(one.bodies["bar"].angular_acceleration, two.bodies["bar"].angular_acceleration)
+    assert_close(one.joint_force["slot"], two.joint_force["slot"])
+    body = instant.scene.bodies["bar"]
+    assert_close(
+        body.mass * np.array(one.bodies["bar"].acceleration),
+        np.add((x, y), (0.0, -9.81 * body.mass)),
+    )
 
 
 @given(st.one_of(tilted, slotted))
