@@ -9,10 +9,9 @@ from jointplay.records.arrays import Floats, Integers
 from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
-from jointplay.solver.scene.document import Revolute, Scene
-from jointplay.solver.scene.periods import characteristic_time, common_period
+from jointplay.solver.scene.periods import characteristic_time, common_period, first_speed
 
-_SPEED = re.compile(r"/drivers/[^/]+/speed")
+_SPEED = re.compile(r"/drivers/[^/]+/(speed|motion/.+)")
 _GRAVITY = re.compile(r"/gravity/\d")
 
 
@@ -25,7 +24,7 @@ class Periods:
     notes: dict[int, str]
     """By point without a period, first of its kind: why there is none."""
     first_speed: Floats
-    """(points,) rad/s, positive: of the first driver that turns; 1 where none does."""
+    """(points,) rad/s, positive: of the first driver that has a period; 1 where none does."""
 
 
 def periods(scenes: PointScenes) -> Periods:
@@ -61,16 +60,6 @@ def _members(group: Integers) -> list[Integers]:
     """Return the points of each group, in order."""
     order = np.argsort(group, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
-
-
-def first_speed(scene: Scene) -> float:
-    """Return the speed of the first driver that turns, rad/s, positive; 1 if none does."""
-    turning = (
-        abs(driver.speed)
-        for driver in scene.drivers.values()
-        if driver.speed != 0.0 and isinstance(scene.joints[driver.joint], Revolute)
-    )
-    return next(turning, 1.0)
 
 
 def crank_offsets(found: Periods, crank_angle: float) -> Floats:

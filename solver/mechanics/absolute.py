@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.mechanics.frames import Pair, unit
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
@@ -18,6 +19,8 @@ from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 
 CONCENTRIC = JournalStart()
+RESTING = Derivatives(0.0, 0.0, 0.0)
+"""Motion of what stays where it is."""
 
 
 class Marker(NamedTuple):
@@ -123,8 +126,8 @@ class AbsoluteMechanism:
     def rows(self, q: Scalars, v: Scalars, driven: Mapping[str, Scalar]) -> list[Row]:
         """Return every constraint row.
 
-        q, v : (3 bodies,), m, m, rad and their rates. `driven` gives each driver's position at
-        this instant (rad or m).
+        q, v : (3 bodies,), m, m, rad and their rates. `driven` gives each driver's clock at
+        this instant.
         """
         rows: list[Row] = []
         for name in self.joints:
@@ -136,21 +139,19 @@ class AbsoluteMechanism:
                 continue
             if isinstance(joint, PinInSlot):
                 x, y = self.axis(joint, first)
-                rows.append(_projection(name, "normal", (-y, x), (0.0, 0.0), first, second))
+                rows.append(_projection(name, "normal", (-y, x), RESTING, first, second))
                 continue
             rows += self._coincidence(name, first, second)
             if isinstance(joint, Fixed):
-                rows.append(_angle(name, first, second, joint.angle, 0.0))
+                rows.append(_angle(name, first, second, RESTING._replace(value=joint.angle)))
             elif motion is not None:
-                rows.append(_angle(name, first, second, *motion))
+                rows.append(_angle(name, first, second, motion))
         return rows
 
-    def _driver(self, name: str, driven: Mapping[str, Scalar]) -> tuple[Scalar, Scalar] | None:
-        """Return the prescribed position of a joint and its rate, if it is driven."""
+    def _driver(self, name: str, driven: Mapping[str, Scalar]) -> Derivatives | None:
+        """Return the prescribed motion of a joint, if it is driven."""
         driver = self.drivers.get(name)
-        if driver is None:
-            return None
-        return driven[driver], self.numbers.drivers[driver].speed
+        return None if driver is None else self.numbers.drivers[driver].at(driven[driver])
 
     def _coincidence(self, name: str, first: Marker, second: Marker) -> list[Row]:
         """r_second - r_first - e = 0, e as the start says; it stays if no rate is given."""
@@ -219,17 +220,17 @@ class AbsoluteMechanism:
         return cosine * x - sine * y, sine * x + cosine * y
 
 
-def _angle(name: str, first: Marker, second: Marker, offset: Scalar, speed: Scalar) -> Row:
-    """θ_second - θ_first - offset = 0."""
+def _angle(name: str, first: Marker, second: Marker, motion: Derivatives) -> Row:
+    """θ_second - θ_first - motion = 0."""
     jacobian: dict[int, Scalar] = {}
-    value: Scalar = -offset
-    rate: Scalar = -speed
+    value: Scalar = -motion.value
+    rate: Scalar = -motion.slope
     for sign, marker in ((1.0, second), (-1.0, first)):
         if marker.body >= 0:
             jacobian[3 * marker.body + 2] = sign
             value = value + sign * marker.angle
             rate = rate + sign * marker.spin
-    return Row(name, "angle", value, jacobian, rate, 0.0)
+    return Row(name, "angle", value, jacobian, rate, motion.curvature)
 
 
 def _guided(
@@ -238,12 +239,12 @@ def _guided(
     second: Marker,
     axis: Pair,
     angle: Scalar,
-    motion: tuple[Scalar, Scalar] | None,
+    motion: Derivatives | None,
 ) -> list[Row]:
     """Return the rows of a slider: it stays on the axis and at its angle, and moves as driven."""
     normal = (-axis[1], axis[0])
-    rows = [_projection(name, "normal", normal, (0.0, 0.0), first, second)]
-    rows.append(_angle(name, first, second, angle, 0.0))
+    rows = [_projection(name, "normal", normal, RESTING, first, second)]
+    rows.append(_angle(name, first, second, RESTING._replace(value=angle)))
     if motion is not None:
         rows.append(_projection(name, "along", axis, motion, first, second))
     return rows
@@ -253,17 +254,16 @@ def _projection(
     name: str,
     part: str,
     direction: Pair,
-    motion: tuple[Scalar, Scalar],
+    motion: Derivatives,
     first: Marker,
     second: Marker,
 ) -> Row:
-    """(r_second - r_first) · u - offset = 0, u fixed in the first body."""
+    """(r_second - r_first) · u - motion = 0, u fixed in the first body."""
     (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
-    offset, speed = motion
     gap, gap_rate = _less(second.position, first.position), _less(second.velocity, first.velocity)
     jacobian: dict[int, Scalar] = {}
-    rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - speed
-    gamma: Scalar = 0.0
+    rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - motion.slope
+    gamma: Scalar = motion.curvature
     for sign, marker in ((1.0, second), (-1.0, first)):
         if marker.body < 0:
             continue
@@ -277,7 +277,7 @@ def _projection(
         rate = rate + spin * (tx * gap[0] + ty * gap[1])
         gamma = gamma + (spin * spin) * (ux * gap[0] + uy * gap[1])
         gamma = gamma - 2.0 * spin * (tx * gap_rate[0] + ty * gap_rate[1])
-    value = ux * gap[0] + uy * gap[1] - offset
+    value = ux * gap[0] + uy * gap[1] - motion.value
     return Row(name, part, value, jacobian, rate, gamma)
 
 

@@ -101,9 +101,9 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
     ]
 
 
-def driver_positions(scene: Scene) -> dict[str, float]:
-    """Return each driver's position at t = 0, rad or m."""
-    return {name: driver.position for name, driver in scene.drivers.items()}
+def first_clocks(scene: Scene) -> dict[str, float]:
+    """Return each driver's clock at t = 0."""
+    return {name: driver.clock_start for name, driver in scene.drivers.items()}
 
 
 def first_angles(scene: Scene) -> dict[str, float]:
@@ -115,7 +115,8 @@ def first_angles(scene: Scene) -> dict[str, float]:
         if isinstance(joint, Prismatic | Fixed):
             offset = joint.angle
         elif branch.driver is not None:
-            offset = scene.drivers[branch.driver].position
+            driver = scene.drivers[branch.driver]
+            offset = driver.at(driver.clock_start).value
         carried = angles[branch.parent] + (offset if branch.outward else -offset)
         given = scene.start.angles.get(branch.body)
         prescribed = branch.driver is not None and isinstance(joint, Revolute)
@@ -154,7 +155,7 @@ def _geometry(scene: Scene) -> str:
 def _assembled(scene: Scene) -> Assembly:
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     length = shortest_link(scene)
-    driven = driver_positions(scene)
+    driven = first_clocks(scene)
     count = 3 * len(ideal.bodies)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     still = np.zeros(count)
@@ -206,7 +207,7 @@ def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
     """
     start, length = assemble(scene).pose, shortest_link(scene)
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    driven, still = driver_positions(scene), np.zeros_like(start)
+    driven, still = first_clocks(scene), np.zeros_like(start)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     _, jacobian = arrays(ideal.rows(start, still, driven), len(start))
     _, values, directions = np.linalg.svd(jacobian * scale)
@@ -223,7 +224,7 @@ def poses_nearby(scene: Scene) -> Iterator[tuple[Floats, float, int]]:
 
 def _start_velocity(ideal: AbsoluteMechanism, pose: Floats, scale: Floats) -> Floats:
     """Velocities of the ideal mechanism; those given, where play lets a body be thrown."""
-    scene, driven = ideal.scene, driver_positions(ideal.scene)
+    scene, driven = ideal.scene, first_clocks(ideal.scene)
     velocity = np.zeros(len(pose))
     for i, body in enumerate(ideal.bodies):
         velocity[3 * i : 3 * i + 2] = scene.start.velocities.get(body, (0.0, 0.0))

@@ -9,8 +9,8 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import (
     ASSEMBLED,
     assemble,
-    driver_positions,
     first_angles,
+    first_clocks,
     first_pose,
     shortest_link,
 )
@@ -41,7 +41,7 @@ class Branches(NamedTuple):
 def branches(scene: Scene) -> Branches:
     """Seek the assemblies of a scene; there may be more than are found."""
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    driven, length = driver_positions(scene), shortest_link(scene)
+    driven, length = first_clocks(scene), shortest_link(scene)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     start = assemble(scene).pose
     names = [f"{body}.{axis}" for body in ideal.bodies for axis in ("x", "y", "theta")]

@@ -8,6 +8,7 @@ coordinates and of the drivers, its acceleration Σ partial_i u̇_i + bias.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
@@ -27,6 +28,8 @@ class Carried:
     velocity: FrameVector
     bias: FrameVector
     """Acceleration of the reference point with all coordinate accelerations zero."""
+    spin_bias: Scalar
+    """Angular acceleration then: what drivers prescribe, rad/s^2."""
     partials: dict[str, FrameVector]
     hub: Pair
     """The reference point in body coordinates (origin at the centre of mass)."""
@@ -45,19 +48,17 @@ class Kinematics:
     ) -> None:
         """Walk the tree.
 
-        `position` and `speed` by coordinate name; `driven` the position of each driver. Speeds of
-        drivers are the scene's numbers.
+        `position` and `speed` by coordinate name; `driven` the clock of each driver.
         """
         self.tree = tree
         self.numbers = numbers
         self.orientations = Orientations()
         self.position = position
         self.driven = driven
-        self.speed: dict[str, Scalar] = dict(speed)
-        for name, driver in numbers.drivers.items():
-            self.speed[name] = driver.speed
+        self.moved = {name: driver.at(driven[name]) for name, driver in numbers.drivers.items()}
+        self.speed = {**speed, **{name: moved.slope for name, moved in self.moved.items()}}
         zero = FrameVector(self.orientations)
-        ground = Carried(WORLD, 0.0, 0.0, {}, zero, zero, zero, {}, (0.0, 0.0))
+        ground = Carried(WORLD, 0.0, 0.0, {}, zero, zero, zero, 0.0, {}, (0.0, 0.0))
         self.carried: dict[str, Carried] = {WORLD: ground}
         for branch in tree.branches:
             self.carried[branch.body] = self._carry(branch)
@@ -85,7 +86,10 @@ class Kinematics:
     def point_bias(self, body: str, arm: FrameVector) -> FrameVector:
         """Return a point's acceleration with all coordinate accelerations zero."""
         frame = self.carried[body]
-        return frame.bias + arm.scaled(-(frame.spin * frame.spin))
+        bias = frame.bias + arm.scaled(-(frame.spin * frame.spin))
+        if is_zero(frame.spin_bias):
+            return bias
+        return bias + arm.turned().scaled(frame.spin_bias)
 
     def _coordinates(self, body: str, point: str) -> Pair:
         owner = self.numbers.ground if body == WORLD else self.numbers.bodies[body]
@@ -105,36 +109,52 @@ class Kinematics:
         origin, velocity, partials = self.point_motion(branch.parent, arm)
         bias = self.point_bias(branch.parent, arm)
         angle, spin, spin_partials = parent.angle, parent.spin, dict(parent.spin_partials)
+        spin_bias = parent.spin_bias
         sense = 1.0 if branch.outward else -1.0
         joint = self.numbers.joints[branch.joint]
         if isinstance(joint, Revolute):
             if branch.driver is not None:
-                angle = angle + sense * self.driven[branch.driver]
-                spin = spin + sense * self.speed[branch.driver]
+                moved = self.moved[branch.driver]
+                angle = angle + sense * moved.value
+                spin = spin + sense * moved.slope
+                spin_bias = spin_bias + sense * moved.curvature
                 spin_partials[branch.driver] = sense
             else:
                 name = branch.coordinates[0]
                 angle, spin = self.position[name], self.speed[name]
-                spin_partials = {name: 1.0}
+                spin_partials, spin_bias = {name: 1.0}, 0.0
         elif not isinstance(joint, PinInSlot):
             angle = angle + sense * joint.angle
         self._orient(branch.body, angle)
         if isinstance(joint, Prismatic):
             name = branch.driver or branch.coordinates[0]
-            travel = self.driven[name] if branch.driver else self.position[name]
+            travel = self.moved[name].value if branch.driver else self.position[name]
             guide = branch.parent if branch.outward else branch.body
             axis = FrameVector(self.orientations, {guide: unit(joint.axis)})
-            moved = axis.scaled(sense * travel)
+            path = axis.scaled(sense * travel)
             rate = axis.scaled(sense * self.speed[name])
-            origin = origin + moved
-            velocity = velocity + rate + moved.turned().scaled(spin)
-            bias = bias + moved.scaled(-(spin * spin)) + rate.turned().scaled(2.0 * spin)
+            origin = origin + path
+            velocity = velocity + rate + path.turned().scaled(spin)
+            bias = bias + path.scaled(-(spin * spin)) + rate.turned().scaled(2.0 * spin)
+            if not is_zero(spin_bias):
+                bias = bias + path.turned().scaled(spin_bias)
+            if branch.driver and not is_zero(self.moved[name].curvature):
+                bias = bias + axis.scaled(sense * self.moved[name].curvature)
             for key, share in spin_partials.items():
-                swept = moved.turned().scaled(share)
+                swept = path.turned().scaled(share)
                 partials[key] = partials[key] + swept if key in partials else swept
             partials[name] = axis.scaled(sense)
         return Carried(
-            branch.body, angle, spin, spin_partials, origin, velocity, bias, partials, hub
+            branch.body,
+            angle,
+            spin,
+            spin_partials,
+            origin,
+            velocity,
+            bias,
+            spin_bias,
+            partials,
+            hub,
         )
 
     def _float(self, branch: Branch) -> Carried:
@@ -150,6 +170,7 @@ class Kinematics:
             along.scaled(self.position[x]) + across.scaled(self.position[y]),
             along.scaled(self.speed[x]) + across.scaled(self.speed[y]),
             FrameVector(self.orientations),
+            0.0,
             {x: along, y: across},
             (0.0, 0.0),
         )

@@ -55,7 +55,8 @@ class LagrangeMechanism:
         joint_force, held, efforts = self.constraints.reactions(rows, multipliers)
         joint_force |= forces.of_joints()
         held |= forces.held(self.numbers.joints)
-        speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
+        drivers = self.numbers.drivers.items()
+        speeds = {name: driver.at(self.driven[name]).slope for name, driver in drivers}
         return Motion(accelerations, bodies, forces, joint_force, held, efforts, speeds)
 
     def _ends(self, first: str, second: str) -> Ends:

@@ -12,6 +12,8 @@ Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection; not yet check
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.mechanics.absolute import RESTING
 from jointplay.solver.mechanics.elimination import (
     Matrix,
     is_zero,
@@ -75,7 +77,7 @@ class _Between:
         ]
 
     def projection(
-        self, part: str, direction: FrameVector, travel: Scalar = 0.0, speed: Scalar = 0.0
+        self, part: str, direction: FrameVector, motion: Derivatives = RESTING
     ) -> ClosingRow:
         """Return the row of a gap, along a direction of the first body, that is the travel."""
         guide = self.kinematics.carried[self.first]
@@ -86,24 +88,27 @@ class _Between:
             partials[name] = partials.get(name, 0.0) + share * sideways
         along = direction.dot(self.gap)
         bias = direction.dot(self.bias) + 2.0 * (spin * turned.dot(self.rate))
+        if not is_zero(guide.spin_bias):
+            bias = bias + guide.spin_bias * sideways
         return self._row(
             part,
-            along - travel,
-            direction.dot(self.rate) + spin * sideways - speed,
+            along - motion.value,
+            direction.dot(self.rate) + spin * sideways - motion.slope,
             partials,
-            bias - (spin * spin) * along,
+            bias - (spin * spin) * along - motion.curvature,
         )
 
-    def angle(self, offset: Scalar, speed: Scalar = 0.0) -> ClosingRow:
-        """Return the row of an angle between the bodies that is an offset, but for whole turns."""
+    def angle(self, motion: Derivatives) -> ClosingRow:
+        """Return the row of an angle between the bodies as prescribed, but for whole turns."""
         one, two = (self.kinematics.carried[body] for body in (self.first, self.second))
         cosine, sine = self.kinematics.orientations.between(self.first, self.second)
-        sine_offset, cosine_offset = sine_cosine(offset)
+        sine_offset, cosine_offset = sine_cosine(motion.value)
         partials = dict(two.spin_partials)
         for name, share in one.spin_partials.items():
             partials[name] = partials.get(name, 0.0) - share
         value = sine * cosine_offset - cosine * sine_offset
-        return self._row("angle", value, two.spin - one.spin - speed, partials, 0.0)
+        bias = two.spin_bias - one.spin_bias - motion.curvature
+        return self._row("angle", value, two.spin - one.spin - motion.slope, partials, bias)
 
     def _row(
         self, part: str, value: Scalar, rate: Scalar, partials: dict[str, Scalar], bias: Scalar
@@ -120,14 +125,12 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
     rows: list[ClosingRow] = []
     for name in kinematics.tree.closing:
         joint, between = numbers.joints[name], _Between(kinematics, name)
-        driver = drivers.get(name)
-        motion = None
-        if driver is not None:
-            motion = kinematics.driven[driver], numbers.drivers[driver].speed
+        motion = kinematics.moved[drivers[name]] if name in drivers else None
+        held = Derivatives(getattr(joint, "angle", 0.0), 0.0, 0.0)
         if isinstance(joint, Prismatic):
             axis = _axis(kinematics, between.first, joint)
-            rows += [between.projection("normal", axis.turned()), between.angle(joint.angle)]
-            rows += [between.projection("along", axis, *motion)] if motion else []
+            rows += [between.projection("normal", axis.turned()), between.angle(held)]
+            rows += [between.projection("along", axis, motion)] if motion else []
             continue
         if isinstance(joint, PinInSlot):
             axis = _axis(kinematics, between.first, joint)
@@ -135,9 +138,9 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
             continue
         rows += between.coincidence()
         if isinstance(joint, Fixed):
-            rows.append(between.angle(joint.angle))
+            rows.append(between.angle(held))
         elif motion is not None:
-            rows.append(between.angle(*motion))
+            rows.append(between.angle(motion))
     return rows
 
 

@@ -8,8 +8,8 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import (
     assemble,
-    driver_positions,
     first_angles,
+    first_clocks,
     first_pose,
     shortest_link,
 )
@@ -40,7 +40,7 @@ def opening(scene: Scene) -> Opening:
     from scipy.optimize import least_squares  # 20 MB that only a mechanism left open needs
 
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
-    driven, length = driver_positions(scene), shortest_link(scene)
+    driven, length = first_clocks(scene), shortest_link(scene)
     pose = first_pose(ideal, first_angles(scene), driven)
     still, count = np.zeros_like(pose), len(pose)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
@@ -75,7 +75,7 @@ def fighting_drivers(scene: Scene) -> list[str]:
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     pose, length = assemble(scene).pose, shortest_link(scene)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
-    rows = ideal.rows(pose, np.zeros_like(pose), driver_positions(scene))
+    rows = ideal.rows(pose, np.zeros_like(pose), first_clocks(scene))
     _, jacobian = arrays(rows, len(pose))
     jacobian = jacobian * scale
     motions = {"revolute": "angle", "prismatic": "along"}

@@ -9,7 +9,7 @@ joints hold by forces, see `solver.mechanics.loops`.
 from collections.abc import Iterable, Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.elimination import Matrix, solve_symmetric
+from jointplay.solver.mechanics.elimination import Matrix, is_zero, solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.loops import Exerted, Loops
@@ -137,9 +137,10 @@ class ReducedMechanism:
         gx, gy = self.numbers.gravity
         inertial = {}
         for branch in self.tree.branches:
-            mass = self.numbers.bodies[branch.body].mass
+            body, spin_bias = self.numbers.bodies[branch.body], k.carried[branch.body].spin_bias
             bx, by = k.point_bias(branch.body, k.centre(branch.body)).world()
-            inertial[branch.body] = (mass * (gx - bx), mass * (gy - by), 0.0)
+            turning = 0.0 if is_zero(spin_bias) else -(body.inertia * spin_bias)
+            inertial[branch.body] = (body.mass * (gx - bx), body.mass * (gy - by), turning)
         generalised = self._project(loads, inertial)
         return [generalised.get(name, 0.0) for name in self.tree.coordinates]
 
@@ -208,7 +209,7 @@ class ReducedMechanism:
                 if name in rates:
                     px, py = partial.world()
                     ax, ay = ax + rates[name] * px, ay + rates[name] * py
-            alpha: Scalar = 0.0
+            alpha = frame.spin_bias
             for name, share in frame.spin_partials.items():
                 if name in rates:
                     alpha = alpha + share * rates[name]

@@ -32,6 +32,13 @@ def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
     return (np.sin(x), np.cos(x)) if isinstance(x, type_of_array) else x.sine_cosine()
 
 
+def floor(x: Scalar) -> Scalar:
+    """Return the largest whole number that is not above x."""
+    if isinstance(x, float | int):
+        return float(math.floor(x))
+    return np.floor(x) if isinstance(x, type_of_array) else x.floor()
+
+
 def select_positive(x: Scalar, if_positive: Scalar, otherwise: Scalar) -> Scalar:
     """`if_positive` where x > 0, else `otherwise` (also where x is NaN)."""
     if isinstance(x, float | int):

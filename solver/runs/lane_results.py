@@ -49,7 +49,7 @@ def prescribed_peaks(
     def evaluate(times: Floats) -> Floats:
         rows = np.zeros((len(times), kernel.row.width))
         rows[:, TIME] = times
-        rows[:, kernel.row.phase : kernel.row.wound] = at["driver_start"]
+        rows[:, kernel.row.phase : kernel.row.wound] = at["clock_start"]
         return bundle.observe(lane, rows, columns)
 
     count = min(math.ceil(INSTANTS_A_PERIOD * span / period) + 16, MOST_INSTANTS)

@@ -4,7 +4,8 @@ Bodies carry named points in body coordinates (origin at the centre of mass). Jo
 points together; a reference ``body.point`` names one, ``ground.point`` a point that never moves.
 """
 
-from typing import Annotated, Literal
+from abc import abstractmethod
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -13,7 +14,9 @@ from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import ELEMENTS, ForceElement
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction import FrictionLaw
+from jointplay.solver.laws.function import FUNCTIONS, Derivatives, Function
 from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import (
     Acceleration,
     Angle,
@@ -30,6 +33,7 @@ from jointplay.solver.quantities.units import (
     Strict,
     Velocity,
 )
+from jointplay.solver.scene.unions import form, has, told_by
 
 
 class Body(Strict):
@@ -140,15 +144,82 @@ Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
 
 
 class Driver(Strict):
-    """Prescribed motion of an ideal joint at constant speed: position + speed * t.
+    """Prescribed motion of an ideal joint.
 
     For a revolute joint the position is the journal body's angle less the bearing body's (rad,
     rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s).
+
+    Its clock is what its motion is a function of: it starts at `clock_start` and goes at
+    `clock_rate` a second.
     """
 
     joint: Name
     position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
+
+    @abstractmethod
+    def at(self, clock: Scalar) -> Derivatives:
+        """Return position, speed and acceleration, in rad or m and seconds."""
+
+    @property
+    @abstractmethod
+    def clock_start(self) -> Scalar:
+        """What the clock shows at the start."""
+
+    @property
+    @abstractmethod
+    def clock_rate(self) -> Scalar:
+        """What the clock gains a second."""
+
+
+class SteadyDriver(Driver):
+    """Prescribed motion at constant speed, position + speed * t; its clock shows the position."""
+
     speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
+
+    def at(self, clock: Scalar) -> Derivatives:
+        """See `Driver.at`."""
+        return Derivatives(clock, self.speed, 0.0)
+
+    @property
+    def clock_start(self) -> Scalar:
+        """See `Driver.clock_start`."""
+        return self.position
+
+    @property
+    def clock_rate(self) -> Scalar:
+        """See `Driver.clock_rate`."""
+        return self.speed
+
+
+class MovingDriver(Driver):
+    """Prescribed motion that is a function of time: position + motion(t); its clock shows t."""
+
+    motion: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)]
+
+    def at(self, clock: Scalar) -> Derivatives:
+        """See `Driver.at`."""
+        moved = self.motion.at(clock)
+        return moved._replace(value=self.position + moved.value)
+
+    @property
+    def clock_start(self) -> Scalar:
+        """See `Driver.clock_start`."""
+        return 0.0
+
+    @property
+    def clock_rate(self) -> Scalar:
+        """See `Driver.clock_rate`."""
+        return 1.0
+
+
+def _form_of_driver(value: Any) -> str:
+    return "motion" if has(value, "motion") else "speed"
+
+
+AnyDriver = Annotated[
+    Annotated[SteadyDriver, form("speed")] | Annotated[MovingDriver, form("motion")],
+    told_by(_form_of_driver, "a driver is an object with 'speed' or with 'motion'"),
+]
 
 
 class JournalStart(Strict):
@@ -240,7 +311,7 @@ class Scene(Strict):
     ground: Ground = Ground()
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
     joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
-    drivers: Annotated[dict[Name, Driver], Field(max_length=64)] = {}
+    drivers: Annotated[dict[Name, AnyDriver], Field(max_length=64)] = {}
     forces: Annotated[dict[Name, Element], Field(max_length=64)] = {}
     start: Start = Start()
     parameters: Annotated[dict[Name, Parameter], Field(max_length=64)] = {}

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.document import Driver, MovingDriver, Scene
+from jointplay.solver.scene.references import turns
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""
@@ -27,13 +28,44 @@ class Period:
 def common_period(scene: Scene) -> Period:
     """Return the least time after which every driven angle is back; signs do not matter."""
     speeds: list[float] = []
-    for driver in scene.drivers.values():
-        if not isinstance(scene.joints[driver.joint], Revolute):
-            if driver.speed != 0.0:
+    for name, driver in scene.drivers.items():
+        if isinstance(driver, MovingDriver):
+            if math.isinf(driver.motion.period):
+                return Period(None, f"The motion of '{name}' never repeats, so there is no period.")
+            if driver.motion.period > 0.0:
+                speeds.append(2.0 * math.pi / driver.motion.period)
+        elif driver.clock_rate != 0.0:
+            if not turns(scene, driver.joint):
                 return Period(None, "A driven slider never comes back, so there is no period.")
-        elif driver.speed != 0.0:
-            speeds.append(abs(driver.speed))
+            speeds.append(abs(driver.clock_rate))
     return period_of(speeds)
+
+
+def first_speed(scene: Scene) -> float:
+    """Return 2 pi over the period of the first driver that has one, rad/s; 1 if none has."""
+    for driver in scene.drivers.values():
+        if isinstance(driver, MovingDriver):
+            if 0.0 < driver.motion.period < math.inf:
+                return 2.0 * math.pi / driver.motion.period
+        elif driver.clock_rate != 0.0 and turns(scene, driver.joint):
+            return float(abs(driver.clock_rate))
+    return 1.0
+
+
+def driven_speed(scene: Scene, lever: float, until: float) -> float:
+    """Return the sum of the drivers' angular speeds, rad/s.
+
+    A motion counts with the least r whose powers exceed its derivatives (see
+    `kernels.emit.enclosure`), over 0..`until` s, in rad or in `lever`, m.
+    """
+    total = 0.0
+    for driver in scene.drivers.values():
+        turning = turns(scene, driver.joint)
+        if isinstance(driver, MovingDriver):
+            total += driver.motion.quickness(until, 1.0 if turning else lever)
+        elif turning:
+            total += abs(driver.clock_rate)
+    return total
 
 
 def period_of(speeds: Sequence[float]) -> Period:
@@ -68,14 +100,27 @@ def _whole_numbers(ratio: float) -> Fraction:
 
 def characteristic_time(scene: Scene, length: float) -> float:
     """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
-    turning = [abs(d.speed) for d in scene.drivers.values() if abs(d.speed) >= SLOWEST]
+    speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
+    turning = [speed for speed in speeds if speed >= SLOWEST]
     if turning:
         return 2.0 * math.pi / max(turning)
     gravity = math.hypot(*scene.gravity)
     return 2.0 * math.pi * math.sqrt(length / gravity) if gravity > 0.0 else 1.0
 
 
+def _speeds(scene: Scene, driver: Driver) -> list[float]:
+    """Return what gives a driver's motion a scale of time, rad/s."""
+    if not isinstance(driver, MovingDriver):
+        return [abs(driver.clock_rate)]
+    found = [2.0 * math.pi / driver.motion.bend]
+    if turns(scene, driver.joint):
+        found += driver.motion.largest(0.0)[:1]
+    return found
+
+
 def section_offset(scene: Scene, period: float, crank_angle: float) -> float:
-    """Return the time of the first section, s: when the first driver has turned that far."""
-    speeds = [abs(driver.speed) for driver in scene.drivers.values() if driver.speed != 0.0]
-    return min(crank_angle / speeds[0], period) if crank_angle else 0.0
+    """Return the time of the first section, s: when the first driver has turned that far.
+
+    A motion that is a function turns once in its period.
+    """
+    return min(crank_angle / first_speed(scene), period) if crank_angle else 0.0

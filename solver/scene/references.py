@@ -7,7 +7,16 @@ from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.scene.document import Fixed, Joint, PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import (
+    Driver,
+    Fixed,
+    Joint,
+    MovingDriver,
+    PinInSlot,
+    Prismatic,
+    Revolute,
+    Scene,
+)
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
@@ -25,6 +34,11 @@ def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
     if isinstance(joint, PinInSlot):
         return ("slot", joint.slot), ("pin", joint.pin)
     return ("base", joint.base), ("part", joint.part)
+
+
+def turns(scene: Scene, joint: str) -> bool:
+    """Return whether a driver of a joint prescribes an angle; else it is a displacement."""
+    return isinstance(scene.joints[joint], Revolute)
 
 
 def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
@@ -60,7 +74,7 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
         yield from _points(scene, f"/forces/{name}", pair)
     yield from size_problems(scene)
     for name, driver in scene.drivers.items():
-        yield from _driver(scene, name, driver.joint)
+        yield from _driver(scene, name, driver)
     doubled = Counter(driver.joint for driver in scene.drivers.values())
     for joint_name in (joint for joint, count in doubled.items() if count > 1):
         yield Problem("/drivers", f"Joint '{joint_name}' has more than one driver; keep one.")
@@ -156,7 +170,14 @@ def _points(
         yield Problem(place, f"Both ends are on '{bodies[0]}'; {kind} two bodies.")
 
 
-def _driver(scene: Scene, name: str, joint_name: str) -> Iterator[Problem]:
+def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
+    if isinstance(driver, MovingDriver) and not driver.motion.has_curvature:
+        yield Problem(
+            f"/drivers/{name}/motion/between",
+            "A driven motion needs a continuous speed and a bounded acceleration that varies"
+            " smoothly; give 'smooth'.",
+        )
+    joint_name = driver.joint
     joint = scene.joints.get(joint_name)
     if joint is None:
         yield Problem(f"/drivers/{name}/joint", unknown("joint", joint_name, scene.joints))

@@ -10,7 +10,14 @@ from pydantic import BaseModel
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.solver.quantities.units import Rule
-from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import (
+    Fixed,
+    MovingDriver,
+    PinInSlot,
+    Prismatic,
+    Revolute,
+    Scene,
+)
 
 CLEARANCE = (
     Rule(
@@ -146,6 +153,9 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
             own = play.contact.clearance_rules if isinstance(joint, Revolute) else ()
             yield f"{place}/clearance", (*PLAY[joint.type], *own), play
             yield from _ruled(f"{place}/clearance", play)
+    for name, driver in scene.drivers.items():
+        if isinstance(driver, MovingDriver):
+            yield f"/drivers/{name}/motion", driver.motion.rules, driver.motion
     for name, element in scene.forces.items():
         yield f"/forces/{name}", element.rules, element
 

@@ -78,7 +78,7 @@ def at_start(scene: Scene) -> Instant:
         scene,
         dict(zip(tree.coordinates, position, strict=True)),
         dict(zip(tree.coordinates, speed, strict=True)),
-        {name: driver.position for name, driver in scene.drivers.items()},
+        {name: driver.clock_start for name, driver in scene.drivers.items()},
         dict.fromkeys(tree.pairs, 0.0),
         {
             name: pair.clearance.contact.least_impact_rate

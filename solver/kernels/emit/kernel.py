@@ -43,6 +43,7 @@ class Kernel:
     """Record that compiled loops take as `at`; see `solver.kernels.emit.places`."""
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
+    clocks: tuple[str, ...]
     pairs: tuple[str, ...]
     rows: Rows
     """Channels of the ``channel`` block."""
@@ -85,7 +86,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     equations = record(scene, tree, formulation)
     layout = Layout()
     states, pairs = equations.states, len(equations.pairs)
-    drivers = len(equations.drivers)
+    clocks = len(equations.clocks)
     ledger = len(equations.ledger)
     stepping.allocate(layout, states, ledger, pairs, tableau.stages)
     again = needed_again(equations)
@@ -98,11 +99,11 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
     scanning.allocate(layout, rows.scanned, len(rows.rest))
     layout.add_block("slip_row", pairs)
     layout.add_block("penetration_row", pairs)
-    layout.add_block("driver_start", drivers)
-    layout.add_block("driver_travel", drivers)
+    for name in ("clock_start", "clock_travel", "clock_turn"):
+        layout.add_block(name, clocks)
     layout.add("numbers")  # from here on: what is constant during a period, copied as one piece
-    layout.add_block("phase", drivers)
-    layout.add_block("wound", drivers)
+    layout.add_block("phase", clocks)
+    layout.add_block("wound", clocks)
     fixed = FixedNodes(layout)
     steps = (
         implicit.RosenbrockRecorder(tableau, equations, fixed, ledger, layout, known)
@@ -129,12 +130,12 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
             inside.source(equations, steps.dense(), scanned, rest, layout, fixed),
         ]
     )
-    row = DenseRow.of(drivers, states, pairs)
+    row = DenseRow.of(clocks, states, pairs)
     counts = {
         "states": states,
         "ledger": ledger,
         "pairs": pairs,
-        "drivers": drivers,
+        "clocks": clocks,
         "rows": rows.scanned,
         "watched_closely": int(tableau.watched_closely),
     }
@@ -145,6 +146,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         places_of(layout, row, counts),
         equations.coordinates,
         equations.drivers,
+        equations.clocks,
         equations.pairs,
         rows,
         tuple((layout[f"fixed{index}"], node) for index, node in fixed.nodes.items()),
@@ -175,11 +177,19 @@ def values_of(nodes: Sequence[Expression], scene: Scene) -> Floats:
 
 
 def _evaluate(node: Expression, numbers: dict[str, float], found: dict[int, float]) -> float:
-    if node.operation == "constant":
-        return node.value
-    if node.operation == "number":
-        return numbers[str(node.data)]
-    if node.index not in found:
-        arguments = [_evaluate(a, numbers, found) for a in node.arguments]
-        found[node.index] = OPERATIONS[node.operation].on_floats(*arguments)
+    waiting = [node]
+    while waiting:  # a table's coefficients follow from one another, deeper than Python's stack
+        top = waiting[-1]
+        unknown = [a for a in top.arguments if a.index not in found]
+        if top.operation == "constant":
+            found[top.index] = top.value
+        elif top.operation == "number":
+            found[top.index] = numbers[str(top.data)]
+        elif unknown and top.index not in found:
+            waiting.extend(unknown)
+            continue
+        elif top.index not in found:
+            values = [found[a.index] for a in top.arguments]
+            found[top.index] = OPERATIONS[top.operation].on_floats(*values)
+        waiting.pop()
     return found[node.index]

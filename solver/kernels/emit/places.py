@@ -25,9 +25,9 @@ class DenseRow:
     """
 
     phase: int
-    """Position of each driver at local time zero, rad or m."""
+    """Each clock at local time zero; of a steady driver its position, rad or m, else s."""
     wound: int
-    """Angle of each driver's whole turns before that, rad."""
+    """Whole turns of each clock before that, in its unit."""
     state: int
     mode: int
     """1 where a pair is in contact, 0 elsewhere."""
@@ -36,9 +36,9 @@ class DenseRow:
     width: int
 
     @classmethod
-    def of(cls, drivers: int, states: int, pairs: int) -> DenseRow:
+    def of(cls, clocks: int, states: int, pairs: int) -> DenseRow:
         """Arrange the blocks one behind the other."""
-        ends = np.cumsum([TIME + 1, drivers, drivers, states, pairs, pairs])
+        ends = np.cumsum([TIME + 1, clocks, clocks, states, pairs, pairs])
         return cls(*map(int, ends))
 
     def times(self, rows: Floats, period: float) -> Floats:
@@ -50,16 +50,16 @@ class DenseRow:
         return rows[..., self.state : self.mode]
 
 
-COUNTS = ("states", "ledger", "pairs", "drivers", "rows", "watched_closely")
-"""Numbers of states, terms of the ledger, contact pairs, drivers, and scanned channels; whether
+COUNTS = ("states", "ledger", "pairs", "clocks", "rows", "watched_closely")
+"""Numbers of states, terms of the ledger, contact pairs, clocks, and scanned channels; whether
 steps of contacts are looked at inside."""
 _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
 eccentricity eccentricity_start before_step change inner slip_row
 penetration_row
-driver_start driver_travel channel previous highest lowest highest_time lowest_time impact_floor
-restart onset_time approach onset_total opened weight steps pace_at stored stored_start
+clock_start clock_travel clock_turn channel previous highest lowest highest_time lowest_time
+impact_floor restart onset_time approach onset_total opened weight steps pace_at stored stored_start
 """
 SLOTS = tuple(_SLOTS.split())
 """Blocks of the work array that loops read or write; see the `allocate` functions beside this."""

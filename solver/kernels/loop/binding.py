@@ -13,9 +13,10 @@ from jointplay.solver.kernels.loop.problem import Event, LaneProblem
 from jointplay.solver.kernels.loop.runs import DTYPE, NO_PAIR, SectionKind
 from jointplay.solver.kernels.loop.start import mechanism_size, start_state
 from jointplay.solver.mechanics.assembly import assemble, shortest_link
-from jointplay.solver.scene.document import Revolute, Scene
+from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import characteristic_time, common_period
+from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
 from jointplay.solver.scene.references import inner_states
 
 STEPS_IN_A_PERIOD = 100
@@ -111,12 +112,7 @@ def _limit(lane: Lane, problem: LaneProblem, length: float, unit: float) -> None
     lane["largest_step"] = problem.step or unit / STEPS_IN_A_PERIOD
     sliders = [pair.size for pair in contact_pairs(scene).values() if not pair.is_journal]
     lane["lever"] = max([mechanism_size(scene, length), *sliders])
-    turning = [
-        abs(driver.speed)
-        for driver in scene.drivers.values()
-        if isinstance(scene.joints[driver.joint], Revolute)
-    ]
-    lane["driven_speed"] = sum(turning)
+    lane["driven_speed"] = driven_speed(scene, lane.number("lever"), problem.duration)
     for j, (name, pair) in enumerate(contact_pairs(scene).items()):
         lane["inner"][j] = (1.0 - SKIN) * pair.play
         for quantity, slot in (("slip_velocity", "slip_row"), ("penetration", "penetration_row")):
@@ -133,18 +129,17 @@ def _clock(lane: Lane, problem: LaneProblem, period: float, common: bool) -> Non
         lane[name] = since
     lane["pace_at"] = PACE_STEPS
     lane["smallest_step"] = period
-    turning = all(isinstance(scene.joints[d.joint], Revolute) for d in scene.drivers.values())
-    for k, driver in enumerate(scene.drivers.values()):
-        travel = driver.speed * period / (2.0 * math.pi if turning else 1.0)
-        lane["driver_start"][k] = driver.position
-        lane["driver_travel"][k] = round(travel) if common else travel
+    for k, clock in enumerate(clocks(scene).values()):
+        travel = clock.rate * period / (clock.turn or 1.0)
+        lane["clock_start"][k], lane["clock_turn"][k] = clock.start, clock.turn
+        lane["clock_travel"][k] = round(travel) if common and clock.turn else travel
     event = problem.event or Event(SectionKind.CRANK, 0)
     periods = 0 if problem.start is None else problem.start.period
     run = lane.run
     for name in DTYPE.names or ():
         run[name] = 0
     run["landing"] = NO_PAIR
-    run["period"], run["common"], run["turning"] = period, common, turning
+    run["period"], run["common"] = period, common
     run["periods"], run["pace_time"] = periods, periods * period + since
     run["duration"], run["output_step"] = problem.duration, problem.output_step
     run["smallest_step"] = SMALLEST_STEP * period

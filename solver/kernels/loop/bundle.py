@@ -31,6 +31,7 @@ from jointplay.solver.kernels.loop.runs import (
     Status,
 )
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.periods import driven_speed
 
 Floats = NDArray[np.float64]
 
@@ -83,6 +84,7 @@ class Bundle:
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE
         self.runs["landing"] = NO_PAIR
+        self._scenes: dict[int, Scene] = {}
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
             _Group(
@@ -118,6 +120,7 @@ class Bundle:
         Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
         lane = self.lane(i)
+        self._scenes[i] = problem.scene
         bind(lane, problem, None if like is None else self.lane(like))
         fresh = self.groups[i // LANES].runs["status"] == Status.IDLE
         fresh[lane.index] = False
@@ -147,6 +150,7 @@ class Bundle:
         lane = self.lane(i)
         whole, period = float(lane.run["periods"]), lane.run["period"]
         lane.run["duration"] = duration
+        lane["driven_speed"] = driven_speed(self._scenes[i], lane.number("lever"), duration)
         lane["end"] = product_difference(duration, 1.0, whole, period)
         lane.run["stop"][SECTIONS] = sections
         if forget:

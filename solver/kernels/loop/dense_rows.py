@@ -25,7 +25,7 @@ def write_row(
     """Write the dense state in column i of `source`, a lane's, as `DenseRow` arranges it."""
     row[PERIOD] = run.periods
     row[TIME] = source[at.stage_time, i]
-    for k in range(at.drivers):
+    for k in range(at.clocks):
         row[at.row.phase + k] = work[at.phase + k, lane]
         row[at.row.wound + k] = work[at.wound + k, lane]
     for k in range(at.states):
@@ -39,7 +39,7 @@ def write_row(
 def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
     """Set column i of a work array to a dense state."""
     target[at.stage_time, i] = row[TIME]
-    for k in range(at.drivers):
+    for k in range(at.clocks):
         target[at.phase + k, i] = row[at.row.phase + k]
         target[at.wound + k, i] = row[at.row.wound + k]
     for k in range(at.states):

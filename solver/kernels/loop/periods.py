@@ -65,18 +65,18 @@ def turn_over(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
 
 @kernel()
 def set_clock(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
-    """Set the end and the drivers' phases as they are in a lane's present period."""
+    """Set the end and the clocks as they are in a lane's present period."""
     whole = float(run.periods)
     work[at.end, lane] = product_difference(run.duration, 1.0, whole, run.period)
-    for k in range(at.drivers):
-        start = work[at.driver_start + k, lane]
-        travel = whole * work[at.driver_travel + k, lane]
-        if not run.turning:
+    for k in range(at.clocks):
+        start, turn = work[at.clock_start + k, lane], work[at.clock_turn + k, lane]
+        travel = whole * work[at.clock_travel + k, lane]
+        if turn == 0.0:
             work[at.phase + k, lane] = start + travel
             continue
         turns = travel if run.common else math.floor(travel)
-        work[at.wound + k, lane] = 2.0 * math.pi * turns
-        work[at.phase + k, lane] = start + 2.0 * math.pi * (travel - turns)
+        work[at.wound + k, lane] = turn * turns
+        work[at.phase + k, lane] = start + turn * (travel - turns)
 
 
 @kernel()

@@ -66,13 +66,11 @@ class Run:
     landings: int
     """Attempts at that onset."""
     period: float
-    """Common period of the drivers, or the scene's time scale, s."""
+    """Common period of the clocks, or the scene's time scale, s."""
     unit: float
     """Period of the fastest driver, or the scene's time scale, s."""
     common: int
-    """Whether all drivers repeat after `period`."""
-    turning: int
-    """Whether all drivers turn; otherwise one slides."""
+    """Whether all clocks repeat after `period`."""
     duration: float
     """s."""
     output_step: float

@@ -20,7 +20,8 @@ from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import form, view
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.scene.document import Scene, SteadyDriver
 from jointplay.solver.scene.references import inner_states
 
 MOTION = ("x", "y", "rate_x", "rate_y", "acceleration_x", "acceleration_y")
@@ -32,15 +33,15 @@ class Equations:
     """Equations that kernels evaluate, as expressions of the variables.
 
     The variables are ``stage0…`` (coordinates, their speeds, inner states of friction laws in the
-    order of pairs), ``stage_time`` (s within the period), ``phase<k>`` (driver k's position at
-    local time zero), ``wound<k>`` (its whole turns before that, rad, for angles that are shown;
-    trigonometry needs no turns), ``mode<j>`` and ``impact_rate<j>`` of contact pair j, in document
-    order.
+    order of pairs), ``stage_time`` (s within the period), ``phase<k>`` (clock k at local time
+    zero), ``wound<k>`` (its whole turns before that, rad, for angles that are shown; trigonometry
+    needs no turns), ``mode<j>`` and ``impact_rate<j>`` of contact pair j, in document order.
     """
 
     recorder: Recorder
     coordinates: tuple[str, ...]
     drivers: tuple[str, ...]
+    clocks: tuple[str, ...]
     pairs: tuple[str, ...]
     accelerations: tuple[Expression, ...]
     inner_rates: tuple[Expression, ...]
@@ -100,12 +101,13 @@ def record(
     inner = {name: list(islice(own, len(states))) for name, states in laws.items()}
     time = recorder.variable("stage_time")
     driven = {
-        name: recorder.variable(f"phase{k}") + numbers.drivers[name].speed * time
+        name: recorder.variable(f"phase{k}") + numbers.drivers[name].clock_rate * time
         for k, name in enumerate(scene.drivers)
     }
     if lagrange:  # here a driven angle is a coordinate, which goes on turning
-        for k, name in enumerate(scene.drivers):
-            driven[name] = driven[name] + recorder.variable(f"wound{k}")
+        for k, (name, driver) in enumerate(scene.drivers.items()):
+            if isinstance(driver, SteadyDriver):
+                driven[name] = driven[name] + recorder.variable(f"wound{k}")
     modes = {name: recorder.variable(f"mode{j}") for j, name in enumerate(tree.pairs)}
     rates = {name: recorder.hold(f"impact_rate{j}") for j, name in enumerate(tree.pairs)}
 
@@ -138,6 +140,7 @@ def record(
         recorder,
         coordinates,
         tuple(scene.drivers),
+        tuple(clocks(scene)),
         tree.pairs,
         accelerations,
         tuple(lift(rate) for found in motion.contacts.values() for rate in found.inner_rates),
@@ -182,14 +185,15 @@ def _path(
 
 
 def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Expression]:
-    """Whole turns of bodies whose angle drivers prescribe, as seen from the ground."""
+    """Whole turns of bodies that drivers turn steadily, as seen from the ground."""
     drivers = list(scene.drivers)
+    steady = {name for name, d in scene.drivers.items() if isinstance(d, SteadyDriver)}
     found: dict[str, Expression] = {}
     for branch in tree.branches:
         wound = found.get(branch.parent)
         if branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates:
             continue
-        if branch.kind == "revolute" and branch.driver is not None:
+        if branch.kind == "revolute" and branch.driver in steady:
             own = recorder.variable(f"wound{drivers.index(branch.driver)}")
             own = own if branch.outward else -own
             wound = own if wound is None else wound + own

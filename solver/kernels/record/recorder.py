@@ -196,6 +196,10 @@ class Expression:
         """Square root."""
         return self.recorder.apply("sqrt", self)
 
+    def floor(self) -> Expression:
+        """Return the largest whole number that is not above this."""
+        return self.recorder.apply("floor", self)
+
     def select_positive(self, if_positive: object, otherwise: object) -> Expression:
         """`if_positive` where x > 0, else `otherwise`."""
         a, b = self.recorder.lift(if_positive), self.recorder.lift(otherwise)

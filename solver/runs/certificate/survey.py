@@ -42,9 +42,9 @@ class Violation:
         """Look at dense states, (count, width), as `solver.kernels.loop.dense_rows` writes them."""
         if not len(rows):
             return
-        angles = rows[:, self.row.phase : self.row.wound] + rows[:, self.row.wound : self.row.state]
+        clocks = rows[:, self.row.phase : self.row.wound] + rows[:, self.row.wound : self.row.state]
         driven = {
-            name: angles[:, k] + self.numbers.drivers[name].speed * rows[:, TIME]
+            name: clocks[:, k] + self.numbers.drivers[name].clock_rate * rows[:, TIME]
             for k, name in enumerate(self.drivers)
         }
         for row in self._rows(list(self.row.states(rows).T), driven):

@@ -75,7 +75,8 @@ class IdealMotion:
         shown[:, 2::3] += turned[:, 2::3]
         bodies = body_motions(self.mechanism.bodies, *map(_columns, (shown, v, a)))
         forces, held, efforts = self.mechanism.reactions(rows, _columns(multipliers))
-        speeds = {name: driver.speed for name, driver in self.numbers.drivers.items()}
+        drivers = self.numbers.drivers.items()
+        speeds = {name: driver.at(driven[name]).slope for name, driver in drivers}
         return Motion(list(_columns(a)), bodies, acting, forces, held, efforts, speeds)
 
     def _inertia_and_gravity(self, accelerations: Floats) -> Floats:
@@ -116,7 +117,7 @@ class IdealMotion:
 
     def _driven(self, local: Floats) -> dict[str, Floats]:
         return {
-            name: driver.position + driver.speed * local
+            name: driver.clock_start + driver.clock_rate * local
             for name, driver in self.scene.drivers.items()
         }
 

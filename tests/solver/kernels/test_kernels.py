@@ -60,7 +60,7 @@ def evaluated(kernel: Kernel, instants: list[Instant], formulation: str) -> list
         at = bundle.lane(lane)
         at["stage"], at["stage_time"] = np.array([*q, *v]), 0.25
         for k, name in enumerate(kernel.drivers):
-            moved = instant.scene.drivers[name].speed * 0.25
+            moved = instant.scene.drivers[name].clock_rate * 0.25
             at["phase"][k] = instant.driven[name] - moved
         for j, name in enumerate(kernel.pairs):
             at["mode"][j] = instant.mode[name]

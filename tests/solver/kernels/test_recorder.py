@@ -110,7 +110,7 @@ def variables(instant: Instant, formulation: str) -> dict[str, float]:
     found = {f"stage{i}": value for i, value in enumerate([*q, *v])}
     found["stage_time"] = 0.25
     for k, (name, driver) in enumerate(instant.scene.drivers.items()):
-        found[f"phase{k}"] = instant.driven[name] - driver.speed * 0.25
+        found[f"phase{k}"] = instant.driven[name] - driver.clock_rate * 0.25
         found[f"wound{k}"] = 0.0
     for j, name in enumerate(spanning_tree(instant.scene).pairs):
         found[f"mode{j}"] = instant.mode[name]

@@ -1,0 +1,30 @@
+"""A constant."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.function.law import Derivatives, Function
+from jointplay.solver.quantities.scalars import Scalar
+
+
+class Constant(Function):
+    """f(x) = value."""
+
+    type: Literal["constant"]
+    value: Annotated[
+        float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})
+    ]
+
+    def at(self, x: Scalar) -> Derivatives:
+        """Return the value."""
+        return Derivatives(self.value, 0.0, 0.0)
+
+    @property
+    def period(self) -> float:
+        """Nothing."""
+        return 0.0
+
+    def largest(self, until: float) -> list[float]:
+        """Return nothing: there is no derivative."""
+        return []

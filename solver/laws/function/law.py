@@ -1,0 +1,61 @@
+"""Interface of functions of one argument: prescribed motions, forces that vary."""
+
+import math
+from abc import abstractmethod
+from typing import ClassVar, NamedTuple
+
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import Rule, Strict
+
+SMOOTH = 6
+"""Derivatives that bounds on a path within a step look at; see `kernels.emit.enclosure`."""
+
+
+class Derivatives(NamedTuple):
+    """A function's value, first and second derivative at one argument."""
+
+    value: Scalar
+    slope: Scalar
+    curvature: Scalar
+
+
+class Function(Strict):
+    """A function of one number, whose unit and meaning its owner gives."""
+
+    type: str
+    rules: ClassVar[tuple[Rule, ...]] = ()
+    """Rules that the parameters must keep."""
+
+    @abstractmethod
+    def at(self, x: Scalar) -> Derivatives:
+        """Return value and derivatives at an argument; arithmetic on abstract scalars."""
+
+    @property
+    @abstractmethod
+    def period(self) -> float:
+        """Length of the argument after which it repeats: 0 if constant, infinite if it never does.
+
+        In the argument's unit.
+        """
+
+    @property
+    def bend(self) -> float:
+        """Length of the argument in which it bends, as a period would be; infinite: none."""
+        return math.inf
+
+    @property
+    def has_curvature(self) -> bool:
+        """Whether the second derivative exists everywhere but at single arguments, bounded."""
+        return True
+
+    @abstractmethod
+    def largest(self, until: float) -> list[float]:
+        """Return bounds on the magnitudes of the first derivatives, over arguments 0..`until`.
+
+        At most `SMOOTH` of them, in order; those left out are zero.
+        """
+
+    def quickness(self, until: float, unit: float) -> float:
+        """Return the least r with |f^(k)| <= unit r^k for each of these derivatives, k from 1."""
+        bounds = enumerate(self.largest(until), start=1)
+        return max(((bound / unit) ** (1.0 / k) for k, bound in bounds), default=0.0)

@@ -1,0 +1,51 @@
+"""A polynomial."""
+
+import math
+from typing import Annotated, Literal
+
+from numpy.polynomial import Polynomial as Numeric
+from pydantic import Field
+
+from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
+from jointplay.solver.quantities.scalars import Scalar
+
+Coefficient = Annotated[
+    float,
+    Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value per unit^k of x"}),
+]
+
+
+class Polynomial(Function):
+    """f(x) = c_0 + c_1 x + c_2 x² + ..., at most of degree 9."""
+
+    type: Literal["polynomial"]
+    coefficients: Annotated[list[Coefficient], Field(min_length=1, max_length=10)]
+
+    def at(self, x: Scalar) -> Derivatives:
+        """Return value and derivatives by Horner's rule."""
+        first = [k * c for k, c in enumerate(self.coefficients)][1:]
+        second = [k * c for k, c in enumerate(first)][1:]
+        return Derivatives(*(_horner(part, x) for part in (self.coefficients, first, second)))
+
+    @property
+    def period(self) -> float:
+        """Infinite, unless the polynomial is a constant."""
+        return math.inf if any(self.coefficients[1:]) else 0.0
+
+    def largest(self, until: float) -> list[float]:
+        """Return the largest magnitudes, at the ends or where the next derivative vanishes."""
+        found = []
+        derivative = Numeric(self.coefficients)
+        for _ in range(min(SMOOTH, len(self.coefficients) - 1)):
+            derivative = derivative.deriv()
+            turns = derivative.deriv().roots().real
+            places = [0.0, until, *(x for x in turns if 0.0 < x < until)]
+            found.append(max(abs(float(derivative(x))) for x in places))
+        return found
+
+
+def _horner(coefficients: list[Scalar], x: Scalar) -> Scalar:
+    total: Scalar = 0.0
+    for c in reversed(coefficients):
+        total = total * x + c
+    return total

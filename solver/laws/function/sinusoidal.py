@@ -1,0 +1,45 @@
+"""A sine."""
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
+from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+
+Value = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
+
+
+class Sinusoidal(Function):
+    """f(x) = offset + amplitude sin(frequency x + phase)."""
+
+    type: Literal["sinusoidal"]
+    amplitude: Value
+    frequency: Annotated[
+        float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "rad per unit of x"})
+    ]
+    phase: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad"})] = 0.0
+    offset: Value = 0.0
+
+    def at(self, x: Scalar) -> Derivatives:
+        """Return value and derivatives."""
+        sine, cosine = sine_cosine(self.frequency * x + self.phase)
+        slope = self.amplitude * self.frequency
+        return Derivatives(
+            self.amplitude * sine + self.offset, slope * cosine, -(slope * self.frequency * sine)
+        )
+
+    @property
+    def period(self) -> float:
+        """2 pi / frequency."""
+        return 2.0 * math.pi / self.frequency
+
+    @property
+    def bend(self) -> float:
+        """Its period."""
+        return self.period
+
+    def largest(self, until: float) -> list[float]:
+        """Return amplitude times powers of the frequency."""
+        return [abs(self.amplitude) * self.frequency**k for k in range(1, SMOOTH + 1)]

@@ -1,0 +1,117 @@
+"""Drivers that follow functions of time: position, speed and acceleration enter the equations."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene.clocks import clocks
+from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
+from tests.solver.completed_runs import run
+from tests.solver.driven_motions import carried, function, independent, moved
+from tests.solver.mechanics.test_mechanics import anywhere, assert_formulations_agree
+from tests.solver.readable_mechanics import Instant, scene_of
+
+SINE = {"type": "sinusoidal", "amplitude": 0.7, "frequency": 5.0, "phase": 0.4}
+START_UP = {"type": "start-up", "speed": 6.0, "length": 0.8}
+HELD = {
+    "type": "table",
+    "knots": [0.0, 0.3, 0.7, 1.0, 1.6],
+    "values": [0.0, 1.0, 0.2, -1.0, 0.5],
+    "outside": "held",
+}
+
+
+@settings(max_examples=40)
+@given(moved(anywhere))
+def test_joint_coordinates_and_multipliers_agree_where_drivers_accelerate(instant: Instant) -> None:
+    assert_formulations_agree(instant)
+
+
+@pytest.mark.parametrize(
+    ("motion", "kind", "kinks"),
+    [(SINE, "prismatic", ()), (START_UP, "revolute", (0.8,))],
+    ids=["a slider shaken periodically", "a crank that starts up"],
+)
+def test_a_pendulum_on_a_moving_carrier_swings_as_its_equation_says(
+    motion: dict, kind: str, kinks: tuple[float, ...]
+) -> None:
+    found = run(carried(motion, kind), 4.0, tolerance=1e-9, output_step=0.25)
+    start = found["bob.theta"][0], found["bob.omega"][0]
+    expected = independent(motion, kind, found.time, start, kinks)
+    # local errors of 1e-9 of the scales, 300 steps, and a swing that multiplies them a hundredfold
+    np.testing.assert_allclose(found["bob.theta"], expected, rtol=0, atol=3e-7)
+    moved_as = function(motion).at(found.time)
+    place = "carrier.theta" if kind == "revolute" else "carrier.x"
+    assert found[place] - found[place][0] == pytest.approx(
+        moved_as.value - moved_as.value[0], abs=1e-12
+    )
+    energy = found.statistics["energy"]
+    assert abs(energy["residual"]) <= 1e-8 * energy["gross_work"]
+    gained = found["energy.kinetic"] + found["energy.potential"]
+    assert gained[-1] - gained[0] == pytest.approx(energy["driver_work"], abs=1e-6)
+
+
+def test_an_ideal_crank_follows_a_table_and_needs_the_torque_that_accelerates_it() -> None:
+    scene = carried(HELD)
+    scene["joints"]["P"] = {"type": "fixed", "base": "carrier.P", "part": "bob.P"}
+    scene["gravity"] = [0.0, 0.0]
+    found = run(scene, 2.0, output_step=0.01)
+    motion = function(HELD).at(found.time)
+    np.testing.assert_allclose(found["carrier.theta"], motion.value, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(found["carrier.omega"], motion.slope, rtol=0, atol=1e-11)
+    inertia = 0.1 + 1.0 * 0.1**2 + 0.02 + 1.5 * 0.6**2  # about the pin, by Steiner
+    expected = inertia * motion.curvature
+    np.testing.assert_allclose(found["motor.torque"], expected, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(found["motor.power"], expected * motion.slope, rtol=0, atol=1e-8)
+
+
+def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
+    sine = scene_of(carried(SINE))
+    assert common_period(sine).seconds == pytest.approx(2.0 * np.pi / 5.0, rel=1e-14)
+    assert clocks(sine)["motor"].turn == pytest.approx(2.0 * np.pi / 5.0, rel=1e-14)
+    assert characteristic_time(sine, 0.3) == pytest.approx(2.0 * np.pi / 5.0, rel=1e-14)
+    # of 0.7 rad sin(5 t) the first derivative counts: 0.7 * 5 < (0.7 * 5^6)^(1/6)
+    assert driven_speed(sine, 0.3, 1.0) == pytest.approx(5.0 * 0.7 ** (1 / 6), rel=1e-12)
+    start_up = scene_of(carried(START_UP))
+    assert common_period(start_up).seconds is None
+    assert "never repeats" in common_period(start_up).note
+    assert characteristic_time(start_up, 0.3) == pytest.approx(0.8)
+    mixed = carried(SINE)
+    mixed["drivers"]["second"] = {"joint": "P", "speed": 10.0 / 3.0}
+    assert common_period(scene_of(mixed)).seconds == pytest.approx(3.0 * 2.0 * np.pi / 5.0)
+
+
+@pytest.mark.parametrize(
+    ("driver", "place", "words"),
+    [
+        ({"motion": {"type": "sine"}}, "/motion/type", "'sinusoidal'"),
+        ({"motion": SINE | {"frequency": 0.0}}, "/motion/frequency", "at least 1e-09"),
+        ({"motion": HELD | {"knots": [0.0, 0.3, 0.2, 1.0, 1.6]}}, "/motion/knots", "Knot 2"),
+        ({"motion": HELD | {"between": "monotone"}}, "/motion/between", "'smooth'"),
+        ({"motion": SINE, "speed": 1.0}, "/speed", "no field 'speed'"),
+        ({}, "/speed", "required"),
+    ],
+)
+def test_a_motion_that_cannot_be_followed_is_refused_at_its_field(
+    driver: dict, place: str, words: str
+) -> None:
+    scene = carried(SINE)
+    scene["drivers"]["motor"] = {"joint": "J"} | driver
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    (problem,) = refused.value.problems
+    assert problem.pointer == f"/scene/drivers/motor{place}"
+    assert words in problem.detail
+
+
+def test_a_study_varies_a_motion_and_its_period() -> None:
+    scene = carried(SINE)
+    target = {"path": "/drivers/motor/motion/frequency"}
+    scene["parameters"] = {"w": {"help": "Frequency.", "unit": "rad/s", "targets": [target]}}
+    job = {"kind": "sweep", "scene": scene, "grid": {"w": [4.0, 5.0]}, "periods": 2}
+    assert admit(job).period.tolist() == pytest.approx([2.0 * np.pi / w for w in (4.0, 5.0)])
+    with pytest.raises(InvalidInput) as refused:
+        admit(job | {"grid": {"w": [4.0, -1.0]}})
+    assert "at least 1e-09" in str(refused.value)
