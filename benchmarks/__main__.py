@@ -12,6 +12,7 @@ ALL = (
     "stiffness",
     "exponent",
     "sweep",
+    "restitution",
     "extremes",
     "lies",
     "platform",

@@ -19,7 +19,7 @@ import jointplay.service.results.endpoints
 import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from jointplay.service import estimates, events, health, problems, scenes
+from jointplay.service import estimates, events, health, laws, problems, scenes
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
@@ -51,6 +51,7 @@ _RESOURCES = (
     jointplay.service.results.figures,
     jointplay.service.zarr.endpoints,
     scenes,
+    laws,
     health,
     jointplay.service.problems.endpoints,
 )

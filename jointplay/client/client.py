@@ -196,6 +196,11 @@ class Client:
         """Return the scene document of a preset."""
         return self._connection.get(f"/v1/scenes/{segment(name)}")
 
+    def laws(self) -> list[dict[str, Any]]:
+        """Return the laws that a scene can name: formula, parameters, source, where each fails."""
+        found: list[dict[str, Any]] = self._connection.get("/v1/laws")["laws"]
+        return found
+
 
 def _text(moment: datetime | None) -> str | None:
     """Return a moment as the service takes it; one without a zone is this machine's."""

@@ -28,6 +28,7 @@ COMMANDS: Final = (
     "plot",
     "compare",
     "cite",
+    "laws",
     "openapi",
     "doctor",
     "verify",

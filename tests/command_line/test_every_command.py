@@ -68,6 +68,7 @@ PRINTED = {
     "plot": (["JOB", "orbit", "-o", "HERE"], {"figures"}),
     "compare": (["JOB", "JOB", "-o", "HERE/both.png", "--stop", "0.1"], {"figure", "peaks"}),
     "cite": (["JOB"], {"version", "bibtex", "SHA-256 of the job"}),
+    "laws": (["hu-guo"], {"laws"}),
     "openapi": ([], {"openapi", "paths"}),
     "scene list": ([], {"scenes"}),
     "scene show": (["pendulum"], {"name", "bodies", "joints"}),
@@ -115,6 +116,7 @@ BY_COMMAND = {
     "cancel": "Job.cancel",
     "delete": "Job.delete",
     "batch": "Client.submit_batch batch map Batch.wait refresh cancel",
+    "laws": "Client.laws",
     "scene list": "Client.scenes",
     "scene show": "Client.scene",
 }

@@ -145,6 +145,7 @@ ALONE = [
     f"calibrate bouncing-journal {FIT} --population 10 --generations 1 --processes 2",
     "openapi",
     "cite",
+    "laws",
     "scene list",
     "scene show pendulum",
     "scene check pendulum",

@@ -26,6 +26,7 @@ from jointplay.solver.runs.certificate.growth import Exponent
 from jointplay.solver.runs.certificate.kinds import FORCE, MEANINGS, PRESCRIBED, kinds_of
 from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
+from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.starts import start_scales
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
@@ -126,7 +127,11 @@ def certify(
     forces = [end for end, kind in zip(until, kinds, strict=True) if kind == FORCE]
     energy = ledger_of(bundle, RUN)
     gross = energy["gross_work"]
-    remarks = (_nothing_known(known[0][1], time), _different_contacts(companions))
+    remarks = (
+        _nothing_known(known[0][1], time),
+        _different_contacts(companions),
+        _latched(companions, scene, 0.5 * float(time[-1])),
+    )
     facts = {
         "note": " ".join(filter(None, remarks)),
         "horizon": known[0][1],
@@ -224,6 +229,12 @@ def _different_contacts(companions: Companions) -> str:
         f"The trajectory has {counts[0]} contacts, and {counts[1]} at a quarter of its tolerance:"
         " beyond the horizon its impacts are made by its steps. Ask for a smaller tolerance."
     )
+
+
+def _latched(companions: Companions, scene: Scene, half: float) -> str:
+    """Return a remark where a latched rate governs the second half of a run, from a time, s, on."""
+    found = lasting_contacts(companions.bundle, RUN, scene, half)
+    return f"In the second half of the run {found}." if found else ""
 
 
 def _violation(largest: Floats | None) -> dict[str, Any]:

@@ -1,13 +1,11 @@
 """Grounds of a point's verdict beside the indicators' own: what they cannot tell, and whose it is.
 
-An indicator says nothing where it has too few sections, or where its number is infinite; and a
-contact that lasts throughout rests on a rate that its law latched at an onset long ago.
+An indicator says nothing where it has too few sections, or where its number is infinite.
 """
 
 import math
 from collections.abc import Iterator, Mapping
 
-from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.nonlinear.recurrence import LONGEST
 from jointplay.solver.nonlinear.zero_one import FEWEST_TELLING
 from jointplay.solver.runs.study.indicators import (
@@ -50,19 +48,3 @@ def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[
         yield "there is no rotation number: the sections lie on no closed curve"
     if "flatness" in found and sections < FEWEST_FOR_SPECTRUM:
         yield f"a spectrum needs {FEWEST_FOR_SPECTRUM} sections, there are {sections}"
-
-
-def lasting_contacts(bundle: Bundle, lane: int, scene: Scene, since: float) -> str:
-    """Say which pairs of a lane have been in contact since a time, s, by a law with memory."""
-    at, play = bundle.lane(lane), contact_pairs(scene)
-    lasting = [
-        f"{name} ({at['impact_rate'][j]:.3g} m/s, {play[name].clearance.contact.title})"
-        for j, name in enumerate(bundle.kernel.pairs)
-        if at["mode"][j] > 0.0 and at["onset_time"][j] <= since and at["impact_floor"][j] > 0.0
-    ]
-    if not lasting:
-        return ""
-    return (
-        f"contact lasted throughout in {', '.join(lasting)}, with the impact rate that the law"
-        " latched at the last onset: the motion is the law's, another rate may give another kind"
-    )

@@ -16,8 +16,9 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Status
 from jointplay.solver.nonlinear.lyapunov import undecided
 from jointplay.solver.runs.lane_results import failure_of, peaks_of, statistics_of
+from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.study.finer import COST, go_on_finer, go_on_longer, periods_of
-from jointplay.solver.runs.study.grounds import lasting_contacts, limits
+from jointplay.solver.runs.study.grounds import limits
 from jointplay.solver.runs.study.indicators import (
     MOST_SECTIONS,
     exponents,
