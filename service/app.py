@@ -19,7 +19,7 @@ import jointplay.service.results.endpoints
 import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from jointplay.service import estimates, events, health, laws, problems, scenes
+from jointplay.service import estimates, events, health, laws, problems, scenes, schemas
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
@@ -52,6 +52,7 @@ _RESOURCES = (
     jointplay.service.zarr.endpoints,
     scenes,
     laws,
+    schemas,
     health,
     jointplay.service.problems.endpoints,
 )

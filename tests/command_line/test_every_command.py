@@ -73,6 +73,7 @@ PRINTED = {
     "scene list": ([], {"scenes"}),
     "scene show": (["pendulum"], {"name", "bodies", "joints"}),
     "scene check": (["pendulum"], {"scene", "freedom", "residual", "problems"}),
+    "scene schema": ([], {"$schema", "title", "properties", "$defs"}),
     "scene draw": (["pendulum", "-o", "HERE/pendulum.png"], {"figure", "problems"}),
 }
 """By command: arguments, and keys of the document that scripts may rely on."""

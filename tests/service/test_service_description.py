@@ -22,6 +22,7 @@ from jointplay.solver.kinds.limits import (
     MOST_SAMPLES,
 )
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.schema import scene_schema
 from jointplay.storage.settings import Settings
 from tests.presets_given import REQUIRED
 from tests.service_in_thread import serving
@@ -63,6 +64,12 @@ def test_a_fetched_scene_is_a_scene(http):
             scene["parameters"][parameter]["default"] = value
         answer = http.post("/v1/jobs", json={"kind": "simulate", "scene": scene, "duration": 0.1})
         assert answer.status_code in {200, 202}, answer.text
+
+
+def test_the_schema_of_a_scene_is_served_as_one(http):
+    answer = http.get("/v1/schemas/scene.json")
+    assert answer.headers["Content-Type"] == "application/schema+json"
+    assert answer.json() == scene_schema()
 
 
 def test_an_unknown_scene_is_not_found_and_near_ones_are_named(http):

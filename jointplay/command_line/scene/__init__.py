@@ -2,7 +2,7 @@
 
 import typer
 
-from jointplay.command_line.scene import check, draw, presets
+from jointplay.command_line.scene import check, draw, presets, schema
 
 application = typer.Typer(
     help="Look at mechanisms: the presets, and scene documents of your own.",
@@ -13,3 +13,4 @@ application.command("list")(presets.list_presets)
 application.command("show")(presets.show)
 application.command("check")(check.check)
 application.command("draw")(draw.draw)
+application.command("schema")(schema.schema)
