@@ -131,6 +131,7 @@ def certify(
         _nothing_known(known[0][1], time),
         _different_contacts(companions),
         _latched(companions, scene, 0.5 * float(time[-1])),
+        _beyond_law(companions, scene),
     )
     facts = {
         "note": " ".join(filter(None, remarks)),
@@ -235,6 +236,26 @@ def _latched(companions: Companions, scene: Scene, half: float) -> str:
     """Return a remark where a latched rate governs the second half of a run, from a time, s, on."""
     found = lasting_contacts(companions.bundle, RUN, scene, half)
     return f"In the second half of the run {found}." if found else ""
+
+
+def _beyond_law(companions: Companions, scene: Scene) -> str:
+    """Return a remark where contacts were deeper than the formula of their law goes."""
+    deepest = {
+        f"{name}.penetration": float(pair.clearance.contact.deepest(pair.clearance))
+        for name, pair in contact_pairs(scene).items()
+    }
+    peaks = peaks_of(companions.bundle, RUN, list(deepest))
+    found = [
+        f"{name} {peaks[name].maximum:.3g} m, beyond {depth:.3g} m"
+        for name, depth in deepest.items()
+        if peaks[name].maximum > depth
+    ]
+    if not found:
+        return ""
+    return (
+        f"Contacts were deeper than their law's formula goes ({', '.join(found)}): there the force"
+        " goes on along its tangent."
+    )
 
 
 def _violation(largest: Floats | None) -> dict[str, Any]:
