@@ -28,7 +28,7 @@ from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.starts import start_scales
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Clearance, Scene
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.references import tangent_obstacle
 
@@ -243,6 +243,7 @@ def _beyond_law(companions: Companions, scene: Scene) -> str:
     deepest = {
         f"{name}.penetration": float(pair.clearance.contact.deepest(pair.clearance))
         for name, pair in contact_pairs(scene).items()
+        if isinstance(pair.clearance, Clearance)
     }
     peaks = peaks_of(companions.bundle, RUN, list(deepest))
     found = [
