@@ -112,7 +112,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         for field, size in (joint.get("clearance") or {}).items()
         if field in ("bearing_radius", "pin_radius", "height")
     ]
-    driven = {driver["joint"] for driver in scene.get("drivers", {}).values()}
+    driven = {driver.get("joint") for driver in scene.get("drivers", {}).values()}
     joints = []
     for name, joint in scene["joints"].items():
         kind = joint["type"]

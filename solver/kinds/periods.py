@@ -11,7 +11,7 @@ from jointplay.solver.runs.study.fields import distinct, geometry_columns
 from jointplay.solver.runs.study.scenes import PointScenes
 from jointplay.solver.scene.periods import characteristic_time, common_period, first_speed
 
-_SPEED = re.compile(r"/drivers/[^/]+/(speed|motion/.+)")
+_SPEED = re.compile(r"/drivers/[^/]+/(speed|motion/.+)|/forces/[^/]+/(course/.+|no_load_speed)")
 _GRAVITY = re.compile(r"/gravity/\d")
 
 

@@ -42,8 +42,9 @@ class Marker(NamedTuple):
 
 @dataclass(frozen=True)
 class Row:
-    """One constraint: its value, its Jacobian entries by coordinate index, and γ (eq. 22).
+    """One constraint, of a joint or a driver that turns a body, by its name.
 
+    Its value, its Jacobian entries by coordinate index, and γ (eq. 22).
     `rate` is dΦ/dt; the acceleration level reads Φ_q q̈ = `gamma`.
     """
 
@@ -73,7 +74,8 @@ class AbsoluteMechanism:
         self.scene = scene
         self.numbers = numbers
         self.bodies = tuple(scene.bodies)
-        self.drivers = {driver.joint: name for name, driver in scene.drivers.items()}
+        self.drivers = {d.joint: name for name, d in scene.drivers.items() if d.joint}
+        self.turned = {d.body: name for name, d in scene.drivers.items() if d.body}
         self.joints = tuple(
             name
             for name, joint in scene.joints.items()
@@ -101,11 +103,18 @@ class AbsoluteMechanism:
             (cosine, sine),
         )
 
-    def ends(self, points: tuple[str, str], q: Scalars, v: Scalars) -> Ends:
-        """Return how the second of two named points lies and moves against the first."""
+    def ends(self, points: tuple[str, str], q: Scalars, v: Scalars, wound: Scalars = ()) -> Ends:
+        """Return how the second of two named points lies and moves against the first.
+
+        wound : (3 bodies,) whole turns of angles that `q` leaves out, rad.
+        """
         here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
         gap, rate = _less(there.position, here.position), _less(there.velocity, here.velocity)
-        return Ends(gap, rate, (here.spin, there.spin), (here.turned, there.turned))
+        one, two = (
+            marker.angle + (wound[3 * marker.body + 2] if wound and marker.body >= 0 else 0.0)
+            for marker in (here, there)
+        )
+        return Ends(gap, rate, (here.spin, there.spin), (here.turned, there.turned), (one, two))
 
     def apply(self, between: Forces, forces: list[Scalar], q: Scalars, v: Scalars) -> None:
         """Add forces between bodies to generalised forces, (3 bodies,) N, N, N m."""
@@ -146,6 +155,12 @@ class AbsoluteMechanism:
                 rows.append(_angle(name, first, second, RESTING._replace(value=joint.angle)))
             elif motion is not None:
                 rows.append(_angle(name, first, second, motion))
+        still = Marker(-1, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 0.0, 0.0)
+        for body, name in self.turned.items():
+            i = self.bodies.index(body)
+            turning = still._replace(body=i, angle=q[3 * i + 2], spin=v[3 * i + 2])
+            motion = self.numbers.drivers[name].at(driven[name])
+            rows.append(_angle(name, still, turning, motion))
         return rows
 
     def _driver(self, name: str, driven: Mapping[str, Scalar]) -> Derivatives | None:
@@ -192,6 +207,9 @@ class AbsoluteMechanism:
         moments: dict[str, Scalar] = {}
         efforts: dict[str, Scalar] = {}
         for row, multiplier in zip(rows, multipliers, strict=True):
+            if row.joint in self.scene.drivers:
+                efforts[row.joint] = -multiplier
+                continue
             joint = self.scene.joints[row.joint]
             (_, first), (_, second) = ends(joint)
             body, sign = second.split(".")[0], 1.0

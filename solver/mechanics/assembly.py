@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, ra
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.channels import HOLDING
+from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import ends
@@ -102,8 +103,8 @@ def directionless(scene: Scene, pose: Floats) -> list[str]:
 
 
 def first_clocks(scene: Scene) -> dict[str, float]:
-    """Return each driver's clock at t = 0."""
-    return {name: driver.clock_start for name, driver in scene.drivers.items()}
+    """Return each clock at t = 0."""
+    return {name: clock.start for name, clock in clocks(scene).items()}
 
 
 def first_angles(scene: Scene) -> dict[str, float]:
@@ -119,6 +120,10 @@ def first_angles(scene: Scene) -> dict[str, float]:
             offset = driver.at(driver.clock_start).value
         carried = angles[branch.parent] + (offset if branch.outward else -offset)
         given = scene.start.angles.get(branch.body)
+        if branch.turned_by is not None:
+            turning = scene.drivers[branch.turned_by]
+            angles[branch.body] = turning.at(turning.clock_start).value
+            continue
         prescribed = branch.driver is not None and isinstance(joint, Revolute)
         if prescribed or given is None:
             held = prescribed or isinstance(joint, Prismatic | Fixed)

@@ -113,7 +113,10 @@ class Kinematics:
         sense = 1.0 if branch.outward else -1.0
         joint = self.numbers.joints[branch.joint]
         if isinstance(joint, Revolute):
-            if branch.driver is not None:
+            if branch.turned_by is not None:
+                angle, spin, spin_bias = self.moved[branch.turned_by]
+                spin_partials = {branch.turned_by: 1.0}
+            elif branch.driver is not None:
                 moved = self.moved[branch.driver]
                 angle = angle + sense * moved.value
                 spin = spin + sense * moved.slope
@@ -158,19 +161,26 @@ class Kinematics:
         )
 
     def _float(self, branch: Branch) -> Carried:
-        x, y, theta = branch.coordinates
-        self._orient(branch.body, self.position[theta])
+        x, y, *free = branch.coordinates
+        turning = branch.turned_by or free[0]
+        prescribed = branch.turned_by is not None
+        angle, spin, spin_bias = (
+            self.moved[turning]
+            if prescribed
+            else (self.position[turning], self.speed[turning], 0.0)
+        )
+        self._orient(branch.body, angle)
         along = FrameVector(self.orientations, {WORLD: (1.0, 0.0)})
         across = FrameVector(self.orientations, {WORLD: (0.0, 1.0)})
         return Carried(
             branch.body,
-            self.position[theta],
-            self.speed[theta],
-            {theta: 1.0},
+            angle,
+            spin,
+            {turning: 1.0},
             along.scaled(self.position[x]) + across.scaled(self.position[y]),
             along.scaled(self.speed[x]) + across.scaled(self.speed[y]),
             FrameVector(self.orientations),
-            0.0,
+            spin_bias,
             {x: along, y: across},
             (0.0, 0.0),
         )

@@ -47,7 +47,9 @@ class LagrangeMechanism:
     ) -> Motion:
         """Return accelerations and all forces; see `ReducedMechanism.motion`."""
         play = [name for name, joint in self.scene.joints.items() if has_play(joint)]
-        forces = forces_between(self.numbers, self._ends, play, modes, impact_rates, inner)
+        forces = forces_between(
+            self.numbers, self._ends, self.driven, play, modes, impact_rates, inner
+        )
         applied = self._applied(forces)
         rows = self.constraints.rows(self.q, self.v, self.driven)
         accelerations, multipliers = self._solve(rows, applied)

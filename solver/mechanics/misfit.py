@@ -80,7 +80,9 @@ def fighting_drivers(scene: Scene) -> list[str]:
     jacobian = jacobian * scale
     motions = {"revolute": "angle", "prismatic": "along"}
     driving = {
-        (driver.joint, motions[scene.joints[driver.joint].type]): name
+        (driver.joint, motions[scene.joints[driver.joint].type])
+        if driver.joint
+        else (name, "angle"): name
         for name, driver in scene.drivers.items()
     }
     drivers = [driving.get((row.joint, row.part), "") for row in rows]

@@ -1,12 +1,13 @@
 """Shared parts of both formulations: forces between bodies, the motion."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 from types import MappingProxyType
 from typing import Any
 
-from jointplay.solver.laws.force import Effect, Ends
+from jointplay.solver.laws.force import Effect
+from jointplay.solver.mechanics.courses import EndsOf, acting_between
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.mechanics.walls import wall_contact
@@ -112,7 +113,8 @@ class Motion:
 
 def forces_between(
     numbers: Scene,
-    ends: Callable[[str, str], Ends],
+    ends: EndsOf,
+    clocks: Mapping[str, Scalar],
     play: Iterable[str] = (),
     modes: Mapping[str, Scalar] = NOTHING,
     impact_rates: Mapping[str, Scalar] = NOTHING,
@@ -120,7 +122,7 @@ def forces_between(
 ) -> Forces:
     """Evaluate joints with play and force elements.
 
-    `ends` returns how the second of two named points lies and moves against the first; `play` are
+    `clocks` by driver and by element that varies with time; `play` are
     joints whose contact counts. Each of their pairs has a mode and an impact rate (m/s), and
     `inner` states where its friction law has any.
     """
@@ -136,12 +138,11 @@ def forces_between(
             elif isinstance(joint, Prismatic | PinInSlot):
                 forces.contacts[pair.name] = wall_contact(pair, joint, between, *state)
     for name, element in numbers.forces.items():
-        between = ends(element.first, element.second)
+        between = acting_between(numbers, name, ends, clocks)
         effect = element.effect(between)
         (fx, fy), (vx, vy), (first, second) = effect.force, between.rate, between.spins
-        power = -(fx * vx + fy * vy) - effect.moment * (second - first)
-        acting = Interaction(
-            element.first, element.second, effect.force, -effect.moment, effect.moment
-        )
+        power = -(fx * vx + fy * vy) - effect.moment * (second - first) - effect.couple * first
+        on_first = effect.couple - effect.moment
+        acting = Interaction(element.first, element.second, effect.force, on_first, effect.moment)
         forces.elements[name] = Element(effect, acting, power)
     return forces

@@ -37,7 +37,10 @@ class ReducedMechanism:
         position: Mapping[str, Scalar],
         speed: Mapping[str, Scalar],
         driven: Mapping[str, Scalar],
+        wound: Mapping[str, Scalar] = NOTHING,
     ) -> None:
+        """`driven`: all clocks; `wound`: whole turns of bodies that drivers turn, rad."""
+        self.wound = wound
         self.tree = tree
         self.numbers = numbers
         self.kinematics = Kinematics(tree, numbers, position, speed, driven)
@@ -55,7 +58,13 @@ class ReducedMechanism:
         coordinates, where they were computed before.
         """
         forces = forces_between(
-            self.numbers, self._ends, self.tree.play, modes, impact_rates, inner
+            self.numbers,
+            self._ends,
+            self.kinematics.driven,
+            self.tree.play,
+            modes,
+            impact_rates,
+            inner,
         )
         loads = _about_references(self.kinematics, forces.interactions)
         cut = Exerted()
@@ -100,7 +109,12 @@ class ReducedMechanism:
             (end_rate + start_rate.scaled(-1.0)).world(),
             (k.carried[here].spin, k.carried[there].spin),
             (k.orientations.cosine_sine[here], k.orientations.cosine_sine[there]),
+            (self._angle(here), self._angle(there)),
         )
+
+    def _angle(self, body: str) -> Scalar:
+        angle = self.kinematics.carried[body].angle
+        return angle + self.wound[body] if body in self.wound else angle
 
     def _accelerations(self, loads: Loads) -> list[Scalar]:
         """Solve M q̈ = Q."""
@@ -158,8 +172,7 @@ class ReducedMechanism:
                 ux, uy = k.carried[branch.body].partials[name].world()
                 generalised[name] = ux * total[0] + uy * total[1]
             elif branch.kind == "free":
-                x, y, theta = branch.coordinates
-                generalised[x], generalised[y], generalised[theta] = total[0], total[1], moment
+                generalised |= zip(branch.coordinates, (*total, moment), strict=False)
         return generalised
 
     def _subtree(self, loads: Loads, extra: Loads) -> tuple[dict[str, Pair], dict[str, Scalar]]:
@@ -221,7 +234,10 @@ class ReducedMechanism:
     def _reactions(
         self, loads: Loads, bodies: Mapping[str, BodyMotion]
     ) -> tuple[dict[str, Pair], dict[str, Scalar]]:
-        """Return force on the second body and moment on the outboard body of each tree joint."""
+        """Return force on the second body and moment on the outboard body of each tree joint.
+
+        Moments of drivers that turn bodies against the ground stand beside those of joints.
+        """
         gx, gy = self.numbers.gravity
         inertial = {}
         for name, body in bodies.items():
@@ -232,6 +248,8 @@ class ReducedMechanism:
         forces: dict[str, Pair] = {}
         held: dict[str, Scalar] = {}
         for branch in self.tree.branches:
+            if branch.turned_by is not None:
+                held[branch.turned_by] = -moments[branch.body]
             if branch.kind == "free":
                 continue
             x, y = sums[branch.body]
@@ -266,15 +284,15 @@ class ReducedMechanism:
         """Return efforts of drivers; those of cut joints are known."""
         efforts: dict[str, Scalar] = {}
         for name, driver in self.numbers.drivers.items():
-            if name in cut:
-                efforts[name] = cut[name]
+            if name in cut or driver.body is not None:
+                efforts[name] = cut[name] if name in cut else moments[name]
                 continue
             branch = next(b for b in self.tree.branches if b.joint == driver.joint)
             if branch.kind == "revolute":
-                efforts[name] = moments[driver.joint] if branch.outward else -moments[driver.joint]
+                efforts[name] = moments[branch.joint] if branch.outward else -moments[branch.joint]
             else:
                 ux, uy = self.kinematics.carried[branch.body].partials[name].world()
-                fx, fy = forces[driver.joint]
+                fx, fy = forces[branch.joint]
                 along = ux * fx + uy * fy
                 efforts[name] = along if branch.outward else -along
         return efforts

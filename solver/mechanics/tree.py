@@ -20,7 +20,8 @@ class Branch:
 
     `outward` tells whether the body is the joint's second one (journal, slider, part).
     `coordinates` are names of generalised coordinates, ``body.theta``, ``body.s``, ``body.x`` or
-    ``body.y``; `driver` names the driver that prescribes the joint's motion instead.
+    ``body.y``; `driver` names the driver that prescribes the joint's motion instead, `turned_by`
+    the one that prescribes the body's angle against the ground, whatever its joint.
     """
 
     body: str
@@ -32,6 +33,7 @@ class Branch:
     outward: bool
     coordinates: tuple[str, ...]
     driver: str | None
+    turned_by: str | None = None
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,8 @@ def spanning_tree(scene: Scene) -> Tree:
 
     A body that ideal joints do not connect to the ground floats: it gets x, y and theta.
     """
-    drivers = {driver.joint: name for name, driver in scene.drivers.items()}
+    drivers = {driver.joint: name for name, driver in scene.drivers.items() if driver.joint}
+    turning = {driver.body: name for name, driver in scene.drivers.items() if driver.body}
     ideal = {name: joint for name, joint in scene.joints.items() if not has_play(joint)}
     branches: list[Branch] = []
     used: set[str] = set()
@@ -92,8 +95,11 @@ def spanning_tree(scene: Scene) -> Tree:
                         parent_point=here[1],
                         body_point=there[1],
                         outward=outward,
-                        coordinates=_coordinates(there[0], joint, drivers.get(name)),
+                        coordinates=_coordinates(
+                            there[0], joint, drivers.get(name) or turning.get(there[0])
+                        ),
                         driver=drivers.get(name),
+                        turned_by=turning.get(there[0]),
                     )
                 )
         waiting = [body for body in waiting if body not in reached]
@@ -101,8 +107,9 @@ def spanning_tree(scene: Scene) -> Tree:
             break
         root = waiting[0]
         reached.append(root)
-        freedom = (f"{root}.x", f"{root}.y", f"{root}.theta")
-        branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None))
+        turned_by = turning.get(root)
+        freedom = (f"{root}.x", f"{root}.y", *([] if turned_by else [f"{root}.theta"]))
+        branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None, turned_by))
     closing = tuple(name for name in ideal if name not in used)
     play = tuple(name for name, joint in scene.joints.items() if has_play(joint))
     return Tree(tuple(branches), closing, play, tuple(contact_pairs(scene)))

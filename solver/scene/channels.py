@@ -5,9 +5,10 @@ from fnmatch import fnmatchcase
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
+from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import has_play, pairs_of
-from jointplay.solver.scene.references import inner_states, turns
+from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
 
 BODY = (
@@ -78,7 +79,7 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
             add(pair.name, "joint", PLAY if pair.is_journal else WALL)
             add(pair.name, "joint", tuple((s.name, s.unit, s.long_name) for s in states))
     for name, driver in scene.drivers.items():
-        turning = turns(scene, driver.joint)
+        turning = turns(scene, driver)
         kind, unit = ("torque", "N m") if turning else ("force", "N")
         rows.append(Channel(f"{name}.torque", unit, f"{kind} of driver {name}"))
         rows.append(Channel(f"{name}.power", "W", f"power of driver {name}"))

@@ -3,8 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from jointplay.solver.scene.document import MovingDriver, Scene
-from jointplay.solver.scene.references import turns
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.function import Function
+from jointplay.solver.scene.document import Driver, MovingDriver, Revolute, Scene
 
 
 @dataclass(frozen=True)
@@ -19,12 +20,36 @@ class Clock:
     turn: float
 
 
+def turns(scene: Scene, driver: Driver) -> bool:
+    """Return whether a driver prescribes an angle; else it is a displacement."""
+    return driver.joint is None or isinstance(scene.joints[driver.joint], Revolute)
+
+
+def timed(scene: Scene) -> dict[str, Varying]:
+    """Return the force elements that vary with time."""
+    return {
+        name: element
+        for name, element in scene.forces.items()
+        if isinstance(element, Varying)
+        and element.course is not None
+        and (over := element.follows()) is not None
+        and over.quantity == "time"
+    }
+
+
 def clocks(scene: Scene) -> dict[str, Clock]:
-    """Return the clocks by name of driver, in the order of the document."""
+    """Return the clocks by name of driver, then by name of what varies with time."""
     found = {}
     for name, driver in scene.drivers.items():
-        turn = 2.0 * math.pi if turns(scene, driver.joint) else 0.0
+        turn = 2.0 * math.pi if turns(scene, driver) else 0.0
         if isinstance(driver, MovingDriver):
-            turn = driver.motion.period if math.isfinite(driver.motion.period) else 0.0
+            turn = _turn(driver.motion)
         found[name] = Clock(driver.clock_start, driver.clock_rate, turn)
+    for name, element in timed(scene).items():
+        assert element.course is not None  # noqa: S101  (narrows the type)
+        found[name] = Clock(0.0, 1.0, _turn(element.course))
     return found
+
+
+def _turn(function: Function) -> float:
+    return function.period if math.isfinite(function.period) else 0.0

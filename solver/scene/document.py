@@ -144,16 +144,18 @@ Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
 
 
 class Driver(Strict):
-    """Prescribed motion of an ideal joint.
+    """Prescribed motion of an ideal joint, or of a body's angle whatever its joints.
 
     For a revolute joint the position is the journal body's angle less the bearing body's (rad,
-    rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s).
+    rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s), for a
+    body its angle against the ground, from where the torque acts.
 
     Its clock is what its motion is a function of: it starts at `clock_start` and goes at
     `clock_rate` a second.
     """
 
-    joint: Name
+    joint: Name | None = None
+    body: Name | None = None
     position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
 
     @abstractmethod

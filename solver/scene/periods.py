@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
+from jointplay.solver.laws.force import ForceElement
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.scene.clocks import timed, turns
 from jointplay.solver.scene.document import Driver, MovingDriver, Scene
-from jointplay.solver.scene.references import turns
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""
@@ -35,9 +37,15 @@ def common_period(scene: Scene) -> Period:
             if driver.motion.period > 0.0:
                 speeds.append(2.0 * math.pi / driver.motion.period)
         elif driver.clock_rate != 0.0:
-            if not turns(scene, driver.joint):
+            if not turns(scene, driver):
                 return Period(None, "A driven slider never comes back, so there is no period.")
             speeds.append(abs(driver.clock_rate))
+    for name, element in timed(scene).items():
+        period = element.course.period if element.course is not None else 0.0
+        if math.isinf(period):
+            return Period(None, f"The force '{name}' never repeats, so there is no period.")
+        if period > 0.0:
+            speeds.append(2.0 * math.pi / period)
     return period_of(speeds)
 
 
@@ -47,8 +55,11 @@ def first_speed(scene: Scene) -> float:
         if isinstance(driver, MovingDriver):
             if 0.0 < driver.motion.period < math.inf:
                 return 2.0 * math.pi / driver.motion.period
-        elif driver.clock_rate != 0.0 and turns(scene, driver.joint):
+        elif driver.clock_rate != 0.0 and turns(scene, driver):
             return float(abs(driver.clock_rate))
+    for element in timed(scene).values():
+        if element.course is not None and 0.0 < element.course.period < math.inf:
+            return 2.0 * math.pi / element.course.period
     return 1.0
 
 
@@ -60,7 +71,7 @@ def driven_speed(scene: Scene, lever: float, until: float) -> float:
     """
     total = 0.0
     for driver in scene.drivers.values():
-        turning = turns(scene, driver.joint)
+        turning = turns(scene, driver)
         if isinstance(driver, MovingDriver):
             total += driver.motion.quickness(until, 1.0 if turning else lever)
         elif turning:
@@ -101,6 +112,7 @@ def _whole_numbers(ratio: float) -> Fraction:
 def characteristic_time(scene: Scene, length: float) -> float:
     """Return a time scale, s: the shortest driver period, else that of a pendulum, else 1 s."""
     speeds = [speed for driver in scene.drivers.values() for speed in _speeds(scene, driver)]
+    speeds += [speed for element in scene.forces.values() for speed in _paces(scene, element)]
     turning = [speed for speed in speeds if speed >= SLOWEST]
     if turning:
         return 2.0 * math.pi / max(turning)
@@ -113,9 +125,24 @@ def _speeds(scene: Scene, driver: Driver) -> list[float]:
     if not isinstance(driver, MovingDriver):
         return [abs(driver.clock_rate)]
     found = [2.0 * math.pi / driver.motion.bend]
-    if turns(scene, driver.joint):
+    if turns(scene, driver):
         found += driver.motion.largest(0.0)[:1]
     return found
+
+
+def _paces(scene: Scene, element: ForceElement) -> list[float]:
+    """Return what gives a force element a scale of time, rad/s."""
+    over = element.follows()
+    if not isinstance(element, Varying) or element.course is None or over is None:
+        return [element.fastest]
+    bends = 2.0 * math.pi / element.course.bend
+    if over.quantity == "time":
+        return [bends]
+    if over.quantity == "driver" and over.driver is not None and not over.rate:
+        driver = scene.drivers[over.driver]
+        if not isinstance(driver, MovingDriver):
+            return [bends * abs(driver.clock_rate)]
+    return []
 
 
 def section_offset(scene: Scene, period: float, crank_angle: float) -> float:

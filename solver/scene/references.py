@@ -20,6 +20,7 @@ from jointplay.solver.scene.document import (
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
+from jointplay.solver.scene.varying_forces import varying_problems
 
 UNDRIVEN = {"fixed": "fixed", "pin-in-slot": "a pin in a slot"}
 """Types of joints that have no motion to be driven."""
@@ -34,11 +35,6 @@ def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
     if isinstance(joint, PinInSlot):
         return ("slot", joint.slot), ("pin", joint.pin)
     return ("base", joint.base), ("part", joint.part)
-
-
-def turns(scene: Scene, joint: str) -> bool:
-    """Return whether a driver of a joint prescribes an angle; else it is a displacement."""
-    return isinstance(scene.joints[joint], Revolute)
 
 
 def inner_states(scene: Scene) -> dict[str, tuple[InnerState, ...]]:
@@ -72,10 +68,15 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
     for name, force in scene.forces.items():
         pair = (("first", force.first), ("second", force.second))
         yield from _points(scene, f"/forces/{name}", pair)
+        over = force.follows()
+        if over is not None and (over.first or over.second):
+            other = (("first", over.first or force.first), ("second", over.second or force.second))
+            yield from _points(scene, f"/forces/{name}/over", other)
+    yield from varying_problems(scene)
     yield from size_problems(scene)
     for name, driver in scene.drivers.items():
         yield from _driver(scene, name, driver)
-    doubled = Counter(driver.joint for driver in scene.drivers.values())
+    doubled = Counter(driver.joint for driver in scene.drivers.values() if driver.joint)
     for joint_name in (joint for joint, count in doubled.items() if count > 1):
         yield Problem("/drivers", f"Joint '{joint_name}' has more than one driver; keep one.")
     yield from _start(scene)
@@ -177,6 +178,13 @@ def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
             "A driven motion needs a continuous speed and a bounded acceleration that varies"
             " smoothly; give 'smooth'.",
         )
+    if (driver.joint is None) == (driver.body is None):
+        both = "" if driver.joint is None else ", not both"
+        yield Problem(f"/drivers/{name}/joint", f"Drive a 'joint' or a 'body'{both}.")
+        return
+    if driver.joint is None:
+        yield from _driven_body(scene, name, driver.body or "")
+        return
     joint_name = driver.joint
     joint = scene.joints.get(joint_name)
     if joint is None:
@@ -188,3 +196,20 @@ def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
             + UNDRIVEN.get(joint.type, "a joint with clearance")
             + "; drive an ideal revolute or prismatic joint.",
         )
+
+
+def _driven_body(scene: Scene, name: str, body: str) -> Iterator[Problem]:
+    place = f"/drivers/{name}/body"
+    if body not in scene.bodies:
+        yield Problem(place, unknown("body", body, scene.bodies))
+    for joint_name, joint in scene.joints.items():
+        holds = isinstance(joint, Prismatic | Fixed) and not has_play(joint)
+        if holds and any(reference.split(".")[0] == body for _, reference in ends(joint)):
+            yield Problem(
+                place,
+                f"The angle of '{body}' cannot be driven: joint '{joint_name}' holds it. Drive a"
+                " body whose joints let it turn.",
+            )
+    others = [d.body for d in scene.drivers.values()]
+    if others.count(body) > 1:
+        yield Problem(place, f"Body '{body}' has more than one driver; keep one.")

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
+from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.units import Rule
 from jointplay.solver.scene.document import (
     Fixed,
@@ -158,6 +159,8 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
             yield f"/drivers/{name}/motion", driver.motion.rules, driver.motion
     for name, element in scene.forces.items():
         yield f"/forces/{name}", element.rules, element
+        if isinstance(element, Varying) and element.course is not None:
+            yield f"/forces/{name}/course", element.course.rules, element.course
 
 
 def _ruled(place: str, part: BaseModel) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:

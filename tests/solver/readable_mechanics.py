@@ -13,6 +13,7 @@ from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
 
@@ -78,7 +79,7 @@ def at_start(scene: Scene) -> Instant:
         scene,
         dict(zip(tree.coordinates, position, strict=True)),
         dict(zip(tree.coordinates, speed, strict=True)),
-        {name: driver.clock_start for name, driver in scene.drivers.items()},
+        {name: clock.start for name, clock in clocks(scene).items()},
         dict.fromkeys(tree.pairs, 0.0),
         {
             name: pair.clearance.contact.least_impact_rate

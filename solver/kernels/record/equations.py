@@ -104,6 +104,8 @@ def record(
         name: recorder.variable(f"phase{k}") + numbers.drivers[name].clock_rate * time
         for k, name in enumerate(scene.drivers)
     }
+    for k, name in islice(enumerate(clocks(scene)), len(scene.drivers), None):
+        driven[name] = recorder.variable(f"phase{k}") + time
     if lagrange:  # here a driven angle is a coordinate, which goes on turning
         for k, (name, driver) in enumerate(scene.drivers.items()):
             if isinstance(driver, SteadyDriver):
@@ -113,13 +115,15 @@ def record(
 
     mechanism: LagrangeMechanism | ReducedMechanism
     loops, corrections = None, []
+    windings: dict[str, Expression] = {}
     if lagrange:
         mechanism = LagrangeMechanism(scene, numbers, stage[:count], stage[speeds], driven)
         motion = observed = mechanism.motion(modes, rates, inner)
     else:
         position = dict(zip(coordinates, stage[:count], strict=True))
         speed = dict(zip(coordinates, stage[speeds], strict=True))
-        mechanism = ReducedMechanism(tree, numbers, position, speed, driven)
+        windings = _windings(scene, tree, recorder)
+        mechanism = ReducedMechanism(tree, numbers, position, speed, driven, windings)
         motion = mechanism.motion(modes, rates, inner)
         known = [recorder.variable(f"slope{count + i}") for i in range(count)]
         observed = mechanism.motion(modes, rates, inner, known)
@@ -128,7 +132,6 @@ def record(
             corrections = _corrections(mechanism, loops)
     lift = recorder.lift
     channels = {name: lift(value) for name, value in channel_values(numbers, observed).items()}
-    windings = {} if lagrange else _windings(scene, tree, recorder)
     for body, wound in windings.items():
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(observed))
@@ -190,8 +193,11 @@ def _windings(scene: Scene, tree: Tree, recorder: Recorder) -> dict[str, Express
     steady = {name for name, d in scene.drivers.items() if isinstance(d, SteadyDriver)}
     found: dict[str, Expression] = {}
     for branch in tree.branches:
+        if branch.turned_by in steady:
+            found[branch.body] = recorder.variable(f"wound{drivers.index(branch.turned_by)}")
         wound = found.get(branch.parent)
-        if branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates:
+        free = branch.kind == "free" or f"{branch.body}.theta" in branch.coordinates
+        if free or branch.turned_by is not None:
             continue
         if branch.kind == "revolute" and branch.driver in steady:
             own = recorder.variable(f"wound{drivers.index(branch.driver)}")

@@ -1,9 +1,18 @@
 """Force elements between two points: one file an element; this roster names them."""
 
-from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
+from jointplay.solver.laws.force.force import Force
+from jointplay.solver.laws.force.law import Effect, Ends, ForceElement, Over
+from jointplay.solver.laws.force.motor import Motor
 from jointplay.solver.laws.force.spring_damper import SpringDamper
 from jointplay.solver.laws.force.torque import Torque
+from jointplay.solver.laws.force.torsion_spring import TorsionSpring
 
-ELEMENTS: dict[str, type[ForceElement]] = {"spring-damper": SpringDamper, "torque": Torque}
+ELEMENTS: dict[str, type[ForceElement]] = {
+    "spring-damper": SpringDamper,
+    "torsion-spring": TorsionSpring,
+    "force": Force,
+    "torque": Torque,
+    "motor": Motor,
+}
 
-__all__ = ["ELEMENTS", "Effect", "Ends", "ForceElement"]
+__all__ = ["ELEMENTS", "Effect", "Ends", "ForceElement", "Over"]

@@ -2,10 +2,10 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import PointReference, Rule, Strict
+from jointplay.solver.quantities.units import Name, PointReference, Rule, Strict
 
 
 class Ends(NamedTuple):
@@ -19,6 +19,12 @@ class Ends(NamedTuple):
     """Angular velocities of the first point's body and of the second's, rad/s."""
     turned: tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]] = ((1.0, 0.0), (1.0, 0.0))
     """Cosine and sine of the angle of either body."""
+    angles: tuple[Scalar, Scalar] = (0.0, 0.0)
+    """These angles, rad; whole turns count."""
+    argument: Scalar = 0.0
+    """What an element that varies is a function of; see `Over`."""
+    argument_rate: Scalar = 0.0
+    """Its rate, where the function is not of a rate itself."""
 
 
 class Effect(NamedTuple):
@@ -34,6 +40,23 @@ class Effect(NamedTuple):
     """Power that is lost, W; negative where the element drives."""
     moment: Scalar = 0.0
     """On the second point's body, N m; its opposite acts on the first's."""
+    couple: Scalar = 0.0
+    """On the first point's body besides, N m: of a force that is not along the line between."""
+
+
+class Over(Strict):
+    """What a strength is a function of: time (s), a driver's position, or how two points lie.
+
+    Of two points, by default the element's own: `angle` of the second's body less that of the
+    first's (rad, whole turns count), `distance`, or `x` and `y` of the second less the first (m,
+    world axes). With `rate` it is the rate of that instead.
+    """
+
+    quantity: Literal["time", "driver", "angle", "distance", "x", "y"] = "time"
+    driver: Name | None = None
+    first: PointReference | None = None
+    second: PointReference | None = None
+    rate: bool = False
 
 
 class ForceElement(Strict):
@@ -50,6 +73,15 @@ class ForceElement(Strict):
     @abstractmethod
     def effect(self, ends: Ends) -> Effect:
         """Return forces, energy and channels; arithmetic on abstract scalars."""
+
+    def follows(self) -> Over | None:
+        """Return what the element is a function of besides its ends, if it varies."""
+        return None
+
+    @property
+    def fastest(self) -> float:
+        """Largest angular velocity that it drives to by itself, rad/s; 0 if it has none."""
+        return 0.0
 
     @property
     def needs_direction(self) -> bool:

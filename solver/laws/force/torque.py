@@ -1,18 +1,19 @@
-"""A constant torque between two bodies."""
+"""A torque between two bodies, constant or varying."""
 
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
+from jointplay.solver.laws.force.law import Effect, Ends
+from jointplay.solver.laws.force.varying import Varying
 
 
-class Torque(ForceElement):
-    """M = constant, on the second point's body; its opposite acts on the first's.
+class Torque(Varying):
+    """M = moment * course(...), on the second point's body; its opposite acts on the first's.
 
-    Assumes that it keeps its value at any speed and angle; where the points are does not matter.
-    Fails for motors and brakes near the speeds where their characteristics bend: nothing holds the
-    speed that it gives.
+    Assumes that it keeps its value at any speed, unless it varies with that; where the points are
+    does not matter. Fails for motors and brakes near the speeds where their characteristics bend:
+    nothing holds the speed that it gives.
 
     Source: the definition of a couple's work, dW = M dθ; Goldstein 1980, Classical Mechanics, 1.1.
     """
@@ -25,5 +26,6 @@ class Torque(ForceElement):
 
     def effect(self, ends: Ends) -> Effect:
         """Return the moment; what it puts in is a loss below zero."""
-        power = self.moment * (ends.spins[1] - ends.spins[0])
-        return Effect((0.0, 0.0), {"moment": self.moment}, loss=-power, moment=self.moment)
+        moment = self.varied(self.moment, ends)
+        power = moment * (ends.spins[1] - ends.spins[0])
+        return Effect((0.0, 0.0), {"moment": moment}, loss=-power, moment=moment)

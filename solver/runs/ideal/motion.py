@@ -16,6 +16,7 @@ from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.motion import Motion, body_motions, forces_between
 from jointplay.solver.mechanics.view import view
+from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.periods import characteristic_time
 
@@ -66,7 +67,10 @@ class IdealMotion:
         gamma = np.stack([np.broadcast_to(row.gamma, times.shape) for row in rows], axis=1)
         a = _solve(jacobian, gamma)
         at = _columns(q), _columns(v)
-        acting = forces_between(self.numbers, lambda *points: self.mechanism.ends(points, *at))
+        wound = _columns(turned)
+        acting = forces_between(
+            self.numbers, lambda *points: self.mechanism.ends(points, *at, wound), driven
+        )
         applied = _columns(self._inertia_and_gravity(a))
         self.mechanism.apply(acting, applied, *at)
         force = np.stack(applied, axis=1)
@@ -117,8 +121,7 @@ class IdealMotion:
 
     def _driven(self, local: Floats) -> dict[str, Floats]:
         return {
-            name: driver.clock_start + driver.clock_rate * local
-            for name, driver in self.scene.drivers.items()
+            name: clock.start + clock.rate * local for name, clock in clocks(self.scene).items()
         }
 
     def _poses(

@@ -39,6 +39,8 @@ class Units(NamedTuple):
 
     def of(self, unit: str, law: Strict) -> float:
         """Return the factor of a unit such as N/m^n; a law's own exponent stands for n."""
+        if unit.startswith("unit of"):  # of what another field chooses; here it is left alone
+            return 1.0
         factor = 1.0
         for place, part in enumerate(unit.split("/")):
             for symbol in part.split():
@@ -49,9 +51,13 @@ class Units(NamedTuple):
 
     def _base(self, name: str) -> float:
         newton = self.kg * self.m / self.s**2
-        return {"1": 1.0, "N": newton, "Pa": newton / self.m**2, "J": newton * self.m}.get(
-            name
-        ) or float(getattr(self, name))
+        return {
+            "1": 1.0,
+            "rad": 1.0,
+            "N": newton,
+            "Pa": newton / self.m**2,
+            "J": newton * self.m,
+        }.get(name) or float(getattr(self, name))
 
 
 some_units = st.builds(Units, *[st.floats(0.01, 100.0)] * 3)
@@ -297,12 +303,16 @@ class ElementSpecification:
         element, spins, span = data.draw(self.elements), (0.3, -0.7), 0.01
 
         def at(t: float) -> Effect:
-            return element.effect(Ends((x + t * vx, y + t * vy), (vx, vy), spins))
+            angles = spins[0] * t, 0.4 + spins[1] * t
+            one, two = ((math.cos(angle), math.sin(angle)) for angle in angles)
+            gap = x + t * vx, y + t * vy
+            return element.effect(Ends(gap, (vx, vy), spins, (one, two), angles))
 
         def into_store(t: float) -> float:
             found = at(t)
             moved = found.force[0] * vx + found.force[1] * vy
-            return float(-moved - found.moment * (spins[1] - spins[0]) - found.loss)
+            turned = found.moment * (spins[1] - spins[0]) + found.couple * spins[0]
+            return float(-moved - turned - found.loss)
 
         gain, size = quad(into_store, 0.0, span)[0], at(0.0).stored + at(span).stored
         # rounding of the ends and of powers that cancel; the quadrature is as good on a short path
@@ -324,6 +334,7 @@ class ElementSpecification:
         for a, b, unit in (
             *((*pair, "N") for pair in zip(first.force, second.force, strict=True)),
             (first.stored, second.stored, "J"),
+            *((getattr(first, n), getattr(second, n), "N m") for n in ("moment", "couple")),
             (first.loss, second.loss, "N m/s"),
             *((first.channels[n], second.channels[n], u) for n, u, _ in here.channels),
         ):

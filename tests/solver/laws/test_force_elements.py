@@ -11,8 +11,11 @@ from hypothesis import strategies as st
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.force import ELEMENTS, Ends
+from jointplay.solver.laws.force.force import Force
+from jointplay.solver.laws.force.motor import Motor
 from jointplay.solver.laws.force.spring_damper import SpringDamper
 from jointplay.solver.laws.force.torque import Torque
+from jointplay.solver.laws.force.torsion_spring import TorsionSpring
 from tests.solver.completed_runs import Run, run
 from tests.solver.laws.specification import ElementSpecification
 
@@ -45,8 +48,47 @@ class TestTorque(ElementSpecification):
     )
 
 
+class TestForce(ElementSpecification):
+    model = Force
+    elements = st.builds(
+        Force,
+        type=st.just("force"),
+        first=st.just("ground.O"),
+        second=st.just("mass.eye"),
+        magnitude=st.floats(-1e3, 1e3),
+        direction=st.sampled_from([[1.0, 0.0], [0.0, -2.0], [0.3, -0.4]]),
+        axes=st.sampled_from(["world", "first", "second"]),
+    )
+
+
+class TestMotor(ElementSpecification):
+    model = Motor
+    elements = st.builds(
+        Motor,
+        type=st.just("motor"),
+        first=st.just("ground.O"),
+        second=st.just("mass.eye"),
+        stall_torque=st.floats(1e-3, 1e3),
+        no_load_speed=st.floats(1e-2, 1e3),
+    )
+
+
+class TestTorsionSpring(ElementSpecification):
+    model = TorsionSpring
+    elements = st.builds(
+        TorsionSpring,
+        type=st.just("torsion-spring"),
+        first=st.just("ground.O"),
+        second=st.just("mass.eye"),
+        stiffness=st.floats(0.0, 1e6),
+        damping=st.floats(0.0, 1e3),
+        free_angle=st.floats(-3.0, 3.0),
+    )
+
+
 def test_every_element_in_the_roster_is_specified() -> None:
-    assert set(ELEMENTS.values()) == {TestSpringDamper.model, TestTorque.model}
+    specified = {each.model for each in ElementSpecification.__subclasses__()}
+    assert set(ELEMENTS.values()) <= specified
 
 
 def oscillator(**element: Any) -> dict[str, Any]:

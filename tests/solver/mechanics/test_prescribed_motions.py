@@ -1,17 +1,20 @@
 """Drivers that follow functions of time: position, speed and acceleration enter the equations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
+from jointplay.solver.scene import presets
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
 from tests.solver.completed_runs import run
 from tests.solver.driven_motions import carried, function, independent, moved
 from tests.solver.mechanics.test_mechanics import anywhere, assert_formulations_agree
-from tests.solver.readable_mechanics import Instant, scene_of
+from tests.solver.readable_mechanics import Instant, at_start, scene_of
 
 SINE = {"type": "sinusoidal", "amplitude": 0.7, "frequency": 5.0, "phase": 0.4}
 START_UP = {"type": "start-up", "speed": 6.0, "length": 0.8}
@@ -115,3 +118,77 @@ def test_a_study_varies_a_motion_and_its_period() -> None:
     with pytest.raises(InvalidInput) as refused:
         admit(job | {"grid": {"w": [4.0, -1.0]}})
     assert "at least 1e-09" in str(refused.value)
+
+
+def turned(motion: dict, *, play: bool) -> dict:
+    """Return a pendulum on a free crank, its own angle prescribed whatever its joint."""
+    scene = carried(motion)
+    scene["drivers"]["motor"] = {"body": "bob", "motion": motion}
+    if play:
+        scene["joints"]["P"]["clearance"] = {
+            "radial_clearance": 0.01,
+            "bearing_radius": 0.05,
+            "contact": {"stiffness": 1e7, "restitution": 0.8},
+        }
+    return scene
+
+
+@pytest.mark.parametrize("play", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_body_is_turned_from_the_ground_whatever_its_joint(play: bool, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    start = at_start(scene_of(turned(SINE, play=play)))
+    instant = replace(
+        start,
+        position={name: random.normal() for name in start.position},
+        speed={name: random.normal() for name in start.speed},
+        driven={name: random.normal() for name in start.driven},
+        mode=dict.fromkeys(start.mode, 1.0),
+    )
+    assert ("bob.x" in start.position) == play
+    assert "bob.theta" not in start.position
+    assert_formulations_agree(instant)
+    motion = instant.reduced()
+    expected = function(SINE).at(instant.driven["motor"])
+    assert (motion.bodies["bob"].spin, motion.bodies["bob"].angular_acceleration) == pytest.approx(
+        expected[1:], rel=1e-12
+    )
+
+
+@pytest.mark.parametrize(
+    ("driver", "place", "words"),
+    [
+        ({"body": "bobb"}, "/body", "'bob'"),
+        ({"body": "bob", "joint": "J"}, "/joint", "not both"),
+        ({"joint": None}, "/joint", "'joint' or a 'body'"),
+        ({"body": "carrier"}, "/body", "joint 'J' holds it"),
+    ],
+)
+def test_a_body_that_cannot_be_turned_is_refused(driver: dict, place: str, words: str) -> None:
+    scene = carried(SINE, "prismatic")
+    scene["drivers"]["motor"] = {"motion": SINE} | driver
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    (problem,) = refused.value.problems
+    assert problem.pointer == f"/scene/drivers/motor{place}"
+    assert words in problem.detail
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+def test_a_slider_crank_with_play_in_all_three_pins_is_driven(formulation: str) -> None:
+    scene = presets.document("slider-crank")
+    play = next(j["clearance"] for j in scene["joints"].values() if j.get("clearance"))
+    for joint in scene["joints"].values():
+        if joint["type"] == "revolute":
+            joint["clearance"] = play
+    (driver,) = scene["drivers"].values()
+    crank = scene["joints"][driver.pop("joint")]["journal"].split(".")[0]
+    driver["body"] = crank
+    scene["parameters"], scene["reported"] = {}, []
+    found = run(scene, 0.012, formulation=formulation, tolerance=1e-8, output_step=1e-3)
+    expected = driver["position"] + driver["speed"] * found.time
+    np.testing.assert_allclose(found[f"{crank}.theta"], expected, rtol=1e-9)
+    energy = found.statistics["energy"]
+    assert found.statistics["onsets"] >= 3
+    assert abs(energy["residual"]) <= 10.0 * 1e-8 * energy["gross_work"]

@@ -80,7 +80,7 @@ class IndependentProgram:
             self.start,
             position=dict(zip(self.names, values[:count], strict=True)),
             speed=dict(zip(self.names, values[count:], strict=True)),
-            driven={name: driver.position + driver.speed * t for name, driver in drivers},
+            driven={name: driver.clock_start + driver.clock_rate * t for name, driver in drivers},
             mode=mode,
             impact_rate=impact_rate,
         )

@@ -1,0 +1,56 @@
+"""A linear torsion spring and a viscous damper between two bodies."""
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
+from jointplay.solver.quantities.units import Angle, Rule
+
+
+class TorsionSpring(ForceElement):
+    """M = -k (φ - φ_0) - c dφ/dt, on the second point's body; its opposite acts on the first's.
+
+    φ is the angle of the second point's body less that of the first's (rad), of which whole turns
+    count, φ_0 the free angle, k the stiffness, c the damping.
+
+    Assumes a massless element whose moment depends on its own angle alone; where the points are
+    does not matter. Fails for springs wound so far that their coils touch.
+
+    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4 (the coefficients are
+    those of any textbook; the equation's number is not yet checked).
+    """
+
+    type: Literal["torsion-spring"]
+    stiffness: Annotated[
+        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N m/rad", "structural": [0.0]})
+    ] = 0.0
+    damping: Annotated[
+        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N m s/rad", "structural": [0.0]})
+    ] = 0.0
+    free_angle: Angle = 0.0
+    rules: ClassVar[tuple[Rule, ...]] = (
+        Rule(
+            "stiffness",
+            lambda element: (element.stiffness == 0.0) & (element.damping == 0.0),
+            lambda _element: "Without stiffness and damping there is no moment; give one of them.",
+        ),
+    )
+    channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
+        ("moment", "N m", "moment on the second point's body"),
+        ("angle", "rad", "angle of the second body less that of the first"),
+        ("rate", "rad/s", "rate of the angle"),
+    )
+
+    def effect(self, ends: Ends) -> Effect:
+        """Return the moment, stored energy k (φ - φ_0)² / 2 and loss c (dφ/dt)²."""
+        angle, rate = ends.angles[1] - ends.angles[0], ends.spins[1] - ends.spins[0]
+        twist = angle - self.free_angle
+        moment = -(self.stiffness * twist + self.damping * rate)
+        return Effect(
+            (0.0, 0.0),
+            {"moment": moment, "angle": angle, "rate": rate},
+            stored=0.5 * (self.stiffness * (twist * twist)),
+            loss=self.damping * (rate * rate),
+            moment=moment,
+        )

@@ -1,0 +1,43 @@
+"""Force elements whose strength varies: with time, a driver's position, or how points lie."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from jointplay.solver.laws.force.law import Ends, ForceElement, Over
+from jointplay.solver.laws.function import FUNCTIONS, Function
+from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit
+
+TIME = Over()
+"""What an element varies with where nothing else is said."""
+
+
+class Varying(ForceElement):
+    """An element whose strength is a number times `course`, a function of what `over` says.
+
+    Without `over` that is time. With `only` it acts while that rises, or falls: in full from the
+    rate `full_rate` on, by a smooth step between rest and that.
+    """
+
+    course: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)] | None = None
+    over: Over | None = None
+    only: Literal["rising", "falling"] | None = None
+    full_rate: Annotated[
+        float, Field(gt=0.0, le=1e6, json_schema_extra={"unit": "unit of `over` per s"})
+    ] = 1e-3
+
+    def follows(self) -> Over | None:
+        """Return what it is a function of, if it varies."""
+        varies = self.course is not None or self.only is not None
+        return (self.over or TIME) if varies else None
+
+    def varied(self, strength: Scalar, ends: Ends) -> Scalar:
+        """Return a strength times what it varies by."""
+        if self.course is not None:
+            strength = strength * self.course.at(ends.argument).value
+        if self.only is not None:
+            rate = ends.argument_rate if self.only == "rising" else -ends.argument_rate
+            u = clamp_to_unit(rate / self.full_rate)
+            strength = strength * (u * u * (3.0 - 2.0 * u))
+        return strength

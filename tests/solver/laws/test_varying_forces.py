@@ -1,0 +1,233 @@
+"""Forces that vary, motors and torsion springs: closed forms, SciPy, ledger, what is refused."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene.periods import common_period
+from tests.solver.completed_runs import Run, run
+from tests.solver.driven_motions import carried, function
+from tests.solver.mechanics.test_mechanics import assert_formulations_agree
+from tests.solver.readable_mechanics import at_start, scene_of
+
+SINE = {"type": "sinusoidal", "amplitude": 1.0, "frequency": 3.0}
+BUMP = {
+    "type": "table",
+    "knots": [-2.0, 0.0, 0.5, 1.0, 2.0],
+    "values": [0.0, 1.0, 3.0, 2.0, 0.0],
+    "outside": "held",
+}
+DRIVE = {"type": "sinusoidal", "amplitude": 0.7, "frequency": 5.0, "phase": 0.4}
+
+
+def laden() -> dict[str, Any]:
+    """Return a pendulum on a moving crank with every kind of element between them."""
+    scene = carried(DRIVE)
+    scene["ground"]["points"]["W"] = [1.0, 0.3]
+    pair = {"first": "carrier.O", "second": "bob.P"}
+    force, torque = {"type": "force", "magnitude": 3.0}, {"type": "torque", "moment": 2.0}
+    scene["forces"] = {
+        "push": force
+        | pair
+        | {"direction": [1.0, 2.0], "axes": "second", "course": BUMP}
+        | {"over": {"quantity": "y", "first": "ground.W"}, "only": "falling", "full_rate": 0.5},
+        "pull": force | pair | {"direction": [1.0, -1.0], "axes": "first"},
+        "load": torque | pair | {"course": BUMP, "over": {"quantity": "angle"}},
+        "wave": torque | pair | {"course": SINE},
+        "far": torque | pair | {"course": BUMP, "over": {"quantity": "distance"}},
+        "brake": force
+        | pair
+        | {"direction": [0.0, 1.0], "course": BUMP}
+        | {"over": {"quantity": "driver", "driver": "motor", "rate": True}},
+        "coil": {"type": "torsion-spring", "stiffness": 4.0, "damping": 0.3} | pair,
+        "drive": {"type": "motor", "stall_torque": 1.0, "no_load_speed": 20.0} | pair,
+    }
+    return scene
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_both_formulations_agree_and_power_goes_where_the_ledger_says(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    start = at_start(scene_of(laden()))
+    instant = replace(
+        start,
+        position={name: random.normal() for name in start.position},
+        speed={name: random.normal() for name in start.speed},
+        driven={name: random.normal() for name in start.driven},
+    )
+    assert_formulations_agree(instant)
+    motion = instant.reduced()
+    kinetic_power = 0.0
+    for name, body in motion.bodies.items():
+        part = instant.scene.bodies[name]
+        kinetic_power += part.mass * float(np.dot(body.velocity, body.acceleration))
+        kinetic_power -= part.mass * float(np.dot(body.velocity, instant.scene.gravity))
+        kinetic_power += part.inertia * body.spin * body.angular_acceleration
+    put_in = motion.driver_effort["motor"] * motion.driver_speed["motor"]
+    taken = sum(element.power for element in motion.forces.elements.values())
+    # rounding of a dozen terms of some ten watts
+    assert kinetic_power == pytest.approx(put_in - taken, abs=1e-9)
+
+
+def test_the_period_is_that_of_driver_and_force_together() -> None:
+    # 5 and 3 rad/s repeat together after 2 pi
+    assert common_period(scene_of(laden())).seconds == pytest.approx(2.0 * np.pi, rel=1e-12)
+    scene = laden()
+    scene["forces"]["wave"]["course"] = BUMP
+    assert "force 'wave' never repeats" in common_period(scene_of(scene)).note
+
+
+INERTIA, STALL, NO_LOAD = 0.02, 1.5, 60.0
+STIFFNESS, MASS, FORCE = 0.8, 2.0, 5.0
+PRESS = {
+    "type": "table",
+    "knots": [-0.4, -0.2, -0.1, 0.0],
+    "values": [1.0, 0.9, 0.3, 0.0],
+    "between": "monotone",
+    "outside": "held",
+}
+
+
+def workshop() -> dict[str, Any]:
+    """Return a motor with a flywheel, a wheel on a coil, a shaken block, a ram that presses."""
+    wheel = {"mass": 1.0, "inertia": INERTIA, "points": {"O": [0.0, 0.0]}}
+    block = {"mass": MASS, "inertia": 1.0, "points": {"O": [0.0, 0.0]}}
+
+    def pin(body: str) -> dict[str, Any]:
+        return {"type": "revolute", "bearing": "ground.O", "journal": f"{body}.O"}
+
+    def slide(body: str, axis: list[float]) -> dict[str, Any]:
+        ends = {"guide": "ground.O", "slider": f"{body}.O"}
+        return {"type": "prismatic", "axis": axis} | ends
+
+    def on(body: str) -> dict[str, str]:
+        return {"first": "ground.O", "second": f"{body}.O"}
+
+    return {
+        "name": "workshop",
+        "gravity": [0.0, -9.81],
+        "ground": {"points": {"O": [0.0, 0.0]}},
+        "bodies": {"rotor": wheel, "balance": wheel, "block": block, "ram": block},
+        "joints": {
+            "a": pin("rotor"),
+            "b": pin("balance"),
+            "c": slide("block", [1.0, 0.0]),
+            "d": slide("ram", [0.0, 1.0]),
+        },
+        "forces": {
+            "motor": {"type": "motor", "stall_torque": STALL, "no_load_speed": NO_LOAD}
+            | on("rotor"),
+            "coil": {"type": "torsion-spring", "stiffness": STIFFNESS, "free_angle": 0.3}
+            | on("balance"),
+            "shaker": {"type": "force", "magnitude": FORCE, "direction": [2.0, 0.0]}
+            | {"course": SINE}
+            | on("block"),
+            "spring": {"type": "force", "magnitude": 120.0, "direction": [0.0, 1.0]}
+            | {"course": {"type": "polynomial", "coefficients": [0.0, -1.0]}}
+            | {"over": {"quantity": "y"}}
+            | on("ram"),
+            "punch": {"type": "force", "magnitude": 40.0, "direction": [0.0, 1.0]}
+            | {"course": PRESS, "over": {"quantity": "y"}, "only": "falling", "full_rate": 0.1}
+            | on("ram"),
+        },
+    }
+
+
+@pytest.fixture(scope="module")
+def working() -> Run:
+    return run(workshop(), 3.0, tolerance=1e-9, output_step=0.05)
+
+
+def test_a_motor_brings_its_flywheel_to_its_speed_without_load(working: Run) -> None:
+    fading = np.exp(-working.time * STALL / (INERTIA * NO_LOAD))
+    # tolerance 1e-9 a step of local error, relative to some 60 rad/s, over some thousand steps
+    np.testing.assert_allclose(working["rotor.omega"], NO_LOAD * (1.0 - fading), atol=1e-5)
+    np.testing.assert_allclose(working["motor.moment"], STALL * fading, atol=1e-6)
+
+
+def test_a_torsion_spring_swings_its_wheel(working: Run) -> None:
+    swing = 0.3 * (1.0 - np.cos(np.sqrt(STIFFNESS / INERTIA) * working.time))
+    np.testing.assert_allclose(working["balance.theta"], swing, atol=1e-6)
+    np.testing.assert_allclose(working["coil.moment"], STIFFNESS * (0.3 - swing), atol=1e-6)
+
+
+def test_a_force_of_time_shakes_its_block(working: Run) -> None:
+    t, w = working.time, 3.0
+    expected = FORCE / MASS * (t / w - np.sin(w * t) / w**2)
+    np.testing.assert_allclose(working["block.x"], expected, atol=1e-6)
+
+
+def test_a_punch_presses_on_the_way_down_alone(working: Run) -> None:
+    course = function(PRESS)
+
+    def slope(_t: float, state: np.ndarray) -> list[float]:
+        y, v = state
+        share = min(max(-v / 0.1, 0.0), 1.0)
+        punch = 40.0 * course.at(float(y)).value * share * share * (3.0 - 2.0 * share)
+        return [v, -9.81 + (punch - 120.0 * y) / MASS]
+
+    found = solve_ivp(slope, (0.0, 3.0), [0.0, 0.0], "DOP853", working.time, rtol=1e-11, atol=1e-13)
+    # both integrators pass the kinks of the table and of the gate within their own errors
+    np.testing.assert_allclose(working["ram.y"], found.y[0], atol=1e-6)
+    assert working["punch.force"].max() > 5.0
+    assert np.all(working["punch.force"][working["ram.vy"] > 0.0] == 0.0)
+
+
+def test_works_of_all_elements_are_in_the_ledger(working: Run) -> None:
+    energy = working.statistics["energy"]
+    assert abs(energy["residual"]) <= 1e-6 * energy["gross_work"]
+    twist = working["balance.theta"][-1] - 0.3
+    change = 0.5 * STIFFNESS * (twist**2 - 0.3**2)
+    assert energy["stored_change"] == pytest.approx(change, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("force", "place", "words"),
+    [
+        ({"direction": [0.0, 0.0]}, "/direction", "no length"),
+        ({"course": {"type": "cosine"}}, "/course/type", "'sinusoidal'"),
+        ({"course": BUMP | {"values": [1.0]}}, "/course/values", "at least 2"),
+        ({"course": BUMP | {"knots": [0.0, 0.0, 1.0, 2.0, 3.0]}}, "/course/knots", "Knot 1"),
+        ({"only": "falling"}, "/only", "while something falls"),
+        ({"over": {"quantity": "y", "first": "ground.X"}, "course": BUMP}, "/over/first", "point"),
+        ({"over": {"driver": "motor"}, "course": SINE}, "/over/driver", "no 'driver'"),
+        ({"over": {"quantity": "driver"}, "course": SINE}, "/over/driver", "Name the driver"),
+        (
+            {"over": {"quantity": "driver", "driver": "moto"}, "course": SINE},
+            "/over/driver",
+            "'motor'",
+        ),
+        (
+            {"over": {"quantity": "driver", "driver": "motor"}, "course": BUMP},
+            "/course",
+            "repeats after inf",
+        ),
+        ({"over": {"rate": True}, "course": SINE}, "/over/rate", "Time has no rate"),
+    ],
+)
+def test_what_cannot_vary_so_is_refused_at_its_field(
+    force: dict[str, Any], place: str, words: str
+) -> None:
+    scene = carried(DRIVE)
+    given = {"type": "force", "first": "ground.O", "second": "bob.P", "magnitude": 1.0}
+    scene["forces"] = {"push": given | {"direction": [1.0, 0.0]} | force}
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    (problem,) = refused.value.problems
+    assert problem.pointer == f"/scene/forces/push{place}"
+    assert words in problem.detail
+
+
+def test_a_motor_that_drives_against_its_speed_is_refused() -> None:
+    scene = workshop()
+    scene["forces"]["motor"]["no_load_speed"] = -60.0
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 1.0})
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/forces/motor/no_load_speed"
+    assert "one sign" in problem.detail
