@@ -24,7 +24,10 @@ from numba import float64, int64, njit, void
 from jointplay.solver.kernels.emit.straight_line import straight_line
 
 options = {"cache": True, "error_model": "numpy", "fastmath": {"contract", "nsz", "arcp"}}
+inner = options | {"no_cpython_wrapper": True}
 '''
+"""A fifth of compilation is wrappers for calls from Python: `inner` functions have none, and such a
+call would be one of a null pointer."""
 DECORATOR = "@njit(void(float64[:, ::1]), **options)"
 RETURNING = "@njit(float64(float64[:, ::1]), **options)"
 
@@ -121,8 +124,13 @@ class Tape:
         for (name, _), value in zip(outputs, values, strict=True):
             self.lines.append(f"store {self.layout[name]}+ {value}")
 
-    def function(self, name: str, over: str = "lanes", rows: int = 0) -> str:
-        """Return the source of a function; see `straight_line` for what it goes over."""
+    def function(
+        self, name: str, over: str = "lanes", rows: int = 0, *, inner: bool = False
+    ) -> str:
+        """Return the source of a function; see `straight_line` for what it goes over.
+
+        Python may call those that go over lanes, but for `inner` ones.
+        """
         require_wanted()
         types, arguments, of_tape = SIGNATURES[over]
         if self.lines[-1].startswith("return"):
@@ -133,7 +141,7 @@ class Tape:
             f'""", "{over}", {rows})',
             "",
             "",
-            f"@njit({types}, **options)",
+            f"@njit({types}, **{'inner' if inner or over != 'lanes' else 'options'})",
             f"def {name}({arguments}):",
             f"    {'' if types.startswith('void') else 'return '}{name}_tape({of_tape})",
         ]
@@ -181,11 +189,13 @@ def lane_function(
     layout: Layout,
     fixed: FixedNodes | None = None,
     known: Known = NONE,
+    *,
+    inner: bool = False,
 ) -> str:
     """Return the source of a function W -> W that evaluates `outputs`."""
     tape = Tape(layout, fixed, known)
     tape.store(outputs)
-    return tape.function(name)
+    return tape.function(name, inner=inner)
 
 
 def nothing(name: str) -> str:

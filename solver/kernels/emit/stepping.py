@@ -104,7 +104,7 @@ class StepRecorder:
         return "\n\n".join([*parts, self._take(energies, fixed)])
 
     def _function(self, name: str, outputs: Outputs) -> str:
-        return lane_function(name, outputs, self.layout)
+        return lane_function(name, outputs, self.layout, inner=True)
 
     def _steps(self) -> list[str]:
         """Return the sources of what an attempt calls beside the slopes, but for the judge."""

@@ -64,7 +64,7 @@ class TangentRecorder:
         outputs = [("passing_time", v("time"))]
         for i in range(self.states):
             outputs += [(f"passing{i}", v(f"y{i}")), (f"carried{i}", v(f"tangent{i}"))]
-        return lane_function("carry_0", outputs, self.layout)
+        return lane_function("carry_0", outputs, self.layout, inner=True)
 
     def _carry(self, s: int) -> str:
         """Stage s: the point that the base passes there, and the tangent carried there."""
@@ -83,7 +83,7 @@ class TangentRecorder:
             kept = "first_slope" if stage == 1 else "second_slope"
             outputs.append((f"carried{i}", begun + (0.5 * NODES[stage]) * v("tried") * slope))
             outputs.append((f"{kept}{i}", slope))
-        return lane_function(f"carry_{s}", outputs, self.layout)
+        return lane_function(f"carry_{s}", outputs, self.layout, inner=True)
 
     def _slope(self, i: int) -> Expression:
         """Slope of component i at the stage just evaluated: of a coordinate's, its speed's."""
@@ -110,7 +110,7 @@ class TangentRecorder:
         moved = [(f"tangent{i}", self._after_half(v(f"middle{i}"), i)) for i in range(self.states)]
         moved += [(f"kink_start{i}", v(f"kink_end{i}")) for i in range(MEMORY * self.kinks)]
         taken = [(name, select_positive(v("accept"), new, v(name))) for name, new in moved]
-        return lane_function("arrive", taken, self.layout)
+        return lane_function("arrive", taken, self.layout, inner=True)
 
 
 def _sum(weights: Sequence[float], terms: Sequence[Expression]) -> Expression:

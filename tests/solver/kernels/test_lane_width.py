@@ -88,6 +88,7 @@ def run(lanes: str, checkpoint: Path) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.long  # compiles the loop for the other width
 def test_four_lanes_and_eight_give_the_same_bits_and_take_each_others_checkpoints(
     tmp_path: Path,
 ) -> None:

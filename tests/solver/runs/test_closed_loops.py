@@ -149,7 +149,7 @@ def test_many_four_bars_swing_as_one_pendulum(count: int) -> None:
     assert gaps(found, count - 1) < 1e-9
 
 
-@pytest.mark.parametrize("count", [3, 5])
+@pytest.mark.parametrize("count", [3, pytest.param(5, marks=pytest.mark.long)])
 def test_redundant_cranks_carry_their_plate(count: int) -> None:
     found = run(parallel_cranks(count), 5.0, tolerance=1e-9, output_step=0.01)
     angle = parallel_cranks_angle(count, 5.0)
