@@ -139,7 +139,8 @@ def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags
                 _seen(start, places[0], columns),
                 _seen(scene.joints[name], places[1], columns),
             )
-            broken |= out_of_reach(*seen) | too_deep(*seen)
+            with np.errstate(all="ignore"):  # of numbers that are refused by themselves
+                broken |= out_of_reach(*seen) | too_deep(*seen)
     return broken
 
 

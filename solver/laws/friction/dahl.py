@@ -23,7 +23,7 @@ class Dahl(FrictionLaw):
 
     Assumes bristles that bend with the slip while apart, too. Fails to tell sticking from sliding:
     there is no static force above the kinetic one; under a load that swings, z drifts. Stiff where
-    σ_0 |v_t| / c_f is far above the rates of the mechanism: then choose the method `rodas`.
+    σ_0 |v_t| / c_f is far above the rates of the mechanism: then `auto` goes over to `rodas`.
 
     Source: Dahl 1968, The Aerospace Corporation TOR-0158(3107-18), scaled with the normal force as
     by Canudas de Wit and Tsiotras 1999, eqs 7-8.

@@ -22,7 +22,7 @@ class LuGre(Breakaway):
 
     Assumes bristles that bend with the slip while apart, too. Fails under a load that swings: z
     drifts. Large σ_1 may give energy at high speed. Stiff where σ_0 |v_t| / g is far above the
-    rates of the mechanism: then choose the method `rodas`.
+    rates of the mechanism: then `auto` goes over to `rodas`.
 
     Source: Canudas de Wit, Olsson, Astroem and Lischinsky 1995, IEEE Trans. Autom. Control 40:419;
     scaled with the normal force as by Canudas de Wit and Tsiotras 1999, eqs 7-8.

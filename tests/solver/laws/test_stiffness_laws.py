@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -204,3 +205,7 @@ def test_a_start_beyond_the_logarithm_is_refused_for_one_scene_and_for_columns()
     admitted = admit({"kind": "simulate", "scene": scene, "duration": 1e-3}).scene
     column = {place: np.array([6.9e-4, 8e-4])}
     assert ill_sized(admitted, column, 2).tolist() == [False, True]
+    width = {"/joints/bearing0/clearance/bearing_width": np.array([0.015, 0.0])}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not ill_sized(admitted, width, 2)[0]
