@@ -23,6 +23,8 @@ COMPILED_AT_LENGTH = {
     "n-four-bar",  # as the double four-bar, but longer
     "double-pendulum",
     "driven-pendulum",
+    "andrews-squeezer",
+    "jansen-leg",
 }
 """Their kernels take a minute together, and show little that those of the others do not."""
 

@@ -1,7 +1,7 @@
-"""`python -m jointplay.worker.warm`: compile the kernels of every preset, while an image is built.
+"""`python -m jointplay.worker.warm`: compile the kernels of presets, while an image is built.
 
-With ``--check`` nothing may be left to compile: it proves that the kernels of an image are used
-by the processor they run on.
+Of all that need no parameters, unless some are named. With ``--check`` nothing may be left to
+compile: it proves that the kernels of an image are used by the processor they run on.
 """
 
 import argparse
@@ -29,13 +29,23 @@ def warm(name: str) -> float:
     return time.perf_counter() - began
 
 
+def without_parameters() -> list[str]:
+    """Return the names of the presets of which nothing must be given."""
+    return [
+        name
+        for name in presets.names()
+        if not any(one.get("required") for one in presets.document(name)["parameters"].values())
+    ]
+
+
 def main() -> int:
-    """Warm every preset and say how long each took; 3 if a check finds something compiled."""
+    """Warm presets and say how long each took; 3 if a check finds something compiled."""
     parser = argparse.ArgumentParser(prog="python -m jointplay.worker.warm", description=__doc__)
     parser.add_argument("--check", action="store_true", help="fail if anything is compiled")
+    parser.add_argument("preset", nargs="*", help="names of presets")
     arguments = parser.parse_args()
     with install_recorder("numba:compile") as compiled:
-        for name in presets.names():
+        for name in arguments.preset or without_parameters():
             sys.stdout.write(f"{name}: {warm(name):.1f} s\n")
     new = {event.data["dispatcher"].__name__ for _, event in compiled.buffer}
     if arguments.check and new:

@@ -13,7 +13,11 @@ from typing import Any
 import pytest
 import yaml
 
+from jointplay.records.failure import InvalidInput
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene import presets
 from jointplay.storage.settings import Settings
+from jointplay.worker.warm import without_parameters
 
 ROOT = Path(__file__).resolve().parents[2]
 COMPOSE: dict[str, Any] = yaml.safe_load((ROOT / "docker-compose.yml").read_text())
@@ -80,11 +84,24 @@ def test_the_image_holds_every_package() -> None:
     assert all((ROOT / name).exists() for name in copied)
 
 
-def test_what_was_compiled_is_used() -> None:
-    warm = [sys.executable, "-m", "jointplay.worker.warm"]
+@pytest.mark.parametrize(
+    "names", [["pendulum", "seven-bar-press"], pytest.param([], marks=pytest.mark.long)]
+)
+def test_what_was_compiled_is_used(names: list[str]) -> None:
+    warm = [sys.executable, "-m", "jointplay.worker.warm", *names]
     subprocess.run(warm, check=True, capture_output=True, cwd=ROOT)
     checked = subprocess.run([*warm, "--check"], capture_output=True, text=True, cwd=ROOT)
     assert checked.returncode == 0, checked.stdout
+
+
+def test_presets_that_need_no_parameters_are_compiled() -> None:
+    for name in presets.names():
+        job = {"kind": "simulate", "scene": {"preset": name}, "duration": 1e-3}
+        if name in without_parameters():
+            admit(job)
+        else:
+            with pytest.raises(InvalidInput, match="must be given"):
+                admit(job)
 
 
 @pytest.mark.long
