@@ -64,15 +64,20 @@ def _onset(section: OnsetSection, checked: PlacedPoints) -> list[Problem]:
         return [Problem("/section/onset", unknown("joint", section.onset, joints))]
     for point, scene in checked.firsts.items():
         here = spanning_tree(scene).pairs
-        if section.onset not in here:
+        if section.onset in here:
+            continue
+        own = [pair for pair in here if pair.startswith(f"{section.onset}.")]
+        if own:
+            sentence = (
+                f"Joint '{section.onset}' has several contacts; take one of {', '.join(own)}."
+            )
+        else:
             there = f"; contacts begin in: {', '.join(here)}." if here else "."
-            return [
-                Problem(
-                    "/section/onset",
-                    f"Joint '{section.onset}' has no clearance at point {point}, so no"
-                    f" contact begins there{there}",
-                )
-            ]
+            sentence = (
+                f"Joint '{section.onset}' has no clearance at point {point}, so no contact begins"
+                f" there{there}"
+            )
+        return [Problem("/section/onset", sentence)]
     return []
 
 

@@ -24,6 +24,7 @@ def values(**changes: Any) -> dict[str, Any]:
     return {"from": 1e-4, "to": 1e-3, "count": 10, **changes}
 
 
+LOOSE_GUIDE = {"preset": "slider-crank", "parameters": {"clearance_guide": 1e-4}}
 PENDULUM = {"preset": "pendulum"}
 B, S, P, E, A = BIFURCATION, {**SWEEP}, POINCARE, ENSEMBLE, ACCURACY_STUDY
 LISTED = {**SWEEP, "grid": None}
@@ -145,6 +146,12 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         {"section": {"onset": "C2"}},
         "/section/onset",
         "contacts begin in: A, B",
+    ),
+    "onset at a guide of four corners": (
+        {**P, "scene": LOOSE_GUIDE},
+        {"section": {"onset": "guide"}},
+        "/section/onset",
+        "take one of guide.corner_1, guide.corner_2, guide.corner_3, guide.corner_4",
     ),
     "crossing of no channel": (
         P,
