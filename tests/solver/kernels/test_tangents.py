@@ -115,6 +115,10 @@ def contact_of(bundle: Bundle) -> bool:
         ("seven-bar-press", CASE_3, True, 1e-6),
         ("seven-bar-press", CASE_3, False, 1e-4),
         ("slider-crank", {}, True, 1e-7),
+        pytest.param(
+            *("slider-crank", {"clearance": 0.0, "clearance_guide": 2e-4}, True, 1e-7),
+            marks=pytest.mark.long,
+        ),
         ("bouncing-journal", {"velocity_x": 0.1, "spin": 3.0}, True, 1e-6),
         ("pendulum", {}, False, 1e-2),
     ],
