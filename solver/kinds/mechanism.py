@@ -19,6 +19,7 @@ from jointplay.solver.mechanics.assembly import (
     shortest_link,
 )
 from jointplay.solver.mechanics.branches import MOST_BODIES, Branches, branches
+from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.misfit import fighting_drivers, opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
@@ -122,7 +123,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
         )
         raise InvalidInput.at(f"/scene/forces/{name}", sentence)
     pairs = [(force.first, force.second) for force in scene.forces.values()]
-    between = (*tree.closing, *tree.play)
+    between = [name for name in (*tree.closing, *tree.play) if name in scene.joints]
     pairs += [(here, there) for (_, here), (_, there) in (ends(scene.joints[n]) for n in between)]
     held = {branch.parent for branch in tree.branches} | {_body(p) for pair in pairs for p in pair}
     adrift = [b.body for b in tree.branches if b.kind == "free" and b.body not in held]
@@ -136,11 +137,30 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
                 for body in adrift
             ]
         )
+    _check_gears(scene, tree, assembly)
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
         _check_redundant(scene, assembly)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
         check_length(scene, tree, formulation)
     return tree, assembly
+
+
+def _check_gears(scene: Scene, tree: Tree, assembly: Assembly) -> None:
+    """Refuse (InvalidInput) a gear of a body that drivers turn: its angle is known up to turns."""
+    turned: set[str] = set()
+    for branch in tree.branches:
+        prescribed = branch.turned_by or (branch.driver and branch.kind == "revolute")
+        own = f"{branch.body}.theta" in tree.coordinates
+        if not own and (prescribed or branch.parent in turned):
+            turned.add(branch.body)
+    for name, gear in scene.gears.items():
+        bodies = {body for _, body in coupled(scene, gear)}
+        if not assembly.freedom or bodies & turned:
+            raise InvalidInput.at(
+                f"/scene/gears/{name}",
+                f"Drivers turn what the gear '{name}' couples ({', '.join(sorted(bodies))}); leave"
+                " the gear out and drive both joints, or turn it by a torque instead.",
+            )
 
 
 def _redundant_while_held(scene: Scene, assembly: Assembly) -> bool:

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.mechanics.frames import Pair, unit
+from jointplay.solver.mechanics.frames import WORLD, Pair, unit
+from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.channels import HOLDING
@@ -161,7 +162,19 @@ class AbsoluteMechanism:
             turning = still._replace(body=i, angle=q[3 * i + 2], spin=v[3 * i + 2])
             motion = self.numbers.drivers[name].at(driven[name])
             rows.append(_angle(name, still, turning, motion))
-        return rows
+        return rows + [self._gear(name, q, v) for name in self.numbers.gears]
+
+    def _gear(self, name: str, q: Scalars, v: Scalars) -> Row:
+        """α_2 - ratio α_1 - offset = 0."""
+        gear = self.numbers.gears[name]
+        jacobian: dict[int, Scalar] = {}
+        value, rate = -gear.offset, 0.0
+        for factor, body in coupled(self.numbers, gear):
+            if body != WORLD:
+                k = 3 * self.bodies.index(body) + 2
+                jacobian[k] = jacobian.get(k, 0.0) + factor
+                value, rate = value + factor * q[k], rate + factor * v[k]
+        return Row(name, "angle", value, jacobian, rate, 0.0)
 
     def _driver(self, name: str, driven: Mapping[str, Scalar]) -> Derivatives | None:
         """Return the prescribed motion of a joint, if it is driven."""
@@ -209,6 +222,9 @@ class AbsoluteMechanism:
         for row, multiplier in zip(rows, multipliers, strict=True):
             if row.joint in self.scene.drivers:
                 efforts[row.joint] = -multiplier
+                continue
+            if row.joint in self.scene.gears:
+                moments[row.joint] = -multiplier
                 continue
             joint = self.scene.joints[row.joint]
             (_, first), (_, second) = ends(joint)

@@ -27,6 +27,7 @@ GEOMETRY: Final[Any] = {
     "ground": True,
     "bodies": {"__all__": {"points"}},
     "joints": True,
+    "gears": True,
     "drivers": True,
     "start": True,
 }

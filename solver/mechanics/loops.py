@@ -21,6 +21,7 @@ from jointplay.solver.mechanics.elimination import (
     solve_symmetric,
 )
 from jointplay.solver.mechanics.frames import FrameVector, Pair, cross, unit
+from jointplay.solver.mechanics.gears import coupled, sides
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.play import Interaction
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
@@ -124,6 +125,9 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
     drivers = {driver.joint: name for name, driver in numbers.drivers.items()}
     rows: list[ClosingRow] = []
     for name in kinematics.tree.closing:
+        if name in numbers.gears:
+            rows.append(_gear_row(kinematics, name))
+            continue
         joint, between = numbers.joints[name], _Between(kinematics, name)
         motion = kinematics.moved[drivers[name]] if name in drivers else None
         held = Derivatives(getattr(joint, "angle", 0.0), 0.0, 0.0)
@@ -144,13 +148,30 @@ def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
     return rows
 
 
+def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
+    """Return α_2 - ratio α_1 - offset = 0."""
+    gear, names = kinematics.numbers.gears[name], kinematics.tree.coordinates
+    partials: dict[str, Scalar] = {}
+    value: Scalar = -gear.offset
+    rate: Scalar = 0.0
+    bias: Scalar = 0.0
+    for factor, body in coupled(kinematics.numbers, gear):
+        frame = kinematics.carried[body]
+        value, rate = value + factor * frame.angle, rate + factor * frame.spin
+        bias = bias + factor * frame.spin_bias
+        for coordinate, share in frame.spin_partials.items():
+            partials[coordinate] = partials.get(coordinate, 0.0) + factor * share
+    found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
+    return ClosingRow(name, "angle", value, rate, found, bias)
+
+
 def _axis(kinematics: Kinematics, guide: str, joint: Prismatic | PinInSlot) -> FrameVector:
     return FrameVector(kinematics.orientations, {guide: unit(joint.axis)})
 
 
 @dataclass(frozen=True)
 class Exerted:
-    """Action of cut joints: by joint, moments (N m) of those that hold an angle, by driver.
+    """Action of cut joints and of gears: by name, moments (N m) of what holds an angle, by driver.
 
     Moments are those on the second body, about its point; efforts are N m or N.
     """
@@ -158,6 +179,8 @@ class Exerted:
     interactions: dict[str, Interaction] = field(default_factory=dict)
     moments: dict[str, Scalar] = field(default_factory=dict)
     efforts: dict[str, Scalar] = field(default_factory=dict)
+    couples: list[Interaction] = field(default_factory=list)
+    """Moments that gears put on the bodies of their joints."""
 
 
 class Loops:
@@ -205,6 +228,12 @@ class Loops:
         drivers = {driver.joint: name for name, driver in k.numbers.drivers.items()}
         found = Exerted()
         for name, parts in by_part.items():
+            if name in k.numbers.gears:
+                moment = found.moments[name] = parts["angle"]
+                for factor, journal, bearing in sides(k.numbers, k.numbers.gears[name]):
+                    turn = factor * moment
+                    found.couples.append(Interaction(bearing, journal, (0.0, 0.0), -turn, turn))
+                continue
             joint, between = k.numbers.joints[name], _Between(k, name)
             (_, here), (_, there) = ends(joint)
             turning = parts.get("angle", 0.0)

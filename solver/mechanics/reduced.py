@@ -73,7 +73,7 @@ class ReducedMechanism:
             loops = self.loops()
             accelerations, multipliers = loops.accelerations(self._generalised(loads))
             cut = loops.exerted(multipliers)
-            acting = [*forces.interactions, *cut.interactions.values()]
+            acting = [*forces.interactions, *cut.interactions.values(), *cut.couples]
             loads = _about_references(self.kinematics, acting)
         elif known is None:
             accelerations = self._accelerations(loads)

@@ -38,7 +38,10 @@ class Branch:
 
 @dataclass(frozen=True)
 class Tree:
-    """Branches from the ground outwards, joints that close loops, joints with play, their pairs."""
+    """Branches from the ground outwards, what closes loops, joints with play, their pairs.
+
+    Loops are closed by joints, and by gears.
+    """
 
     branches: tuple[Branch, ...]
     closing: tuple[str, ...]
@@ -110,7 +113,7 @@ def spanning_tree(scene: Scene) -> Tree:
         turned_by = turning.get(root)
         freedom = (f"{root}.x", f"{root}.y", *([] if turned_by else [f"{root}.theta"]))
         branches.append(Branch(root, "ground", "", "free", "", "", True, freedom, None, turned_by))
-    closing = tuple(name for name in ideal if name not in used)
+    closing = (*(name for name in ideal if name not in used), *scene.gears)
     play = tuple(name for name, joint in scene.joints.items() if has_play(joint))
     return Tree(tuple(branches), closing, play, tuple(contact_pairs(scene)))
 

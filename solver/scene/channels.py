@@ -29,6 +29,7 @@ JOINT = (
 HOLDING = ("prismatic", "fixed")
 """Types of joints that let no angle change."""
 HELD = (("moment", "N m", "moment on the joint's second body (slider, part) about its point"),)
+GEAR = (("moment", "N m", "moment on the journal's body of the second joint"),)
 PLAY = (
     ("eccentricity_x", "m", "journal centre less bearing centre, x"),
     ("eccentricity_y", "m", "journal centre less bearing centre, y"),
@@ -78,6 +79,8 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
             states = inner.get(pair.name, ())
             add(pair.name, "joint", PLAY if pair.is_journal else WALL)
             add(pair.name, "joint", tuple((s.name, s.unit, s.long_name) for s in states))
+    for name in scene.gears:
+        add(name, "gear", GEAR)
     for name, driver in scene.drivers.items():
         turning = turns(scene, driver)
         kind, unit = ("torque", "N m") if turning else ("force", "N")

@@ -137,6 +137,20 @@ class Fixed(Strict):
     angle: Angle = 0.0
 
 
+class Gear(Strict):
+    """Gears or a belt: the second joint's angle is `ratio` times the first's, plus `offset`.
+
+    Both joints are revolute, not driven; an angle is the journal body's less the bearing body's. An
+    external pair of wheels with radii R_1 and R_2 has the ratio -R_1 / R_2, a belt or an internal
+    one R_1 / R_2.
+    """
+
+    first: Name
+    second: Name
+    ratio: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "1"})]
+    offset: Angle = 0.0
+
+
 Joint = Annotated[Revolute | Prismatic | PinInSlot | Fixed, Field(discriminator="type")]
 
 
@@ -313,6 +327,7 @@ class Scene(Strict):
     ground: Ground = Ground()
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
     joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
+    gears: Annotated[dict[Name, Gear], Field(max_length=64)] = {}
     drivers: Annotated[dict[Name, AnyDriver], Field(max_length=64)] = {}
     forces: Annotated[dict[Name, Element], Field(max_length=64)] = {}
     start: Start = Start()

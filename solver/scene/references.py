@@ -10,6 +10,7 @@ from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.scene.document import (
     Driver,
     Fixed,
+    Gear,
     Joint,
     MovingDriver,
     PinInSlot,
@@ -74,6 +75,8 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
             yield from _points(scene, f"/forces/{name}/over", other)
     yield from varying_problems(scene)
     yield from size_problems(scene)
+    for name, gear in scene.gears.items():
+        yield from _gear(scene, f"/gears/{name}", gear)
     for name, driver in scene.drivers.items():
         yield from _driver(scene, name, driver)
     doubled = Counter(driver.joint for driver in scene.drivers.values() if driver.joint)
@@ -128,6 +131,7 @@ def _names(scene: Scene) -> Iterator[Problem]:
     sections: dict[str, Collection[str]] = {
         "bodies": scene.bodies,
         "joints": scene.joints,
+        "gears": scene.gears,
         "drivers": scene.drivers,
         "forces": scene.forces,
     }
@@ -139,8 +143,8 @@ def _names(scene: Scene) -> Iterator[Problem]:
             elif used[name] > 1:
                 yield Problem(
                     f"/{section}/{name}",
-                    f"The name '{name}' is used twice; bodies, joints, drivers and forces have"
-                    " names of their own.",
+                    f"The name '{name}' is used twice; bodies, joints, gears, drivers and forces"
+                    " have names of their own.",
                 )
     outputs = Counter(output.name for output in scene.outputs)
     for index, output in enumerate(scene.outputs):
@@ -169,6 +173,28 @@ def _points(
     if bodies[0] == bodies[1]:
         kind = "a joint joins" if place.startswith("/joints") else "a force acts between"
         yield Problem(place, f"Both ends are on '{bodies[0]}'; {kind} two bodies.")
+
+
+def _gear(scene: Scene, place: str, gear: Gear) -> Iterator[Problem]:
+    driven = {driver.joint: name for name, driver in scene.drivers.items()}
+    for field, name in (("first", gear.first), ("second", gear.second)):
+        joint = scene.joints.get(name)
+        if joint is None:
+            yield Problem(f"{place}/{field}", unknown("joint", name, scene.joints))
+        elif not isinstance(joint, Revolute):
+            yield Problem(
+                f"{place}/{field}",
+                f"The bodies of joint '{name}' do not turn against each other: it is"
+                f" {joint.type}; couple revolute joints.",
+            )
+        elif name in driven:
+            yield Problem(
+                f"{place}/{field}",
+                f"Joint '{name}' is driven by '{driven[name]}' already; leave the gear out and"
+                " drive the other joint, too.",
+            )
+    if gear.first == gear.second:
+        yield Problem(f"{place}/second", f"A gear couples two joints, and '{gear.second}' is one.")
 
 
 def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:

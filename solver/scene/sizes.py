@@ -37,6 +37,13 @@ GUIDE = (
         lambda _joint: "The axis has no direction; give e.g. [1, 0].",
     ),
 )
+GEAR = (
+    Rule(
+        "ratio",
+        lambda gear: gear.ratio == 0.0,
+        lambda gear: "A ratio of 0 lets the second joint stand still; weld it, or give a ratio.",
+    ),
+)
 WALL = (
     Rule(
         "contact",
@@ -158,6 +165,8 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
             yield f"/drivers/{name}/motion", driver.motion.rules, driver.motion
+    for name, gear in scene.gears.items():
+        yield f"/gears/{name}", GEAR, gear
     for name, element in scene.forces.items():
         yield f"/forces/{name}", element.rules, element
         if isinstance(element, Varying) and element.course is not None:

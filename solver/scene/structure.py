@@ -41,6 +41,7 @@ def _structure(scene: Scene) -> Hashable:
         tuple(
             (name, tuple(s.name for s in states)) for name, states in inner_states(scene).items()
         ),
+        tuple((name, gear.first, gear.second) for name, gear in scene.gears.items()),
         tuple((name, driver.joint, driver.body) for name, driver in scene.drivers.items()),
         tuple((name, e.type, e.first, e.second) for name, e in scene.forces.items()),
         tuple((o.name, o.channel, o.factor, o.offset, o.help) for o in scene.outputs),
