@@ -5,9 +5,8 @@ pushed where the point is, so that the energy ledger closes: with r and d from t
 guide's points to there, the force f = -F_n n + F_t t on the slider has the moments r x f about the
 slider's point and -(d x f) about the guide's. A pin's point is where it is nearest to the wall.
 
-Source: Flores, Leine and Glocker 2008, Multibody System Dynamics, "Modeling and analysis of planar
-rigid multibody systems with translational clearance joints based on the non-smooth dynamics
-approach" (gaps of the corners; equation numbers not yet checked).
+Source: Flores, Leine and Glocker 2010, Multibody System Dynamics 23:165 (gaps of the corners;
+equation numbers not yet checked).
 """
 
 import math
