@@ -1,6 +1,7 @@
 """A slider in a guide with play: impacts on the walls against closed forms, and the ledger."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -112,15 +113,21 @@ def test_a_pin_without_play_turns_the_rocker_as_the_drawing_says() -> None:
     np.testing.assert_allclose(along, 0.0, atol=1e-10)
 
 
-LOOKS = 100_001
+DURATION = 0.02
+TIME = np.linspace(0.0, DURATION, 100_001)
 THROWS = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 4))
 
 
-def gaps(time: Floats, clearance: float, aside: float, spin: float) -> Floats:
-    """Return penetrations of the corners of a block in free flight, (4, times) m."""
-    tilt, along, side = spin * time, np.array([1, -1, -1, 1]), np.array([1, 1, -1, -1])
-    ends = along[:, None] * LENGTH / 2 * np.sin(tilt) + side[:, None] * HEIGHT / 2 * np.cos(tilt)
-    return side[:, None] * (aside * time + ends) - HEIGHT / 2 - clearance
+def gaps(time: Floats, clearance: float, velocity: Floats, spin: float, speed: float) -> Floats:
+    """Return penetrations of the corners of a block in free flight, (4, times) m.
+
+    The guide turns at a speed, rad/s, about where the block starts.
+    """
+    turned, tilt = speed * time, (spin - speed) * time
+    along, side = np.array([[1], [-1], [-1], [1]]), np.array([[1], [1], [-1], [-1]])
+    ends = along * LENGTH / 2 * np.sin(tilt) + side * HEIGHT / 2 * np.cos(tilt)
+    aside = time * (velocity[1] * np.cos(turned) - velocity[0] * np.sin(turned))
+    return np.asarray(side * (aside + ends) - HEIGHT / 2 - clearance, np.float64)
 
 
 @pytest.mark.parametrize(
@@ -130,13 +137,30 @@ def test_a_tumbling_block_first_touches_where_its_corners_do(draw: int) -> None:
     x, aside, spin, size = THROWS[draw] * [1.0, 1.0, 40.0, 1.0]
     clearance = 10.0 ** (size - 3.0)  # 0.1 to 10 mm
     flight = thrown(block(wall_clearance=clearance, friction=SMOOTH), x, aside, spin)
-    found = run(flight, 0.02).impacts
-    time = np.linspace(0.0, 0.02, LOOKS)
-    closed = np.argwhere(gaps(time, clearance, aside, spin).T > 0.0)
+    check_first(flight, gaps(TIME, clearance, np.array([x, aside]), spin, 0.0))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("draw", range(len(THROWS)))
+def test_a_block_in_a_guide_that_turns_first_touches_where_its_corners_do(draw: int) -> None:
+    x, aside, spin, size = THROWS[draw] * [1.0, 1.0, 40.0, 1.0]
+    clearance, speed = 10.0 ** (size - 3.0), 60.0 * x
+    flight = thrown(block(wall_clearance=clearance, friction=SMOOTH), x, aside, spin)
+    flight["bodies"]["link"] = {"mass": 1.0, "inertia": 1.0, "points": {"O": [0.0, 0.0]}}
+    flight["joints"]["guide"]["guide"] = "link.O"
+    flight["joints"]["pin"] = {"type": "revolute", "bearing": "ground.O", "journal": "link.O"}
+    flight["drivers"] = {"motor": {"joint": "pin", "speed": speed}}
+    check_first(flight, gaps(TIME, clearance, np.array([x, aside]), spin, speed))
+
+
+def check_first(flight: dict[str, Any], expected: Floats) -> None:
+    """Compare the first contact of a run with penetrations, (4, times) m."""
+    found = run(flight, DURATION).impacts
+    closed = np.argwhere(expected.T > 0.0)
     if not len(closed):
         assert not len(found)
         return
     instant, corner = closed[0]
     first = found[np.argmin(found["onset"])]
     assert first["joint"] == corner
-    assert time[instant - 1] <= first["onset"] <= time[instant]
+    assert TIME[instant - 1] <= first["onset"] <= TIME[instant]
