@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
@@ -63,6 +63,7 @@ def meshing(instant: Instant) -> Instant:
     return replace(instant, position=q, speed=v)
 
 
+@settings(max_examples=25)
 @given(near_start(scene_of(epicyclic()), 1.0).map(meshing))
 def test_a_planet_turns_with_its_arm_by_the_gears_moment(instant: Instant) -> None:
     one, two = instant.reduced(), instant.lagrange()

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from jointplay.solver.mechanics.frames import cross
@@ -47,6 +47,7 @@ def on_its_slot(instant: Instant) -> Instant:
     return replace(instant, position=q, speed=v)
 
 
+@settings(max_examples=25)
 @given(near_start(scene_of(hanging()), 0.3).map(on_its_slot))
 def test_an_ideal_slot_only_pushes_across_and_both_formulations_agree(instant: Instant) -> None:
     one, two = instant.reduced(), instant.lagrange()
@@ -62,6 +63,7 @@ def test_an_ideal_slot_only_pushes_across_and_both_formulations_agree(instant: I
     )
 
 
+@settings(max_examples=25)
 @given(st.one_of(tilted, slotted))
 def test_lagrange_agrees_with_reduced(instant: Instant) -> None:
     one, two = instant.reduced(), instant.lagrange()
@@ -73,6 +75,7 @@ def test_lagrange_agrees_with_reduced(instant: Instant) -> None:
     assert_close(list(one.held_moment.values()), list(two.held_moment.values()))
 
 
+@settings(max_examples=25)
 @given(tilted)
 def test_a_free_block_obeys_newton_and_euler_by_the_guides_force_and_moment(
     instant: Instant,
@@ -89,6 +92,7 @@ def test_a_free_block_obeys_newton_and_euler_by_the_guides_force_and_moment(
     assert_close(body.inertia * found.bodies["block"].angular_acceleration, moment)
 
 
+@settings(max_examples=25)
 @given(st.one_of(tilted, slotted))
 def test_rates_of_penetration_are_those_of_neighbouring_poses(instant: Instant) -> None:
     step = 1e-6
@@ -111,6 +115,7 @@ def test_rates_of_penetration_are_those_of_neighbouring_poses(instant: Instant) 
         assert contact.penetration_rate == pytest.approx(rate, abs=1e-7)
 
 
+@settings(max_examples=25)
 @given(tilted, numbers(-3.0, 3.0))
 def test_nothing_depends_on_the_frame(instant: Instant, angle: float) -> None:
     here, there = instant.reduced().contacts, turned(instant, angle).reduced().contacts
@@ -120,6 +125,7 @@ def test_nothing_depends_on_the_frame(instant: Instant, angle: float) -> None:
         assert_close(here[name].friction_force, there[name].friction_force)
 
 
+@settings(max_examples=25)
 @given(tilted)
 def test_in_a_mirror_corners_change_sides(instant: Instant) -> None:
     def swapped(values: dict[str, float]) -> dict[str, float]:
@@ -134,6 +140,7 @@ def test_in_a_mirror_corners_change_sides(instant: Instant) -> None:
         assert_close(one.friction_force, -two.friction_force)
 
 
+@settings(max_examples=25)
 @given(st.sampled_from(CORNERS), numbers(-0.01, 0.01), numbers(-1e-3, 1e-3))
 def test_gaps_are_those_of_the_drawing(corner: str, tilt: float, aside: float) -> None:
     instant = at_start(scene_of(block()))
@@ -144,6 +151,7 @@ def test_gaps_are_those_of_the_drawing(corner: str, tilt: float, aside: float) -
     assert found.penetration == pytest.approx(side * height - HEIGHT / 2 - 1e-3, abs=1e-15)
 
 
+@settings(max_examples=25)
 @given(slotted)
 def test_a_pin_pushes_across_the_slot_and_rubs_at_its_own_radius(instant: Instant) -> None:
     found = instant.reduced()
