@@ -164,3 +164,14 @@ def check_first(flight: dict[str, Any], expected: Floats) -> None:
     first = found[np.argmin(found["onset"])]
     assert first["joint"] == corner
     assert TIME[instant - 1] <= first["onset"] <= TIME[instant]
+
+
+@pytest.mark.long
+def test_a_rocker_with_play_moves_alike_in_both_formulations() -> None:
+    one, two = (
+        run(rocker(1e-3), 0.3, formulation=name, tolerance=1e-9) for name in ("reduced", "lagrange")
+    )
+    assert len(one.impacts) == len(two.impacts) > 10
+    # 13 impacts at 1e-9 a step: 2e-10 rad and 2e-7 rad/s were found
+    assert one.last("rocker.theta") == pytest.approx(two.last("rocker.theta"), abs=1e-8)
+    assert one.last("rocker.omega") == pytest.approx(two.last("rocker.omega"), abs=1e-5)
