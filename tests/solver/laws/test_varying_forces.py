@@ -14,6 +14,7 @@ from tests.solver.completed_runs import Run, run
 from tests.solver.driven_motions import carried, function
 from tests.solver.mechanics.test_mechanics import assert_formulations_agree
 from tests.solver.readable_mechanics import at_start, scene_of
+from tests.solver.runs.study.test_run import Computed
 
 SINE = {"type": "sinusoidal", "amplitude": 1.0, "frequency": 3.0}
 BUMP = {
@@ -148,6 +149,15 @@ def test_a_motor_brings_its_flywheel_to_its_speed_without_load(working: Run) -> 
     # tolerance 1e-9 a step of local error, relative to some 60 rad/s, over some thousand steps
     np.testing.assert_allclose(working["rotor.omega"], NO_LOAD * (1.0 - fading), atol=1e-5)
     np.testing.assert_allclose(working["motor.moment"], STALL * fading, atol=1e-6)
+
+
+def test_sections_of_the_motors_angle_are_taken_once_a_turn() -> None:
+    section = {"channel": "rotor.theta", "value": 0.5, "direction": "up"}
+    job = {"kind": "poincare", "scene": workshop(), "settle": 0, "record": 12, "section": section}
+    found = Computed({**job, "observables": ["rotor.theta", "rotor.omega"]}).sections(0)
+    turns = (found[:, 0] - 0.5) / (2.0 * np.pi)
+    np.testing.assert_allclose(turns, np.arange(12), atol=1e-6)
+    assert np.all(np.diff(found[:, 1]) > 0.0)
 
 
 def test_a_torsion_spring_swings_its_wheel(working: Run) -> None:

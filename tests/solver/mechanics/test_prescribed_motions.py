@@ -8,10 +8,11 @@ from hypothesis import given, settings
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
+from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.scene import presets
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.periods import characteristic_time, common_period, driven_speed
-from tests.solver.completed_runs import run
+from tests.solver.completed_runs import collect, run
 from tests.solver.driven_motions import carried, function, independent, moved
 from tests.solver.mechanics.test_mechanics import anywhere, assert_formulations_agree
 from tests.solver.readable_mechanics import Instant, at_start, scene_of
@@ -187,8 +188,29 @@ def test_a_slider_crank_with_play_in_all_three_pins_is_driven(formulation: str) 
     driver["body"] = crank
     scene["parameters"], scene["reported"] = {}, []
     found = run(scene, 0.012, formulation=formulation, tolerance=1e-8, output_step=1e-3)
-    expected = driver["position"] + driver["speed"] * found.time
+    expected = driver.get("position", 0.0) + driver["speed"] * found.time
     np.testing.assert_allclose(found[f"{crank}.theta"], expected, rtol=1e-9)
     energy = found.statistics["energy"]
     assert found.statistics["onsets"] >= 3
     assert abs(energy["residual"]) <= 10.0 * 1e-8 * energy["gross_work"]
+
+
+def test_the_certificate_of_a_journal_on_a_crank_that_starts_up_covers_its_errors() -> None:
+    scene = carried(START_UP)
+    scene["joints"]["P"]["clearance"] = {
+        "radial_clearance": 0.002,
+        "bearing_radius": 0.02,
+        "contact": {"stiffness": 1e8, "restitution": 0.6},
+    }
+    finer = run(scene, 1.0, tolerance=1e-10, output_step=0.02)
+    job = {"kind": "simulate", "scene": scene, "duration": 1.0, "tolerance": 1e-7}
+    admission = admit(job | {"output_step": 0.02})
+    simulation = Simulation(admission)
+    found = collect(admission, list(simulation.slices()), simulation)
+    certificate = simulation.certificate()
+    assert certificate is not None
+    assert found.statistics["onsets"] > 5
+    names = [channel.name for channel in admission.channels]
+    for name in ("bob.theta", "bob.omega", "P.eccentricity_x"):
+        estimated = np.interp(found.time, certificate.time, certificate.error[:, names.index(name)])
+        assert np.all(np.abs(found[name] - finer[name]) <= estimated + 1e-12)
