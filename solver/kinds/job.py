@@ -66,6 +66,11 @@ class MechanismJob(Strict):
     ] = "reduced"
     label: Annotated[str, Field(max_length=200, description="a name of your own for the job")] = ""
 
+    @property
+    def named_channels(self) -> list[str]:
+        """Channels that the job names, patterns among them."""
+        return []
+
 
 class Job(MechanismJob):
     """Fields of every kind but the one that tries every method: how the motion is computed."""

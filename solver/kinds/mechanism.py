@@ -23,6 +23,7 @@ from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.misfit import fighting_drivers, opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.channels import recording
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
@@ -38,10 +39,20 @@ Written = tuple[dict[str, Any], Scene, Mapping[str, float | str | None]]
 
 
 def written(job: MechanismJob) -> Written:
-    """Return a job's scene as it is written; whether its parts fit together is not checked."""
+    """Return a job's scene as it is written, whose points that the job names are recorded.
+
+    Whether its parts fit together is not checked.
+    """
+    given: Mapping[str, float | str | None] = {}
     if isinstance(job.scene, PresetScene):
-        return *_preset(job.scene.preset), job.scene.parameters
-    return job.scene.model_dump(mode="json"), job.scene, {}
+        (document, scene), given = _preset(job.scene.preset), job.scene.parameters
+    else:
+        document, scene = job.scene.model_dump(mode="json"), job.scene
+    recorded = recording(scene, job.named_channels)
+    if recorded != scene.recorded:
+        document = document | {"recorded": recorded}
+        scene = scene.model_copy(update={"recorded": recorded})
+    return document, scene, given
 
 
 def declared(job: MechanismJob) -> Written:

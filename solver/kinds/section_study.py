@@ -15,7 +15,7 @@ from jointplay.solver.kinds.methods import check_study
 from jointplay.solver.kinds.observables import chosen, coordinate_channels
 from jointplay.solver.kinds.periods import Periods, crank_offsets, periods
 from jointplay.solver.kinds.points import Points
-from jointplay.solver.kinds.section import CrankSection, Section
+from jointplay.solver.kinds.section import ChannelSection, CrankSection, Section
 from jointplay.solver.kinds.section_checks import check_section
 from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.runs.starts import Perturbation
@@ -85,6 +85,12 @@ class SectionStudyJob(Job):
         ),
     ] = None
     indicators: IndicatorChoice = []
+
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        section = [self.section.channel] if isinstance(self.section, ChannelSection) else []
+        return [*(self.observables or []), *section]
 
 
 J = TypeVar("J", bound=SectionStudyJob)

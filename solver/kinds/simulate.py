@@ -54,6 +54,11 @@ class SimulateJob(Job):
         Field(description="say how far the result can be believed; does not change its bits"),
     ] = True
 
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        return self.channels
+
 
 class Simulate(Kind[SimulateJob]):
     """One trajectory, with its peaks, sections, impacts and certificate."""

@@ -108,6 +108,11 @@ class SweepJob(Job):
         ),
     ] = 256
 
+    @property
+    def named_channels(self) -> list[str]:
+        """See `MechanismJob.named_channels`."""
+        return self.channels or []
+
 
 class Sweep(Kind[SweepJob]):
     """A point for each combination of values, or for each one that is listed."""

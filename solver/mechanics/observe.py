@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from jointplay.solver.mechanics.motion import BodyMotion, Motion
-from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, WALL
+from jointplay.solver.mechanics.play import Contact
+from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.scene.channels import BODY, HELD, JOINT, PLAY, POINT, WALL
 from jointplay.solver.scene.document import Scene
 
 
@@ -18,24 +19,31 @@ def channel_values(numbers: Scene, motion: Motion) -> dict[str, Scalar]:
     for name, moment in motion.held_moment.items():
         values |= _named(name, HELD, (moment,))
     for name, found in motion.contacts.items():
-        forces = (found.normal_force, found.friction_force, found.slip_velocity)
-        if found.enclosure == "circle":
-            centre = (*found.eccentricity, *found.eccentricity_rate)
-            values |= _named(name, PLAY, (*centre, found.penetration, *forces))
-        else:
-            depth = found.penetration, found.penetration_rate
-            values |= _named(name, WALL, (*depth, *forces))
-        values |= {f"{name}.{state}": value for state, value in found.inner.items()}
+        values |= _contact_values(name, found)
     for name, effort in motion.driver_effort.items():
         values[f"{name}.torque"] = effort
         values[f"{name}.power"] = effort * motion.driver_speed[name]
     for name, element in motion.forces.elements.items():
         for quantity, value in element.effect.channels.items():
             values[f"{name}.{quantity}"] = value
+    for point in numbers.recorded:
+        values |= _named(point, POINT, point_values(numbers, motion, point))
     values["energy.kinetic"], values["energy.potential"] = energies(numbers, motion)
     for output in numbers.outputs:
         values[output.name] = output.factor * values[output.channel] + output.offset
     return values
+
+
+def _contact_values(name: str, found: Contact) -> dict[str, Scalar]:
+    """Return the values of a contact pair's channels."""
+    forces = (found.normal_force, found.friction_force, found.slip_velocity)
+    if found.enclosure == "circle":
+        centre = (*found.eccentricity, *found.eccentricity_rate)
+        values = _named(name, PLAY, (*centre, found.penetration, *forces))
+    else:
+        depth = found.penetration, found.penetration_rate
+        values = _named(name, WALL, (*depth, *forces))
+    return values | {f"{name}.{state}": value for state, value in found.inner.items()}
 
 
 def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
@@ -45,6 +53,16 @@ def body_values(body: BodyMotion) -> tuple[Scalar, ...]:
         *(*body.velocity, body.spin),
         *(*body.acceleration, body.angular_acceleration),
     )
+
+
+def point_values(numbers: Scene, motion: Motion, point: str) -> tuple[Scalar, ...]:
+    """Return the values of a recorded point's channels, in the order of `POINT`."""
+    name, own = point.split(".")
+    body, (x, y) = motion.bodies[name], numbers.bodies[name].points[own]
+    sine, cosine = sine_cosine(body.angle)
+    across, up = cosine * x - sine * y, sine * x + cosine * y
+    (px, py), (vx, vy) = body.position, body.velocity
+    return px + across, py + up, vx - body.spin * up, vy + body.spin * across
 
 
 def _named(

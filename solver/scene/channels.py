@@ -1,5 +1,6 @@
 """Channels: the named signals that a scene offers, with their units."""
 
+from collections.abc import Iterable
 from fnmatch import fnmatchcase
 
 from jointplay.records.channel import Channel
@@ -26,6 +27,15 @@ JOINT = (
     ("force_x", "N", "force x on the joint's second body (journal, slider, part)"),
     ("force_y", "N", "force y on the joint's second body (journal, slider, part)"),
 )
+POINT = (
+    ("x", "m", "position x"),
+    ("y", "m", "position y"),
+    ("vx", "m/s", "velocity x"),
+    ("vy", "m/s", "velocity y"),
+)
+"""Of points that are recorded."""
+LONGEST_RECORDED = 61
+"""Characters of a recorded point's reference: names of channels have 64 at most."""
 HOLDING = ("prismatic", "fixed")
 """Types of joints that let no angle change."""
 HELD = (("moment", "N m", "moment on the joint's second body (slider, part) about its point"),)
@@ -55,12 +65,13 @@ MOST_GLOBS, MOST_UNKNOWN = 256, 32
 
 @per_structure
 def channels(scene: Scene) -> tuple[Channel, ...]:
-    """Return every channel of a scene: bodies, joints, drivers, forces, energy, outputs.
+    """Return every channel of a scene: bodies, joints, drivers, forces, points, energy, outputs.
 
     Raises
     ------
     InvalidInput
-        A declared output of an unknown channel; pointers begin at the job.
+        A declared output of an unknown channel, a point whose channels can have no name of their
+        own; pointers begin at the job.
     """
     rows: list[Channel] = []
 
@@ -88,8 +99,33 @@ def channels(scene: Scene) -> tuple[Channel, ...]:
         rows.append(Channel(f"{name}.power", "W", f"power of driver {name}"))
     for name, element in scene.forces.items():
         add(name, "force element", element.channels)
+    rows += _recorded(scene)
     rows += [Channel(f"energy.{quantity}", unit, text) for quantity, unit, text in ENERGY]
     return (*rows, *_outputs(scene, {row.name: row.unit for row in rows}))
+
+
+def _recorded(scene: Scene) -> list[Channel]:
+    """Return the channels of recorded points."""
+    taken = {quantity for quantity, _, _ in BODY}
+    problems = []
+    for index, reference in enumerate(scene.recorded):
+        place = f"/scene/recorded/{index}"
+        if reference.split(".")[1] in taken:
+            sentence = f"'{reference}' is a channel of the body, too; give the point another name."
+            problems.append(Problem(place, sentence))
+        elif len(reference) > LONGEST_RECORDED:
+            sentence = (
+                f"'{reference}' has {len(reference)} characters, but body and point may have"
+                f" {LONGEST_RECORDED} together; give shorter names."
+            )
+            problems.append(Problem(place, sentence))
+    if problems:
+        raise InvalidInput(problems)
+    return [
+        Channel(f"{point}.{quantity}", unit, f"{text} (point {point})")
+        for point in scene.recorded
+        for quantity, unit, text in POINT
+    ]
 
 
 def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
@@ -105,6 +141,18 @@ def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
     if problems:
         raise InvalidInput(problems)
     return rows
+
+
+def recording(scene: Scene, names: Iterable[str]) -> list[str]:
+    """Return the points that a scene records once those of these channels are, too."""
+    found = dict.fromkeys(scene.recorded)
+    quantities = {quantity for quantity, _, _ in POINT}
+    for name in names:
+        point, _, quantity = name.rpartition(".")
+        body, _, own = point.partition(".")
+        if quantity in quantities and body in scene.bodies and own in scene.bodies[body].points:
+            found[point] = None
+    return list(found)
 
 
 def select(offered: tuple[Channel, ...], patterns: list[str], pointer: str) -> tuple[Channel, ...]:

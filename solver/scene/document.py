@@ -318,7 +318,11 @@ class Reported(Strict):
 
 
 class Scene(Strict):
-    """A planar mechanism, its drivers, forces and gravity, its knobs and its outputs."""
+    """A planar mechanism, its drivers, forces and gravity, its knobs and its outputs.
+
+    `recorded` are points of bodies whose motion becomes channels; those of a job's channels do so
+    by being named there.
+    """
 
     name: Name
     description: Annotated[str, Field(max_length=2000)] = ""
@@ -332,5 +336,6 @@ class Scene(Strict):
     forces: Annotated[dict[Name, Element], Field(max_length=64)] = {}
     start: Start = Start()
     parameters: Annotated[dict[Name, Parameter], Field(max_length=64)] = {}
+    recorded: Annotated[list[PointReference], Field(max_length=64)] = []
     outputs: Annotated[list[Output], Field(max_length=64)] = []
     reported: Annotated[list[Reported], Field(max_length=256)] = []

@@ -83,6 +83,20 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
     for joint_name in (joint for joint, count in doubled.items() if count > 1):
         yield Problem("/drivers", f"Joint '{joint_name}' has more than one driver; keep one.")
     yield from _start(scene)
+    yield from _recorded(scene)
+
+
+def _recorded(scene: Scene) -> Iterator[Problem]:
+    doubled = Counter(scene.recorded)
+    for index, reference in enumerate(scene.recorded):
+        place, (body, point) = f"/recorded/{index}", reference.split(".")
+        if body not in scene.bodies:
+            yield Problem(place, unknown("body", body, scene.bodies))
+        elif point not in scene.bodies[body].points:
+            points = scene.bodies[body].points
+            yield Problem(place, unknown(f"point of '{body}' named", point, points))
+        elif doubled[reference] > 1:
+            yield Problem(place, f"'{reference}' is named twice; name it once.")
 
 
 def _start(scene: Scene) -> Iterator[Problem]:

@@ -44,5 +44,6 @@ def _structure(scene: Scene) -> Hashable:
         tuple((name, gear.first, gear.second) for name, gear in scene.gears.items()),
         tuple((name, driver.joint, driver.body) for name, driver in scene.drivers.items()),
         tuple((name, e.type, e.first, e.second) for name, e in scene.forces.items()),
+        tuple(scene.recorded),
         tuple((o.name, o.channel, o.factor, o.offset, o.help) for o in scene.outputs),
     )

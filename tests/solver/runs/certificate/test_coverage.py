@@ -10,18 +10,19 @@ from tests.solver.runs.certificate.known_truth import CASES, Case, coverage
 
 OTHERS = {
     "andrews-squeezer": 0.03,
-    "double-four-bar": 2.0,
+    "double-four-bar": 0.6,
     "double-pendulum": 2.0,
     "driven-pendulum": 5.0,
     "four-bar": 0.05,
     "impact-oscillator": 1.0,
     "jansen-leg": 0.2,
-    "n-four-bar": 1.0,
+    "n-four-bar": 0.6,
     "quick-return": 0.1,
     "seven-bar-press-fitted": 0.2,
     "seven-bar-test-bed": 0.05,
 }
-"""Presets of no case, and how long each runs, s."""
+"""Presets of no case, and how long each runs, s; where four-bars lie flat, at 0.71 s, the finest
+tolerances end."""
 SAMPLE = random.Random(3).sample(sorted(CASES), 8)
 
 
