@@ -188,6 +188,20 @@ def test_a_punch_presses_on_the_way_down_alone(working: Run) -> None:
     assert np.all(working["punch.force"][working["ram.vy"] > 0.0] == 0.0)
 
 
+@pytest.mark.parametrize("ideal", [False, True])
+def test_a_torsion_spring_counts_the_whole_turns_of_a_driven_crank(ideal: bool) -> None:
+    scene = carried(DRIVE)
+    scene["drivers"]["motor"] = {"joint": "J", "speed": 10.0}
+    coil = {"type": "torsion-spring", "first": "ground.O", "second": "carrier.O"}
+    scene["forces"] = {"coil": coil | {"stiffness": 2.0}}
+    if ideal:
+        scene["joints"]["P"] = {"type": "fixed", "base": "carrier.P", "part": "bob.P"}
+        del scene["start"]
+    found = run(scene, 2.5, output_step=0.1)  # four periods
+    np.testing.assert_allclose(found["coil.angle"], 10.0 * found.time, rtol=1e-14, atol=1e-14)
+    assert found.peaks["coil.moment"].minimum == pytest.approx(-50.0, rel=1e-12)
+
+
 def test_works_of_all_elements_are_in_the_ledger(working: Run) -> None:
     energy = working.statistics["energy"]
     assert abs(energy["residual"]) <= 1e-6 * energy["gross_work"]
