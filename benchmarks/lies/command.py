@@ -3,14 +3,16 @@
 import argparse
 import json
 from pathlib import Path
+from typing import Any
 
-from benchmarks.lies import coverage_search, extremes_search, named
+from benchmarks.lies import named
 from benchmarks.lies.covered import coverage_of
 from benchmarks.lies.extremes import extremes_of
+from benchmarks.lies.measures import MEASURES
 from benchmarks.lies.scenes import SCENES
+from benchmarks.lies.search import Measure, report, search
 
-SEARCHES = {"coverage": coverage_search, "extremes": extremes_search}
-PARTS = (*SEARCHES, "named")
+PARTS = (*MEASURES, "named")
 
 
 def main() -> None:
@@ -26,9 +28,9 @@ def main() -> None:
         job = json.loads(given.job.read_text())
         print(coverage_of(job), extremes_of(job), sep="\n")
         return
-    for name in (part for part in given.only if part in SEARCHES):
+    for name in (part for part in given.only if part in MEASURES):
         print(f"\n{name}: seed {given.seed}, {given.runs} runs")
-        search = SEARCHES[name]
-        print(search.report(search.search(given.seed, given.runs, given.scenes)), flush=True)
+        measure: Measure[Any] = MEASURES[name]
+        print(report(measure, search(measure, given.seed, given.runs, given.scenes)), flush=True)
     if "named" in given.only:
         print(f"\n{named.report()}")

@@ -22,6 +22,9 @@ MOST_STEPS = 400_000
 class Finished:
     """A run at its end; `samples` is (count, channels) at `time`, s."""
 
+    admission: Admission
+    method: str
+    """That it was computed with in the end."""
     scene: dict[str, Any]
     names: list[str]
     units: list[str]
@@ -48,12 +51,15 @@ def finish(job: dict[str, Any]) -> Finished | str:
                 return "too many steps"
     except SimulationFailed as failure:
         return failure.code
+    summary = simulation.summary()
     return Finished(
+        admission,
+        summary.statistics["method"],
         admission.scene_document(),
         [channel.name for channel in admission.channels],
         [channel.unit for channel in admission.channels],
         np.concatenate(times),
         np.concatenate(samples),
-        simulation.summary().peaks,
+        summary.peaks,
         simulation.certificate(),
     )

@@ -58,12 +58,13 @@ def prescribed_peaks(
 
 
 def statistics_of(bundle: Bundle, lane: int) -> dict[str, Any]:
-    """Return steps, rejections, onsets, the smallest step (s) and the energy ledger (J)."""
+    """Return steps, rejections, onsets, rough steps, the smallest step (s) and the ledger (J)."""
     at = bundle.lane(lane)
     return {
         "steps": at.steps,
         "rejections": int(at.run["rejections"]),
         "onsets": int(at.run["onsets"]),
+        "rough_steps": int(at.run["rough"]),
         "smallest_step": at.number("smallest_step") if at.steps else None,
         "energy": ledger_of(bundle, lane),
     }

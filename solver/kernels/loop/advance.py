@@ -40,6 +40,7 @@ from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_ins
 from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
 from jointplay.solver.kernels.loop.peaks import end_peaks, refine_peaks
 from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
+from jointplay.solver.kernels.loop.roughness import any_due, is_due
 from jointplay.solver.kernels.loop.runs import (
     BUFFERS,
     NO_PAIR,
@@ -193,8 +194,8 @@ def look_closer(
     """Seek extremes that no scan of step ends finds."""
     for lane in range(LANES):
         flag, run = int(work[at.flag, lane]), runs[lane]
-        wanted = at.watched_closely or flag & (PASSING | DUE)
-        if wanted and work[at.accept, lane] > 0.0:
+        due = flag & (PASSING | DUE) or is_due(lane, run, at, work)
+        if (at.watched_closely or due) and work[at.accept, lane] > 0.0:
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)
 
@@ -265,7 +266,7 @@ def advance(
                 if work[at.accept, lane] > 0.0 and may_cross(lane, run, at, work):
                     quiet = False
                     full |= record_crossings(lane, run, at, work, spare, rows, call.channels_within)
-        if watch and (at.watched_closely or not quiet):
+        if watch and (at.watched_closely or not quiet or any_due(runs, at, work)):
             look_closer(at, work, spare, runs, table, call.channels_around, call.channels_within)
         if watch:
             candidates = call.scan(work) if quiet else call.scan_some(work)

@@ -21,16 +21,16 @@ TWELFTH = 1.0 / 12.0
 
 @kernel()
 def extreme(
-    table: np.ndarray, first: int, sense: float, record: float
+    table: np.ndarray, first: int, best: int, sense: float, record: float
 ) -> tuple[float, float, float, float]:
-    """Return the largest (sense 1) or smallest (sense -1) value between five places.
+    """Return the extreme (sense 1: maximum, -1: minimum) of a function about one of five places.
 
-    The values are at `first` of the table. Where the extreme is, in spacings from the first place;
-    its value; a bound on the value's error; and the second difference there. A sample that nothing
-    surpasses is as it is, and the bound then tells how far the function may go beyond it. What
-    does not come near a `record` is not looked for.
+    The values are at `first` of the table; none beside that at the place `best` is beyond it.
+    Where the extreme is, in spacings from the first place; its value; a bound on the value's error;
+    and the second difference there. A sample that nothing surpasses is as it is, and the bound then
+    tells how far the function may go beyond it. What does not come near a `record` is not looked
+    for.
     """
-    best = highest(table, first, first + PLACES, sense) - first
     middle = table[first + MIDDLE]
     odd = table[first + 3] - table[first + 1]
     even = table[first + 3] + table[first + 1] - 2.0 * middle

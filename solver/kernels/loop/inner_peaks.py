@@ -1,8 +1,9 @@
 """Extremes inside steps that no scan of step ends finds.
 
 Where a run begins or ends there is no step beside that would tell that a channel turned; where a
-journal passes the centre of its bearing its normal whips round; and in long steps of a contact,
-which a method of high order or of fixed steps takes, anything may happen.
+journal passes the centre of its bearing its normal whips round; in long steps of a contact, which a
+method of high order or of fixed steps takes, anything may happen; and steps at the limit of
+stability swing inside.
 """
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.extreme import PLACES, highest
 from jointplay.solver.kernels.loop.passages import (
     NARROWEST,
     closest_approach,
@@ -19,21 +19,14 @@ from jointplay.solver.kernels.loop.passages import (
     passes,
 )
 from jointplay.solver.kernels.loop.peaks import look_at_extremes
+from jointplay.solver.kernels.loop.roughness import is_due, is_rough
 from jointplay.solver.kernels.loop.runs import Run
-from jointplay.solver.kernels.loop.seeking import is_done
-from jointplay.solver.kernels.loop.windows import (
-    IN_THIS,
-    ROW,
-    SENSE,
-    SPACING,
-    START,
-    STRIDE,
-    VALUES,
-    WINDOWS,
-)
+from jointplay.solver.kernels.loop.tops import open_windows
+from jointplay.solver.kernels.loop.windows import CLOSER
 
-BETWEEN = 0.02
-"""Share of the spread of a channel's values by which it may exceed them between instants."""
+EXACT = 0.0
+"""Share of its range by which what is counted may be off: a quartic through such instants may pass
+where a contact ends.  Extremes are evaluated where it turns."""
 SLACK = 0.1
 """Share of a journal's speed by which the slip at a passage may exceed what is expected."""
 WIDTHS = 2.0
@@ -103,14 +96,18 @@ def look_inside(
 ) -> None:
     """Seek extremes of all channels in a step that begins or ends the run, or is taken in contact.
 
-    The latter only by methods that are `watched_closely`.
+    The latter only by methods that are `watched_closely`, or where steps are rough.
     """
-    first = np.isnan(work[at.change, lane])
-    last = work[at.arrival, lane] >= work[at.end, lane]
-    if not (first or last or (at.watched_closely and touches(lane, at, work))):
+    wanted = np.isnan(work[at.change, lane]) or work[at.arrival, lane] >= work[at.end, lane]
+    wanted |= at.watched_closely and touches(lane, at, work)
+    due = is_due(lane, run, at, work)
+    if not (wanted or due):
         return
     place_evenly(0.0, 1.0, at, spare)
     channels_within(work, spare, lane)
+    rough = due and is_rough(lane, run, at, work, spare)
+    if not (wanted or rough):
+        return
     waiting = 0
     for r in range(at.rows):
         waiting = look_at_instants(r, waiting, 0.0, 1.0, lane, run, at, work, spare, table)
@@ -150,24 +147,7 @@ def look_at_instants(
 
     How many windows wait to be looked at more closely, of all channels.
     """
-    least = most = spare[at.channel + r, 0]
-    for i in range(1, INSTANTS):
-        least = min(least, spare[at.channel + r, i])
-        most = max(most, spare[at.channel + r, i])
-    between = BETWEEN * (most - least)
-    for sense in (1.0, -1.0):
-        if sense > 0.0 and most + between <= work[at.highest + r, lane]:
-            continue
-        if sense < 0.0 and least - between >= work[at.lowest + r, lane]:
-            continue
-        best = highest(spare[at.channel + r], 0, INSTANTS, sense)
-        kept = min(max(best - PLACES // 2, 0), INSTANTS - PLACES)
-        w = WINDOWS + STRIDE * waiting
-        table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, 1
-        spacing = (high - low) / (INSTANTS - 1)
-        table[w + START], table[w + SPACING] = low + kept * spacing, spacing
-        for i in range(PLACES):
-            table[w + VALUES + i] = spare[at.channel + r, kept + i]
-        if not is_done(w, lane, run, at, work, table):
-            waiting += 1
-    return waiting
+    for i in range(INSTANTS):
+        table[CLOSER + i] = spare[at.channel + r, i]
+    spacing = (high - low) / (INSTANTS - 1)
+    return open_windows(r, 1, low, spacing, INSTANTS, EXACT, waiting, lane, run, at, work, table)

@@ -6,20 +6,21 @@ from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.runs import Run
-from jointplay.solver.kernels.loop.seeking import HALF, MOST_ROUNDS, is_done, is_done_by, seek
+from jointplay.solver.kernels.loop.seeking import FORETOLD, HALF, MOST_ROUNDS, is_done_by, seek
+from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import (
+    CLOSER,
     COLUMN,
     FOUND,
     IN_THIS,
     PLACE,
     ROUNDS,
     ROW,
-    SENSE,
     SPACING,
     START,
     STRIDE,
-    VALUES,
     WINDOWS,
 )
 
@@ -71,29 +72,19 @@ def look_at_quarters(
     spare: np.ndarray,
     table: np.ndarray,
 ) -> int:
-    """Let the extreme of a channel around the start of this step count, if it is sharp.
+    """Let extremes of a channel in the step before and in this one count, if they are sharp.
 
     How many windows wait to be looked at more closely, of all channels.
     """
     end = work[at.previous + r, lane]
     junction = end - work[at.change + r, lane]
-    sense = 1.0 if junction > spare[at.channel + r, 0] else -1.0
-    before = after = sense * junction
-    for i in range(HALF):
-        before = max(before, sense * spare[at.channel + r, i])
-        after = max(after, sense * spare[at.channel + r, HALF + i])
-    after = max(after, sense * end)
     for step in range(2):
-        if (step == 0 and before < after) or (step == 1 and after < before):
-            continue
-        w = WINDOWS + STRIDE * waiting
-        table[w + ROW], table[w + SENSE], table[w + IN_THIS] = r, sense, step
-        table[w + START], table[w + SPACING] = 0.0, 1.0 / HALF
         for i in range(HALF):
-            table[w + VALUES + i] = spare[at.channel + r, HALF * step + i]
-        table[w + VALUES + HALF] = junction if step == 0 else end
-        if not is_done(w, lane, run, at, work, table):
-            waiting += 1
+            table[CLOSER + i] = spare[at.channel + r, HALF * step + i]
+        table[CLOSER + HALF] = end if step else junction
+        waiting = open_windows(
+            r, step, 0.0, 1.0 / HALF, PLACES, FORETOLD, waiting, lane, run, at, work, table
+        )
     return waiting
 
 

@@ -61,6 +61,10 @@ class Run:
     """Growths of the tangent in the buffer."""
     rejections: int
     onsets: int
+    rough: int
+    """Steps that were found to be rough inside; see `solver.kernels.loop.roughness`."""
+    rough_until: int
+    """Number of the step up to which each is looked at inside for that reason."""
     landing: int
     """Joint on whose onset the step is to end; `NO_PAIR`: none."""
     landings: int

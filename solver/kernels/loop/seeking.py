@@ -9,6 +9,7 @@ from jointplay.solver.kernels.loop.extreme import LAST, PLACES, extreme, highest
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.windows import (
     BENT,
+    BEST,
     CLOSER,
     ERROR,
     IN_THIS,
@@ -28,6 +29,8 @@ HALF = INSTANTS // 2
 """Instants in each of the two steps."""
 SHARP = 2e-7
 """Share of a channel's range up to now to which its extremes are sought."""
+FORETOLD = 2e-8
+"""The same, of the bound on what a quartic foretells that is not evaluated there."""
 LEAST_OFF = 0.1
 """Share of the bound that a quartic's error is taken to be where it happens to be small."""
 MOST_ROUNDS = 12
@@ -39,20 +42,29 @@ SAME = 1e-9
 
 
 @kernel()
-def is_done(w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray) -> bool:
+def is_done(
+    w: int,
+    sharp: float,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    table: np.ndarray,
+) -> bool:
     """Look where a window's extreme is, and let it count if it is a record and sharp.
 
-    Whether that is all there is to do: otherwise it may be a record, and is not sharp.
+    Whether that is all there is to do: otherwise it may be a record, and is not sharp. `sharp` :
+    share of the channel's range up to now by which it may be off.
     """
     sense = table[w + SENSE]
     r = int(table[w + ROW])
     record = work[(at.highest if sense > 0.0 else at.lowest) + r, lane]
-    place, value, error, bent = extreme(table, w + VALUES, sense, record)
+    place, value, error, bent = extreme(table, w + VALUES, int(table[w + BEST]), sense, record)
     if not sense * value + error > sense * record:
         return True
     table[w + PLACE], table[w + VALUE], table[w + ERROR] = place, value, error
     table[w + BENT] = bent
-    if error > SHARP * spread(r, value, lane, at, work):
+    if error > sharp * spread(r, value, lane, at, work):
         return False
     count(w, place, value, lane, run, at, work, table)
     return True
@@ -100,10 +112,10 @@ def seek(
                     continue
                 if v == w or (start, spacing, parts) == closer(v, table):
                     narrow(v, start, spacing, parts, at, spare, table)
-                    if is_done(v, lane, run, at, work, table) or rests_at_end(v, table):
+                    if is_done(v, FORETOLD, lane, run, at, work, table) or rests_at_end(v, table):
                         table[v + ROUNDS] = MOST_ROUNDS
-        best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE])
-        count(w, float(best - w - VALUES), table[best], lane, run, at, work, table)
+        best = table[w + BEST]
+        count(w, best, table[w + VALUES + int(best)], lane, run, at, work, table)
 
 
 @kernel()
@@ -112,8 +124,7 @@ def rests_at_end(w: int, table: np.ndarray) -> bool:
 
     Beside it there may be a jump: no looking closer would tell more.
     """
-    best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE]) - w - VALUES
-    share = table[w + START] + best * table[w + SPACING]
+    share = table[w + START] + table[w + BEST] * table[w + SPACING]
     return bool(table[w + ROUNDS] >= ENOUGH_AT_END and not SAME < share < 1.0 - SAME)
 
 
@@ -157,7 +168,7 @@ def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
     From the place before the best one to the one behind it, by thirds of the distance now; where
     the best is at an end of the window, by fifths.
     """
-    best = highest(table, w + VALUES, w + VALUES + PLACES, table[w + SENSE]) - w - VALUES
+    best = int(table[w + BEST])
     left, right = max(best - 1, 0), min(best + 1, LAST)
     parts = 6 if right - left > 1 else HALF + 1
     spacing = table[w + SPACING] * (right - left) / parts
@@ -189,7 +200,7 @@ def narrow(
     """Narrow a window to five places about the best one of a closer look."""
     r, sense = int(table[w + ROW]), table[w + SENSE]
     column = HALF * int(table[w + IN_THIS])
-    best = highest(table, w + VALUES, w + VALUES + PLACES, sense)
+    best = w + VALUES + int(table[w + BEST])
     left = max(best - 1, w + VALUES)
     table[CLOSER], table[CLOSER + parts] = table[left], table[min(best + 1, w + VALUES + LAST)]
     for k in range(1, parts):
@@ -202,5 +213,6 @@ def narrow(
     kept = min(max(best - PLACES // 2, 0), parts + 1 - PLACES)
     for i in range(PLACES):
         table[w + VALUES + i] = table[CLOSER + kept + i]
+    table[w + BEST] = best - kept
     table[w + START], table[w + SPACING] = start + kept * spacing, spacing
     table[w + ROUNDS] += 1.0

@@ -4,6 +4,8 @@ A window is a channel, a sense, five equally spaced places of the step before or
 values there, and where the extreme is by them (`solver.kernels.loop.extreme`).
 """
 
+from jointplay.solver.kernels.layout import INSTANTS
+
 STRIDE = 20
 """From a window of a table to the next."""
 ROW, SENSE, IN_THIS, START, SPACING, VALUES = 0, 1, 2, 3, 4, 5
@@ -15,10 +17,13 @@ COLUMN, FOUND = 14, 15
 """Where the channel is evaluated at that place, and its value there."""
 ROUNDS = 16
 """Number of times that a window was narrowed."""
+BEST = 17
+"""Place about which the extreme is sought: no value beside it is beyond its own."""
 CLOSER, WINDOWS = 0, STRIDE
-"""Where a table has the values of a closer look, and its windows from: two of each channel."""
+"""Where a table has the values of a closer look, and its windows from: of each channel and
+sense at most one for each of eight instants."""
 
 
 def size_of_table(rows: int) -> int:
     """Return how many numbers a table has for that many channels."""
-    return WINDOWS + 2 * rows * STRIDE
+    return WINDOWS + 2 * INSTANTS * rows * STRIDE

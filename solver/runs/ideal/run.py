@@ -90,6 +90,7 @@ class IdealRun:
             "steps": 0,
             "rejections": 0,
             "onsets": 0,
+            "rough_steps": 0,
             "smallest_step": None,
             "solver_seconds": self.seconds,
             "energy": None,

@@ -15,7 +15,8 @@ PLACE = np.arange(float(PLACES))
 
 def extreme(values: NDArray[np.float64], sense: float) -> tuple[float, float, float]:
     """Return the place of an extreme, its value, and the bound on what that is off."""
-    place, value, error, _ = extreme_of(values, 0, sense, -np.inf if sense > 0.0 else np.inf)
+    record, best = -sense * np.inf, int(np.argmax(sense * values))
+    place, value, error, _ = extreme_of(values, 0, best, sense, record)
     return place, value, error
 
 

@@ -1,16 +1,18 @@
 """The searches for lies: repeatable, and their measures see what is wrong."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
-from benchmarks.lies import coverage_search
 from benchmarks.lies.climbing import Found, climb
 from benchmarks.lies.draw import DIMENSIONS, anywhere
-from benchmarks.lies.extremes import missed
+from benchmarks.lies.extremes import beyond
 from benchmarks.lies.job import random_job
+from benchmarks.lies.measures import MEASURES
 from benchmarks.lies.scenes import SCENES
+from benchmarks.lies.search import report, search
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Admission, admit
 
@@ -51,19 +53,24 @@ def test_every_random_job_is_admitted(kind: str) -> None:
 
 @pytest.mark.parametrize("shape", [np.sin(7.0 * TIME), -np.abs(TIME - 0.40033)])
 def test_a_highest_value_between_samples_is_right(shape: np.ndarray) -> None:
-    at = float(TIME[shape.argmax()])
-    assert missed(shape, TIME, float(shape.max()), at) <= 0.0
     # between two samples, 1e-3 apart, the sine rises by 49 (1e-3)² / 8, the corner by 3.3e-4
     highest = 1.0 if shape[1] > 0.0 else 0.0
-    assert missed(shape, TIME, highest, at) <= 0.0
+    assert beyond(highest, shape) == 0.0
 
 
-def test_a_highest_value_that_is_too_low_or_invented_is_seen() -> None:
+def test_a_highest_value_that_is_invented_is_seen() -> None:
     shape = np.sin(7.0 * TIME)
-    at = float(TIME[shape.argmax()])
-    assert missed(shape, TIME, 0.9, at) == pytest.approx(0.1, abs=1e-4)
-    assert missed(shape, TIME, 1.1, at) == pytest.approx(0.1, abs=1e-4)
-    assert missed(shape, TIME, 1.0, 0.7) > 0.5  # not where it is said to be
+    assert beyond(1.1, shape) == pytest.approx(0.1, abs=1e-4)
+    assert beyond(1.0, shape[600:]) > 0.2  # not where it is said to be
+
+
+def searched(measure: str, seed: int, runs: int, kinds: list[str]) -> list[Any]:
+    """Return the verdicts of a search, most of which judge."""
+    judged = search(MEASURES[measure], seed, runs, kinds)
+    assert "| all |" in report(MEASURES[measure], judged)
+    verdicts = [each.verdict for each in judged if each.verdict.ended == "judged"]
+    assert len(verdicts) >= 2 * runs // 3
+    return verdicts
 
 
 @pytest.mark.parametrize(
@@ -71,10 +78,17 @@ def test_a_highest_value_that_is_too_low_or_invented_is_seen() -> None:
     [(6, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
 )
 def test_error_bars_of_a_search_hold(runs: int, kinds: list[str]) -> None:
-    judged = coverage_search.search(8, runs, kinds)
-    verdicts = [each.verdict for each in judged if each.verdict.ended == "judged"]
-    assert len(verdicts) >= 2 * runs // 3
+    verdicts = searched("coverage", 8, runs, kinds)
     assert min(verdict.covered for verdict in verdicts) >= 0.95
     inside = sum(verdict.inside for verdict in verdicts)
     assert inside >= 0.999 * sum(verdict.errors for verdict in verdicts)
-    assert "| all |" in coverage_search.report(judged)
+
+
+@pytest.mark.parametrize(
+    ("runs", "kinds"),
+    [(1, PRESETS), pytest.param(150, list(SCENES), marks=pytest.mark.long)],
+)
+def test_extremes_of_a_search_are_found(runs: int, kinds: list[str]) -> None:
+    # the first job of this seed has extremes beside ends of steps
+    verdicts = searched("extremes", 10, runs, kinds)
+    assert [verdict.where for verdict in verdicts if verdict.right < verdict.extremes] == []
