@@ -60,9 +60,17 @@ class Named(NamedTuple):
 
 
 def has_play(joint: Mapping[str, Any]) -> bool:
-    """Whether a joint's journal moves in its bearing."""
-    clearance = joint.get("clearance")
-    return clearance is not None and clearance["radial_clearance"] > 0.0
+    """Whether a joint's journal moves in its bearing.
+
+    Raises
+    ------
+    ValueError
+        It has play between walls, which this program does not know.
+    """
+    clearance = joint.get("clearance") or {}
+    if clearance.get("wall_clearance", 0.0) > 0.0:
+        raise ValueError("the independent program knows no play between walls")
+    return bool(clearance.get("radial_clearance", 0.0) > 0.0)
 
 
 def read(scene: Mapping[str, Any]) -> Named:
