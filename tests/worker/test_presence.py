@@ -55,6 +55,16 @@ def test_a_later_process_of_the_same_id_is_another() -> None:
     assert has_ended(f"{host}:{pid}:{int(started) - 1}:{space}")
 
 
+def test_nothing_is_said_of_processes_of_other_users(monkeypatch: pytest.MonkeyPatch) -> None:
+    host, pid, started, space = own_name().split(":", 3)
+
+    def refuse(_process: int, _signal: int) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr(os, "kill", refuse)
+    assert not has_ended(f"{host}:{pid}:{int(started) - 1}:{space}")
+
+
 @pytest.mark.parametrize("name", ["worker", "host:1", "host:1:1", "host:1:1:", "host:1:1:other:5"])
 def test_nothing_is_said_of_processes_elsewhere(name: str) -> None:
     assert not has_ended(name)

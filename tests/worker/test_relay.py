@@ -59,6 +59,21 @@ def test_a_wake_up_that_redis_lost_is_not_waited_for(
     patient.release_lead()
 
 
+def test_a_wake_up_that_no_queue_has_may_be_on_its_way_to_a_worker(
+    catalogue: Catalogue, settings: Settings, redis: Redis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(relay_module, "_UNDERWAY", 0.0)
+    patient = Relay(catalogue, settings.model_copy(update={"republish_after": 3600.0}))
+    catalogue.submit(NEW)
+    patient.turn()
+    for _ in range(2):
+        redis.delete(FRESH)
+        patient.turn()
+        assert redis.llen(FRESH) == 0
+        until(lambda: redis.llen(FRESH) == 1, act=patient.turn)
+    patient.release_lead()
+
+
 def test_a_wake_up_that_is_still_in_redis_is_not_sent_again(
     catalogue: Catalogue, settings: Settings, redis: Redis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -115,7 +130,7 @@ def test_what_a_process_had_that_ended_is_taken_over_before_its_time(
     lost, held = (catalogue.submit(NEW).job.id for _ in range(2))
     catalogue.claim_block(f"{lost}-0", ended, lease=1000.0)
     catalogue.claim_block(f"{held}-0", own_name(), lease=1000.0)
-    assert catalogue.take_lead("relay", ended, 1000.0)
+    assert catalogue.take_lead("relay", ended, 9.0)  # more than 10 s: the clock was set back
     relay.turn()
     assert redis.llen(RECOVERED) == 1
     assert [attempt.outcome for attempt in catalogue.attempts(lost)] == ["lost"]
