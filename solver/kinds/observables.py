@@ -9,7 +9,8 @@ from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import Branch, spanning_tree
 from jointplay.solver.scene.channels import channels, select
-from jointplay.solver.scene.document import Prismatic, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Prismatic
 
 RATES = {"x": "vx", "y": "vy", "theta": "omega"}
 ECCENTRICITY = (

@@ -16,7 +16,7 @@ from jointplay.solver.kinds.studies import PlacedPoints
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.ideal.reach import motion_reach
-from jointplay.solver.scene.document import Revolute
+from jointplay.solver.scene.joints import Revolute
 from jointplay.solver.scene.pairs import pairs_of
 
 

@@ -15,7 +15,8 @@ from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import Fixed, JournalStart, PinInSlot, Prismatic, Scene
+from jointplay.solver.scene.document import JournalStart, Scene
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 

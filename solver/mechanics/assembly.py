@@ -15,7 +15,8 @@ from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.clocks import clocks
-from jointplay.solver.scene.document import Fixed, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Fixed, Prismatic, Revolute
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import ends
 

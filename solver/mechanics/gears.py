@@ -12,7 +12,8 @@ chapter 8 (signs of ratios; not yet checked).
 from collections.abc import Iterator
 
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.scene.document import Gear, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Gear, Revolute
 
 Coupled = tuple[Scalar, str]
 """A factor, and the body whose angle it multiplies."""

@@ -12,7 +12,8 @@ from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
-from jointplay.solver.scene.document import PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import PinInSlot, Prismatic, Revolute
 
 
 @dataclass

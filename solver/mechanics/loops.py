@@ -26,7 +26,7 @@ from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.play import Interaction
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.references import ends
 
 

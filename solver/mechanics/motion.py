@@ -13,7 +13,8 @@ from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.mechanics.walls import wall_contact
 from jointplay.solver.quantities.scalars import Scalar, Scalars
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import Joint, PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Joint, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import pairs_of
 from jointplay.solver.scene.references import ends as points_of
 

@@ -15,7 +15,7 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.friction import FrictionLaw
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sqrt
-from jointplay.solver.scene.document import Revolute
+from jointplay.solver.scene.joints import Revolute
 
 CENTRED = 1e-300
 """Added to the eccentricity (m) and to its square (m^2), so that a centred journal divides by no

@@ -6,7 +6,8 @@ Pure structure: no number of the scene is used but whether a clearance is zero.
 from dataclasses import dataclass
 from typing import Literal
 
-from jointplay.solver.scene.document import Fixed, PinInSlot, Prismatic, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.references import ends
 from jointplay.solver.scene.structure import per_structure

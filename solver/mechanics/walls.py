@@ -18,7 +18,7 @@ from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.frames import WORLD, Pair, cross, unit
 from jointplay.solver.mechanics.play import Contact, Interaction, rub
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sine_cosine
-from jointplay.solver.scene.document import PinClearance, PinInSlot, Prismatic, SliderClearance
+from jointplay.solver.scene.joints import PinClearance, PinInSlot, Prismatic, SliderClearance
 from jointplay.solver.scene.pairs import CORNERS, WALLS, ContactPair
 from jointplay.solver.scene.references import ends
 

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.laws.function import Function
-from jointplay.solver.scene.document import Driver, MovingDriver, Revolute, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import Driver, MovingDriver
+from jointplay.solver.scene.joints import Revolute
 
 
 @dataclass(frozen=True)

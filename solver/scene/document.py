@@ -4,36 +4,27 @@ Bodies carry named points in body coordinates (origin at the centre of mass). Jo
 points together; a reference ``body.point`` names one, ``ground.point`` a point that never moves.
 """
 
-from abc import abstractmethod
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
-from jointplay.solver.laws.contact import ContactLaw
 from jointplay.solver.laws.force import ELEMENTS, ForceElement
-from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
-from jointplay.solver.laws.friction import FrictionLaw
-from jointplay.solver.laws.function import FUNCTIONS, Derivatives, Function
 from jointplay.solver.quantities.roster import MemberOf
-from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import (
     Acceleration,
     Angle,
     AngularVelocity,
-    Direction,
     Inertia,
     Length,
     Mass,
     Name,
     Point,
     PointReference,
-    RadialClearance,
-    Radius,
     Strict,
     Velocity,
 )
-from jointplay.solver.scene.unions import form, has, told_by
+from jointplay.solver.scene.drivers import AnyDriver
+from jointplay.solver.scene.joints import Gear, Joint
 
 
 class Body(Strict):
@@ -50,192 +41,7 @@ class Ground(Strict):
     points: Annotated[dict[Name, Point], Field(max_length=256)] = {}
 
 
-class Clearance(Strict):
-    """Play of a revolute joint: the journal moves inside the bearing and touches its wall.
-
-    The journal's radius is the bearing's less the radial clearance. A radial clearance of zero is
-    an ideal joint. Contact laws of lines need the bearing's width, its length along the axis.
-    """
-
-    radial_clearance: RadialClearance
-    bearing_radius: Radius
-    bearing_width: Radius | None = None
-    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
-    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
-
-
-class SliderClearance(Strict):
-    """Play of a slider in its guide, whose walls its four corners may touch.
-
-    The slider is a rectangle about its point, `length` long along the axis and `height` high across
-    it; the guide's walls are straight, without end, and `wall_clearance` away from the centred
-    slider on both sides. A wall clearance of zero is an ideal joint.
-    """
-
-    wall_clearance: RadialClearance
-    length: Radius
-    height: Radius
-    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
-    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
-
-
-class PinClearance(Strict):
-    """Play of a pin in a slot, whose two straight walls, without end, it may touch.
-
-    Both are `wall_clearance` away from the centred pin. A wall clearance of zero is an ideal joint.
-    """
-
-    wall_clearance: RadialClearance
-    pin_radius: Radius
-    contact: Annotated[ContactLaw, MemberOf(CONTACT_LAWS, "law")]
-    friction: Annotated[FrictionLaw, MemberOf(FRICTION_LAWS, "law")] | None = None
-
-
-class Revolute(Strict):
-    """A pin joint between a point of the bearing body and a point of the journal body."""
-
-    type: Literal["revolute"]
-    bearing: PointReference
-    journal: PointReference
-    clearance: Clearance | None = None
-
-
-class Prismatic(Strict):
-    """A slider: its point moves along the axis through the guide's point, without turning.
-
-    `axis` is a direction in the guide body's coordinates; `angle` is the slider body's angle less
-    the guide body's. With a clearance both are those of the slider centred in its guide.
-    """
-
-    type: Literal["prismatic"]
-    guide: PointReference
-    slider: PointReference
-    axis: Direction
-    angle: Angle = 0.0
-    clearance: SliderClearance | None = None
-
-
-class PinInSlot(Strict):
-    """A pin in a straight slot: its point stays on the axis through the slot's point, and may turn.
-
-    `axis` is a direction in the slot body's coordinates.
-    """
-
-    type: Literal["pin-in-slot"]
-    slot: PointReference
-    pin: PointReference
-    axis: Direction
-    clearance: PinClearance | None = None
-
-
-class Fixed(Strict):
-    """Two bodies welded at a point; `angle` is the part's angle less the base's."""
-
-    type: Literal["fixed"]
-    base: PointReference
-    part: PointReference
-    angle: Angle = 0.0
-
-
-class Gear(Strict):
-    """Gears or a belt: the second joint's angle is `ratio` times the first's, plus `offset`.
-
-    Both joints are revolute, not driven; an angle is the journal body's less the bearing body's. An
-    external pair of wheels with radii R_1 and R_2 has the ratio -R_1 / R_2, a belt or an internal
-    one R_1 / R_2.
-    """
-
-    first: Name
-    second: Name
-    ratio: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "1"})]
-    offset: Angle = 0.0
-
-
-Joint = Annotated[Revolute | Prismatic | PinInSlot | Fixed, Field(discriminator="type")]
-
-
 Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
-
-
-class Driver(Strict):
-    """Prescribed motion of an ideal joint, or of a body's angle whatever its joints.
-
-    For a revolute joint the position is the journal body's angle less the bearing body's (rad,
-    rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s), for a
-    body its angle against the ground, from where the torque acts.
-
-    Its clock is what its motion is a function of: it starts at `clock_start` and goes at
-    `clock_rate` a second.
-    """
-
-    joint: Name | None = None
-    body: Name | None = None
-    position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
-
-    @abstractmethod
-    def at(self, clock: Scalar) -> Derivatives:
-        """Return position, speed and acceleration, in rad or m and seconds."""
-
-    @property
-    @abstractmethod
-    def clock_start(self) -> Scalar:
-        """What the clock shows at the start."""
-
-    @property
-    @abstractmethod
-    def clock_rate(self) -> Scalar:
-        """What the clock gains a second."""
-
-
-class SteadyDriver(Driver):
-    """Prescribed motion at constant speed, position + speed * t; its clock shows the position."""
-
-    speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
-
-    def at(self, clock: Scalar) -> Derivatives:
-        """See `Driver.at`."""
-        return Derivatives(clock, self.speed, 0.0)
-
-    @property
-    def clock_start(self) -> Scalar:
-        """See `Driver.clock_start`."""
-        return self.position
-
-    @property
-    def clock_rate(self) -> Scalar:
-        """See `Driver.clock_rate`."""
-        return self.speed
-
-
-class MovingDriver(Driver):
-    """Prescribed motion that is a function of time: position + motion(t); its clock shows t."""
-
-    motion: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)]
-
-    def at(self, clock: Scalar) -> Derivatives:
-        """See `Driver.at`."""
-        moved = self.motion.at(clock)
-        return moved._replace(value=self.position + moved.value)
-
-    @property
-    def clock_start(self) -> Scalar:
-        """See `Driver.clock_start`."""
-        return 0.0
-
-    @property
-    def clock_rate(self) -> Scalar:
-        """See `Driver.clock_rate`."""
-        return 1.0
-
-
-def _form_of_driver(value: Any) -> str:
-    return "motion" if has(value, "motion") else "speed"
-
-
-AnyDriver = Annotated[
-    Annotated[SteadyDriver, form("speed")] | Annotated[MovingDriver, form("motion")],
-    told_by(_form_of_driver, "a driver is an object with 'speed' or with 'motion'"),
-]
 
 
 class JournalStart(Strict):

@@ -9,7 +9,8 @@ pin in a slot has ``<joint>.wall_1`` to the left of the axis and ``<joint>.wall_
 import math
 from dataclasses import dataclass
 
-from jointplay.solver.scene.document import (
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import (
     Clearance,
     Fixed,
     Joint,
@@ -17,7 +18,6 @@ from jointplay.solver.scene.document import (
     PinInSlot,
     Prismatic,
     Revolute,
-    Scene,
     SliderClearance,
 )
 

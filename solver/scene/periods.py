@@ -9,7 +9,8 @@ from functools import lru_cache
 from jointplay.solver.laws.force import ForceElement
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.scene.clocks import timed, turns
-from jointplay.solver.scene.document import Driver, MovingDriver, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import Driver, MovingDriver
 
 LARGEST_RATIO = 1000
 """Speeds whose ratio needs larger whole numbers than this count as incommensurate."""

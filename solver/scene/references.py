@@ -7,17 +7,9 @@ from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
-from jointplay.solver.scene.document import (
-    Driver,
-    Fixed,
-    Gear,
-    Joint,
-    MovingDriver,
-    PinInSlot,
-    Prismatic,
-    Revolute,
-    Scene,
-)
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import Driver, MovingDriver
+from jointplay.solver.scene.joints import Fixed, Gear, Joint, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import contact_pairs, has_play
 from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems

@@ -11,14 +11,9 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.units import Rule
-from jointplay.solver.scene.document import (
-    Fixed,
-    MovingDriver,
-    PinInSlot,
-    Prismatic,
-    Revolute,
-    Scene,
-)
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import MovingDriver
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 
 CLEARANCE = (
     Rule(

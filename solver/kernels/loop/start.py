@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
-from jointplay.solver.scene.document import Prismatic, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Prismatic
 from jointplay.solver.scene.references import inner_states
 
 Floats = NDArray[np.float64]

@@ -21,7 +21,8 @@ from jointplay.solver.mechanics.tree import Tree
 from jointplay.solver.mechanics.view import form, view
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.clocks import clocks
-from jointplay.solver.scene.document import Scene, SteadyDriver
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import SteadyDriver
 from jointplay.solver.scene.references import inner_states
 
 MOTION = ("x", "y", "rate_x", "rate_y", "acceleration_x", "acceleration_y")

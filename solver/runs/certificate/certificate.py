@@ -28,7 +28,8 @@ from jointplay.solver.runs.certificate.steepness import steepness
 from jointplay.solver.runs.lane_results import ledger_of, peaks_of, statistics_of
 from jointplay.solver.runs.lasting_contacts import lasting_contacts
 from jointplay.solver.runs.starts import start_scales
-from jointplay.solver.scene.document import Clearance, Scene
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.joints import Clearance
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.references import tangent_obstacle
 

@@ -1,0 +1,96 @@
+"""Drivers of a scene: what prescribes the motion of a joint, or of a body's angle."""
+
+from abc import abstractmethod
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from jointplay.solver.laws.function import FUNCTIONS, Derivatives, Function
+from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import (
+    Name,
+    Strict,
+)
+from jointplay.solver.scene.unions import form, has, told_by
+
+
+class Driver(Strict):
+    """Prescribed motion of an ideal joint, or of a body's angle whatever its joints.
+
+    For a revolute joint the position is the journal body's angle less the bearing body's (rad,
+    rad/s), for a prismatic joint the slider's displacement along the axis (m, m/s), for a
+    body its angle against the ground, from where the torque acts.
+
+    Its clock is what its motion is a function of: it starts at `clock_start` and goes at
+    `clock_rate` a second.
+    """
+
+    joint: Name | None = None
+    body: Name | None = None
+    position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
+
+    @abstractmethod
+    def at(self, clock: Scalar) -> Derivatives:
+        """Return position, speed and acceleration, in rad or m and seconds."""
+
+    @property
+    @abstractmethod
+    def clock_start(self) -> Scalar:
+        """What the clock shows at the start."""
+
+    @property
+    @abstractmethod
+    def clock_rate(self) -> Scalar:
+        """What the clock gains a second."""
+
+
+class SteadyDriver(Driver):
+    """Prescribed motion at constant speed, position + speed * t; its clock shows the position."""
+
+    speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
+
+    def at(self, clock: Scalar) -> Derivatives:
+        """See `Driver.at`."""
+        return Derivatives(clock, self.speed, 0.0)
+
+    @property
+    def clock_start(self) -> Scalar:
+        """See `Driver.clock_start`."""
+        return self.position
+
+    @property
+    def clock_rate(self) -> Scalar:
+        """See `Driver.clock_rate`."""
+        return self.speed
+
+
+class MovingDriver(Driver):
+    """Prescribed motion that is a function of time: position + motion(t); its clock shows t."""
+
+    motion: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)]
+
+    def at(self, clock: Scalar) -> Derivatives:
+        """See `Driver.at`."""
+        moved = self.motion.at(clock)
+        return moved._replace(value=self.position + moved.value)
+
+    @property
+    def clock_start(self) -> Scalar:
+        """See `Driver.clock_start`."""
+        return 0.0
+
+    @property
+    def clock_rate(self) -> Scalar:
+        """See `Driver.clock_rate`."""
+        return 1.0
+
+
+def _form_of_driver(value: Any) -> str:
+    return "motion" if has(value, "motion") else "speed"
+
+
+AnyDriver = Annotated[
+    Annotated[SteadyDriver, form("speed")] | Annotated[MovingDriver, form("motion")],
+    told_by(_form_of_driver, "a driver is an object with 'speed' or with 'motion'"),
+]
