@@ -147,6 +147,7 @@ ALONE = [
     "cite",
     "laws",
     "scene list",
+    "scene schema",
     "scene show pendulum",
     "scene check pendulum",
     "scene draw pendulum -o pendulum.png",

@@ -71,7 +71,7 @@ def _observed(bundle: Bundle, moved: Floats, columns: Integers) -> Floats:
     values = found[:, : len(columns)]
     ends = np.cumsum([len(columns), *(len(names) for _, names in told)])
     contacts = [_entering(found[:, a:b].T) for a, b in pairwise(ends)]
-    depth, rate = np.array(contacts).reshape(-1, 2, len(moved)).transpose(1, 2, 0)
+    depth, rate = np.array(contacts).reshape(len(told), 2, len(moved)).transpose(1, 2, 0)
     entered = (depth > 0.0) & (moved[:, row.mode : row.impact_rate] <= 0.0)
     again = entered.any(axis=1)
     if again.any():
