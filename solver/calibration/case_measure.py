@@ -138,7 +138,7 @@ class CaseMeasure:
             run.legs.append(peaks_of(bundle, lane, self.windows.watched))
         if run.stops == len(self.windows.stops):
             return False
-        bundle.extend(lane, self.windows.stops[run.stops], 0, forget=ended)
+        bundle.extend(lane, run.scene, self.windows.stops[run.stops], 0, forget=ended)
         return True
 
     def _problem(self, kernel: Kernel, form: tuple[int, ...], scene: Scene) -> LaneProblem:

@@ -11,7 +11,6 @@ from jointplay.storage.settings import Settings
 
 WHERE = "catalogue"
 _RESTORE = "stop the service, put a backup of the catalogue back, and run this again"
-_RESTORE = "stop the service, put a backup of the catalogue back, and run this again"
 _BEAT = 1.0  # s that a heartbeat may take on a busy machine
 _HOPELESS = "jointplay cancel {0}; jointplay show {0} --job > job.json; jointplay submit job.json"
 

@@ -84,7 +84,6 @@ class Bundle:
         self.runs = np.zeros(BUNDLE, DTYPE)
         self.runs["status"] = Status.IDLE
         self.runs["landing"] = NO_PAIR
-        self._scenes: dict[int, Scene] = {}
         self.first_energy = np.zeros((len(ENERGIES), BUNDLE))
         self.groups = [
             _Group(
@@ -120,7 +119,6 @@ class Bundle:
         Lanes that never had one repeat this one's numbers: harmless, unlike zeros.
         """
         lane = self.lane(i)
-        self._scenes[i] = problem.scene
         bind(lane, problem, None if like is None else self.lane(like))
         fresh = self.groups[i // LANES].runs["status"] == Status.IDLE
         fresh[lane.index] = False
@@ -137,11 +135,15 @@ class Bundle:
         if self.tangents is not None:
             number(first, self.tangents, scene)
 
-    def extend(self, i: int, duration: float, sections: int, *, forget: bool = False) -> None:
+    def extend(
+        self, i: int, scene: Scene, duration: float, sections: int, *, forget: bool = False
+    ) -> None:
         """Let a lane that is done go on to a later end; `forget` its extremes so far.
 
         Parameters
         ----------
+        scene
+            That the lane runs: checkpoints do not hold it.
         duration
             From the lane's start, s.
         sections
@@ -150,7 +152,7 @@ class Bundle:
         lane = self.lane(i)
         whole, period = float(lane.run["periods"]), lane.run["period"]
         lane.run["duration"] = duration
-        lane["driven_speed"] = driven_speed(self._scenes[i], lane.number("lever"), duration)
+        lane["driven_speed"] = driven_speed(scene, lane.number("lever"), duration)
         lane["end"] = product_difference(duration, 1.0, whole, period)
         lane.run["stop"][SECTIONS] = sections
         if forget:

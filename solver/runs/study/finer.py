@@ -10,6 +10,7 @@ import math
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.runs.study.indicators import LATE
 from jointplay.solver.runs.study.problem import ENDLESS
+from jointplay.solver.scene.document import Scene
 
 FINER = 1e-2
 """The finer tolerance, in the job's: at a tenth, an exponent that falls by three with every tenth
@@ -28,11 +29,15 @@ def periods_of(record: int) -> int:
     return min(record, max(math.ceil(SHARE * record), FEWEST))
 
 
-def go_on_finer(bundle: Bundle, lane: int, tolerance: float, period: float, record: int) -> int:
+def go_on_finer(
+    bundle: Bundle, lane: int, scene: Scene, tolerance: float, period: float, record: int
+) -> int:
     """Let a lane that is done go on with smaller steps.
 
     Parameters
     ----------
+    scene
+        That the lane runs.
     tolerance
         Of the record.
     period
@@ -51,14 +56,16 @@ def go_on_finer(bundle: Bundle, lane: int, tolerance: float, period: float, reco
     for name in ("tangent", "tangent_impact_rate"):  # its length is measured by the weights
         at[name] = at[name] / finer
     first = math.ceil(at.time / period - LATE)
-    bundle.extend(lane, (first + periods_of(record)) * period, ENDLESS)
+    bundle.extend(lane, scene, (first + periods_of(record)) * period, ENDLESS)
     return first
 
 
-def go_on_longer(bundle: Bundle, lane: int, first: int, period: float, record: int) -> bool:
+def go_on_longer(
+    bundle: Bundle, lane: int, scene: Scene, first: int, period: float, record: int
+) -> bool:
     """Double the stretch that began after `first` periods; whether the record is longer than it."""
     periods = round(float(bundle.lane(lane).run["duration"]) / period) - first
     if periods >= record:
         return False
-    bundle.extend(lane, (first + min(2 * periods, record)) * period, ENDLESS)
+    bundle.extend(lane, scene, (first + min(2 * periods, record)) * period, ENDLESS)
     return True

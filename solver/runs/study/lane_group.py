@@ -151,15 +151,20 @@ class LaneGroup:
         if run.ended is None or run.ended.code or not self._carries_exponents:
             return False
         period = float(study.period[run.point])
-        run.finer_from = go_on_finer(self.bundle, lane, study.tolerance, period, study.record)
+        scene = study.point_scene(run.point)
+        run.finer_from = go_on_finer(
+            self.bundle, lane, scene, study.tolerance, period, study.record
+        )
         return True
 
     def _looks_longer(self, lane: int, run: PointRun) -> bool:
         """Lengthen the stretch in smaller steps while it settles nothing; whether it does."""
-        period = float(self.study.period[run.point])
+        study = self.study
+        period = float(study.period[run.point])
         if not undecided(*exponents(*self._growths(run), period, run.settled)):
             return False
-        return go_on_longer(self.bundle, lane, run.finer_from, period, self.study.record)
+        scene = study.point_scene(run.point)
+        return go_on_longer(self.bundle, lane, scene, run.finer_from, period, study.record)
 
     def _judged(self, run: PointRun) -> PointEnd:
         """Return a point's end with its indicators, for which now all is there."""
@@ -200,22 +205,23 @@ class LaneGroup:
         if run.settled >= 0:
             return False
         study, point, bundle = self.study, run.point, self.bundle
+        scene = study.point_scene(point)
         if study.record == 0:
             run.settled = 0
-            bundle.extend(lane, float(study.duration[point]), 0, forget=True)
+            bundle.extend(lane, scene, float(study.duration[point]), 0, forget=True)
             return True
         period = float(study.period[point])
         most = most_settling(study, point)
         scales, angles = scales_of(study, bundle.kernel, point)
         if run.reached < most and not run.has_settled(scales, angles, most):
             run.reached = min(run.reached + WINDOW, most)
-            bundle.extend(lane, run.reached * period, ENDLESS)
+            bundle.extend(lane, scene, run.reached * period, ENDLESS)
             return True
         run.settled = run.reached
         run.seen = []
         left = float(study.duration[point] - study.settle[point])
         taken = int(bundle.lane(lane).run["next"][SECTIONS])
-        bundle.extend(lane, run.settled * period + left, taken + study.record)
+        bundle.extend(lane, scene, run.settled * period + left, taken + study.record)
         return True
 
     def _end(self, lane: int, run: PointRun, status: Status) -> PointEnd:
