@@ -24,12 +24,12 @@ SUBMISSIONS = pytest.mark.parametrize(
 @pytest.fixture
 def held_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[httpx.Client]:
     """A service that is less patient than others, and whose catalogue another program holds."""
-    monkeypatch.setattr(connections, "_PATIENCE", 0.1)
     with (
         serving(create_app(Settings(data=tmp_path))) as url,
         closing(sqlite3.connect(tmp_path / "catalogue.sqlite", isolation_level=None)) as other,
         httpx.Client(base_url=url, trust_env=False, timeout=60) as client,
     ):
+        monkeypatch.setattr(connections, "_PATIENCE", 0.1)  # a start may take longer
         other.execute("BEGIN EXCLUSIVE")
         yield client
 

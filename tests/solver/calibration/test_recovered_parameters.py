@@ -111,6 +111,7 @@ def test_stiffness_and_restitution_are_recovered_from_force_and_rebound():
     assert (found.roughness < 0.1).all()  # one impact is smooth
 
 
+@pytest.mark.long
 def test_two_parameters_that_one_number_cannot_tell_apart_are_reported_so():
     """One force does not fix stiffness and mass: the same force from stiffer, lighter parts."""
     free = {"stiffness": (1e8, 1e11), "mass": (0.1, 10.0)}

@@ -49,7 +49,13 @@ def flown(method: str, steps: int) -> NDArray[np.float64]:
     return bundle.lane(0)["y"].copy()
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "method",
+    [
+        name if name == "tsitouras" else pytest.param(name, marks=pytest.mark.long)
+        for name in METHODS
+    ],
+)
 def test_before_the_first_contact_the_error_falls_with_the_order_of_the_method(
     method: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

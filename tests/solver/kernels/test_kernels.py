@@ -99,7 +99,9 @@ def referred(kernel: Kernel, instant: Instant, formulation: str) -> dict[str, fl
     return found
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+@pytest.mark.parametrize(
+    "formulation", ["reduced", pytest.param("lagrange", marks=pytest.mark.long)]
+)
 def test_kernels_of_the_press_equal_the_readable_reference(formulation: str) -> None:
     random = np.random.default_rng(20)
     scenes = [

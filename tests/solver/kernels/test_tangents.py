@@ -335,6 +335,7 @@ def test_the_press_grows_as_its_companion_does() -> None:
     assert growth(whole)[1:, 1] == pytest.approx(found[1:, 1], abs=0.02)
 
 
+@pytest.mark.long
 def test_exponents_hardly_depend_on_the_tolerance() -> None:
     # a chaotic press whose friction holds in 1e-3 m/s: at 1e-6 its steps are at the limit of
     # stability, and the derivative of the base's own steps would give twice the exponent

@@ -27,7 +27,7 @@ METHODS = [
     {"tolerance": 1e-9},
     pytest.param({"tolerance": 1e-9, "method": "dormand-prince-853"}, marks=pytest.mark.long),
     pytest.param({"tolerance": 1e-7, "method": "bogacki-shampine"}, marks=pytest.mark.long),
-    {"tolerance": 1e-7, "method": "rodas"},
+    pytest.param({"tolerance": 1e-7, "method": "rodas"}, marks=pytest.mark.long),
     {"method": "rk4", "step": 1e-3},
 ]
 SPEEDS = -np.geomspace(0.01, 5.0, 40)
@@ -142,7 +142,7 @@ def test_every_method_ends_its_steps_where_loops_are_closed(job: dict[str, objec
         assert gaps(found) < 1e-13
 
 
-@pytest.mark.parametrize("count", [5, pytest.param(31, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [3, *(pytest.param(n, marks=pytest.mark.long) for n in (5, 31))])
 def test_many_four_bars_swing_as_one_pendulum(count: int) -> None:
     found = run(four_bars(count, -1.0), 3.0, tolerance=1e-9, output_step=0.1)
     expected = four_bars_angle(count, -1.0, 3.0)

@@ -20,16 +20,16 @@ CASES: dict[str, Case] = {
     "quick return": ("quick-return", 0.3, {}, "reduced"),
     "oscillator": ("impact-oscillator", 2.0, {}, "reduced"),
     "press in absolute coordinates": ("seven-bar-press", 0.5, CASE_3, "lagrange"),
+}
+
+
+AT_LENGTH: dict[str, Case] = {
     "press with a step of friction": (
         "seven-bar-press",
         0.2,
         {**CASE_3, "static_velocity": 1e-3, "dynamic_velocity": 1e-3},
         "reduced",
     ),
-}
-
-
-AT_LENGTH: dict[str, Case] = {
     "double pendulum": ("double-pendulum", 3.0, {}, "reduced"),
     "driven pendulum": ("driven-pendulum", 5.0, {}, "reduced"),
     "four-bar": ("four-bar", 0.1, {}, "reduced"),
@@ -37,10 +37,10 @@ AT_LENGTH: dict[str, Case] = {
     "leg": ("jansen-leg", 0.5, {}, "reduced"),
     "test bed": ("seven-bar-test-bed", 0.2, REQUIRED["seven-bar-test-bed"], "reduced"),
 }
-"""Kernels that the short run does not compile."""
+"""What takes long, or kernels that the short run does not compile."""
 
 
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-8])
+@pytest.mark.parametrize("tolerance", [1e-6, pytest.param(1e-8, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "case", [*CASES, *(pytest.param(name, marks=pytest.mark.long) for name in AT_LENGTH)]
 )

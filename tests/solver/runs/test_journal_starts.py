@@ -26,7 +26,9 @@ def journal(
     return run(scene("bouncing-journal", {"bearing": start}), duration, tolerance=1e-8)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+@pytest.mark.parametrize(
+    "formulation", ["reduced", pytest.param("lagrange", marks=pytest.mark.long)]
+)
 def test_journals_of_the_press_start_as_they_are_told(formulation: str) -> None:
     given = {
         "A": {"eccentricity": [3e-4, -2e-4], "rate": [0.01, 0.02]},
