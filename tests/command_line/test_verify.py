@@ -219,13 +219,11 @@ def test_a_calibration_is_repeated_and_compared(jointplay, tmp_path: Path) -> No
         "parameters": {"angle": {"minimum": 0.1, "maximum": 1.0}},
         "cases": [{"targets": [{"channel": "rod.theta", "value": 0.5, "to": 0.2}]}],
         "search": {"population": 4, "generations": 2},
+        "spread": {"generations": 4},
     }
     (tmp_path / "calibration.json").write_text(json.dumps(document))
     made = jointplay("calibrate", tmp_path / "calibration.json", "-o", found, "--processes", "1")
     assert made.code == 0, made.err
-    ended = jointplay("verify", found, "--processes", "1")
-    assert ended.code == 0, ended
-    assert "arrays are equal bit for bit" in ended.out
     outcome = json.loads(found.read_text())
     outcome["members"]["values"][0][0] += 1e-12
     found.write_text(json.dumps(outcome))

@@ -29,7 +29,7 @@ def job(scene: dict[str, Any], formulation: str = "reduced") -> Any:
     [
         ("slider-crank", "reduced", COARSE),
         ("slider-crank", "lagrange", AUTO),
-        ("double-four-bar", "reduced", AUTO),
+        pytest.param("double-four-bar", "reduced", AUTO, marks=pytest.mark.long),
     ],
 )
 def test_the_length_of_the_longest_source_is_foreseen(

@@ -8,13 +8,18 @@ from typing import Any
 import jsonschema
 
 from jointplay.solver.kinds import admit
-from jointplay.solver.scene import document, presets
+from jointplay.solver.scene import document, drivers, joints, presets
 from jointplay.solver.scene.schema import scene_schema
 from tests.solver.completed_runs import run
 
 PAGE = (Path(__file__).resolve().parents[3] / "docs" / "scene.md").read_text()
 BLOCKS = re.findall(r"^```json\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
-OWN = {name for name, value in vars(document).items() if isinstance(value, type)}
+OWN = {
+    name
+    for module in (document, joints, drivers)
+    for name, value in vars(module).items()
+    if isinstance(value, type)
+}
 """Parts of a scene whose fields the page explains; those of laws and elements are in the schema."""
 
 

@@ -103,7 +103,7 @@ def test_an_exponent_interrupted_anywhere_has_the_same_bits(
     checkpoint: bytes | None = None
     interrupted = 0
     while len(disturbed.ends) < 2:
-        checkpoint = disturbed.take(StudyRun(whole.study, 0, checkpoint), 3)
+        checkpoint = disturbed.take(StudyRun(whole.study, 0, checkpoint), 9)
         interrupted += 1
     assert interrupted > 3  # in the record, and behind it
     assert disturbed.bytes() == whole.bytes()
