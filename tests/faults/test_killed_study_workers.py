@@ -136,7 +136,10 @@ def stalled(settings: Settings, process: int) -> Iterator[None]:
         os.kill(process, signal.SIGCONT)
 
 
-@pytest.mark.parametrize("when", ["another has its block", "the study is sealed"])
+@pytest.mark.parametrize(
+    "when",
+    ["another has its block", pytest.param("the study is sealed", marks=pytest.mark.long)],
+)
 def test_a_worker_that_comes_back_late_changes_no_byte(
     settings: Settings,
     catalogue: Catalogue,
