@@ -83,7 +83,7 @@ def solve_semidefinite(
 
     An unknown is 0 where nothing but rounding is left of its pivot: what its equation says then
     follows from the others. That is measured against the diagonal of the rows of the same kind,
-    which have the same unit. One step of refinement makes up for small pivots.
+    which have the same unit.
     """
     entries = {place: value for place, value in matrix.items() if not is_zero(value)}
     sums: dict[str, Scalar] = {}
