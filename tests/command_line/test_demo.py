@@ -77,6 +77,7 @@ def test_the_table_has_a_line_for_every_published_number():
         assert re.split(r"\s{2,}", line)[5] == "1.0000"
 
 
+@pytest.mark.long
 def test_an_interrupted_demo_stops_everything_too(folder):
     with subprocess.Popen(
         [*DEMO, str(folder)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

@@ -137,7 +137,7 @@ def test_points_that_fail_are_named_and_the_others_stand(jointplay, tmp_path):
     assert "every point failed" in alone.err.splitlines()[-1]
 
 
-@pytest.mark.parametrize("processes", ["1", "2"])
+@pytest.mark.parametrize("processes", [pytest.param("1", marks=pytest.mark.long), "2"])
 def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     tmp_path, processes
 ):

@@ -64,7 +64,13 @@ def computed(document: dict[str, Any], folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("name", JOBS)
+SAMPLED = ("journal", "pendulum", "bifurcation", "a run that fails")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name if name in SAMPLED else pytest.param(name, marks=pytest.mark.long) for name in JOBS],
+)
 def test_a_repetition_of_any_job_gives_the_same_bits(jointplay, tmp_path: Path, name: str) -> None:
     folder = computed(JOBS[name], tmp_path / "OUT")
     before = (folder / "results.zarr.zip").read_bytes()

@@ -83,7 +83,7 @@ def installed_wheel(folder: Path) -> Installation:
     return Installation(place / "bin" / "jointplay", place / "bin" / "python")
 
 
-@pytest.fixture(scope="module", params=["editable", "wheel"])
+@pytest.fixture(scope="module", params=[pytest.param("editable", marks=pytest.mark.long), "wheel"])
 def installation(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Installation:

@@ -100,6 +100,7 @@ def test_blocks_go_on_where_their_killed_workers_left_them(
     assert_same_bytes(settings, finished, undisturbed)
 
 
+@pytest.mark.long
 def test_a_stopped_service_goes_on_with_a_study(
     settings: Settings, catalogue: Catalogue, study: Study, undisturbed: dict[str, bytes]
 ) -> None:
@@ -136,10 +137,8 @@ def stalled(settings: Settings, process: int) -> Iterator[None]:
         os.kill(process, signal.SIGCONT)
 
 
-@pytest.mark.parametrize(
-    "when",
-    ["another has its block", pytest.param("the study is sealed", marks=pytest.mark.long)],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("when", ["another has its block", "the study is sealed"])
 def test_a_worker_that_comes_back_late_changes_no_byte(
     settings: Settings,
     catalogue: Catalogue,

@@ -84,6 +84,7 @@ def test_a_block_goes_on_where_its_killed_worker_left_it(
     assert left == [settings.sealed_run(job, finished.attempt).key]
 
 
+@pytest.mark.long
 def test_a_whole_worker_killed_is_replaced(
     settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
 ) -> None:
