@@ -24,6 +24,7 @@ COMPILED_AT_LENGTH = {
     "double-pendulum",
     "driven-pendulum",
     "andrews-squeezer",
+    "double-four-bar",
     "jansen-leg",
 }
 """Their kernels take a minute together, and show little that those of the others do not."""

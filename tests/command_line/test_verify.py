@@ -217,6 +217,7 @@ def test_a_job_that_has_not_ended_is_refused(jointplay, service) -> None:
         job.cancel().wait(check=False)
 
 
+@pytest.mark.long
 def test_a_calibration_is_repeated_and_compared(jointplay, tmp_path: Path) -> None:
     found = tmp_path / "found.json"
     document = {

@@ -109,7 +109,7 @@ def test_the_numbers_along_its_axes_stand_apart(figure):
     stand_apart(figure)
 
 
-@pytest.mark.parametrize("form", ["png", "svg"])
+@pytest.mark.parametrize("form", ["png", pytest.param("svg", marks=pytest.mark.long)])
 def test_the_same_results_give_the_same_bytes_in_any_thread(case, pictures, form):
     source, name, selection = case
 

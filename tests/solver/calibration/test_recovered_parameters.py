@@ -86,6 +86,7 @@ def test_what_was_found_is_plain_json_and_repeats_itself(elastic):
     assert json.dumps(again.document(), allow_nan=False) == text
 
 
+@pytest.mark.long
 def test_the_number_of_processes_changes_nothing(elastic):
     shared = computed(ELASTIC, processes=2)
     assert shared.document() == elastic.document()

@@ -88,6 +88,7 @@ def test_a_landing_that_does_not_converge_is_approached_in_shorter_steps() -> No
     assert bundle.lane(0).time == pytest.approx(0.5)
 
 
+@pytest.mark.long
 def test_a_method_of_high_order_keeps_its_balance_where_tsitouras_is_refused() -> None:
     draft = finished(press(0.5, {"clearance": 5e-4}, accuracy="draft"))
     assert draft.statistics["method"] == "dormand-prince-853"

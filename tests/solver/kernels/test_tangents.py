@@ -319,6 +319,7 @@ def test_both_formulations_have_the_same_exponent() -> None:
     assert error < 0.03 * reduced.mean()
 
 
+@pytest.mark.long
 def test_the_press_grows_as_its_companion_does() -> None:
     scene = preset("seven-bar-press", **CASE_3)
     tolerance, near = 1e-8, 1e-8

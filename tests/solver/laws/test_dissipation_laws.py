@@ -266,6 +266,7 @@ def returned(law: ContactLaw, fit: Any) -> float:
 
 
 @pytest.mark.parametrize("journal", range(len(JOURNALS)))
+@pytest.mark.long
 def test_laws_of_every_form_act_as_they_are_written(journal: int) -> None:
     found = thrown_together()
     fit = found.admission.scene.joints[f"bearing{journal}"].clearance

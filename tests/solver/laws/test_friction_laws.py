@@ -30,6 +30,7 @@ NUMBERS: dict[str, dict[str, Any]] = {
 CONTACT = {"law": "lankarani-nikravesh", "stiffness": 1e8, "restitution": 0.9}
 
 
+@pytest.mark.long
 def test_friction_acts_in_kernels_as_it_is_written() -> None:
     assert NUMBERS.keys() == LAWS.keys()
     scene = spinning(CONTACT, *({"law": name} | numbers for name, numbers in NUMBERS.items()))

@@ -91,6 +91,7 @@ def test_progress_counts_the_stretch_in_smaller_steps(monkeypatch: pytest.Monkey
     assert fractions[-1] == 1.0
 
 
+@pytest.mark.long
 def test_an_exponent_interrupted_anywhere_has_the_same_bits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
