@@ -133,7 +133,12 @@ def seen(formulation: str, turned: bool) -> Seen:
 
 
 @pytest.fixture(
-    params=[("reduced", False), ("reduced", True), ("lagrange", False), ("lagrange", True)],
+    params=[
+        pytest.param(("reduced", False), marks=pytest.mark.long),
+        ("reduced", True),
+        ("lagrange", False),
+        pytest.param(("lagrange", True), marks=pytest.mark.long),
+    ],
     ids=["reduced", "reduced, turned", "lagrange", "lagrange, turned"],
 )
 def run(request: pytest.FixtureRequest) -> Seen:

@@ -239,7 +239,9 @@ def test_peaks_of_the_press_bound_all_samples(press: Run) -> None:
         ("bouncing-journal", 0.1, 20_000, {}),
         ("slider-crank", 0.03, 20_000, {}),
         ("slider-crank", 0.03, 20_000, {"clearance": 0.0}),
-        ("seven-bar-press", 2.7, 4000, {"clearance": 0.0}),  # 3000 a revolution, without contacts
+        pytest.param(  # 3000 a revolution, without contacts
+            *("seven-bar-press", 2.7, 20_000, {"clearance": 0.0}), marks=pytest.mark.long
+        ),
     ],
 )
 def test_peaks_bound_all_samples(
