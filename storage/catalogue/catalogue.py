@@ -92,6 +92,7 @@ class Catalogue:
 
     def migrate(self) -> None:
         """Create the tables or bring them up to date; several processes may do it at once."""
+        self.connections.make_file()
         with self.connections.reading() as connection:
             if schema.present_revision(connection) == schema.REVISION:
                 return

@@ -12,8 +12,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
+from urllib.parse import quote
 
 from sqlalchemy import (
+    URL,
     Connection,
     Engine,
     create_engine,
@@ -52,28 +54,31 @@ class Connections:
     Parameters
     ----------
     url
-        SQLAlchemy URL. For SQLite a file, whose folder is created.
+        SQLAlchemy URL. For SQLite a file, which `make_file` makes.
     """
 
     def __init__(self, url: str) -> None:
         parsed = make_url(url)
-        self._sqlite = parsed.get_backend_name() == "sqlite"
-        if self._sqlite:
+        self._file: Path | None = None
+        if parsed.get_backend_name() == "sqlite":
             if not parsed.database or parsed.database == ":memory:":
                 raise ValueError(
                     f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}"
                 )
-            Path(parsed.database).parent.mkdir(parents=True, exist_ok=True)
-        self._readers = self._engine(url, "NORMAL", "BEGIN")
-        self._writer = self._engine(url, "NORMAL", "BEGIN IMMEDIATE")
+            self._file = Path(parsed.database)
+            # not made by a connection: an empty file would stand in for one that is gone
+            existing = {"mode": "rw", "uri": "true"}
+            parsed = parsed.set(database=f"file:{quote(parsed.database)}", query=existing)
+        self._readers = self._engine(parsed, "NORMAL", "BEGIN")
+        self._writer = self._engine(parsed, "NORMAL", "BEGIN IMMEDIATE")
         # what a submission answers with 202 must survive a power cut; progress need not
-        self._durable_writer = self._engine(url, "FULL", "BEGIN IMMEDIATE")
+        self._durable_writer = self._engine(parsed, "FULL", "BEGIN IMMEDIATE")
         self._turn = threading.Lock()
 
     def _engine(
-        self, url: str, synchronous: Literal["NORMAL", "FULL"], begin_statement: str
+        self, url: URL, synchronous: Literal["NORMAL", "FULL"], begin_statement: str
     ) -> Engine:
-        if not self._sqlite:
+        if self._file is None:
             return create_engine(url, pool_pre_ping=True)
         engine = create_engine(url)
 
@@ -92,6 +97,12 @@ class Connections:
             connection.exec_driver_sql(begin_statement)
 
         return engine
+
+    def make_file(self) -> None:
+        """Make SQLite's file and its folder, where there are none yet."""
+        if self._file is not None:
+            self._file.parent.mkdir(parents=True, exist_ok=True)
+            self._file.touch()
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
@@ -121,7 +132,7 @@ class Connections:
     def migrating(self) -> Iterator[Connection]:
         """Begin a writing unit that no other process can enter while it lasts."""
         with self.writing(durable=True) as connection:
-            if not self._sqlite:
+            if self._file is None:
                 connection.execute(text("SELECT pg_advisory_xact_lock(7411)"))
             yield connection
 

@@ -10,6 +10,7 @@ from alembic.util import CommandError
 
 from jointplay.storage.catalogue import schema, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 
 
 def migrate(url: str) -> None:
@@ -58,7 +59,20 @@ def test_several_processes_may_migrate_at_once(tmp_path: Path) -> None:
 
 
 def test_an_empty_database_is_not_ready(tmp_path: Path) -> None:
+    (tmp_path / "catalogue.sqlite").touch()
     catalogue = Catalogue(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
     with pytest.raises(Exception, match="alembic_version"):
         catalogue.ping()
+    catalogue.close()
+
+
+def test_a_database_that_is_gone_is_missed_and_not_made_anew(tmp_path: Path) -> None:
+    file = tmp_path / "catalogue.sqlite"
+    catalogue = Catalogue(f"sqlite:///{file}")
+    catalogue.migrate()
+    catalogue.close()
+    file.rename(tmp_path / "elsewhere.sqlite")
+    with pytest.raises(Unavailable, match="does not answer"):
+        catalogue.ping()
+    assert not file.exists()
     catalogue.close()
