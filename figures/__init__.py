@@ -1,8 +1,8 @@
-"""Figures of runs and studies, as a journal would print them; PNG and SVG from the same code.
+"""Figures of runs and studies, as a journal would print them, in every form from the same code.
 
 A family: one figure a file, and a line in a roster below. Every figure takes a
-`records.run.Source`, or a `records.study.StudySource`, and a `Selection`. Importing this package
-does not load matplotlib; drawing does, without pyplot or a change of the caller's settings.
+`records.run.Source`, or a `records.study.StudySource`, a `Selection` and `Options`. Importing this
+package does not load matplotlib; drawing does, without pyplot or a change of the caller's settings.
 
 >>> from jointplay import figures
 >>> figures.render(reader, "orbit", "svg", figures.Selection(joints=("A",)))  # doctest: +SKIP
@@ -12,7 +12,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
-from jointplay.figures import page, scene_facts, study_facts
+from jointplay.figures import page, saving, scene_facts, study_facts
+from jointplay.figures.adjustment import drawn
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.contact_force import CONTACT_FORCE
@@ -28,8 +29,8 @@ from jointplay.figures.kind import (
     select,
 )
 from jointplay.figures.mechanism import MECHANISM, draw_mechanism, render_mechanism
+from jointplay.figures.options import Options, chosen_options
 from jointplay.figures.orbit import ORBIT
-from jointplay.figures.page import Form, warm_up
 from jointplay.figures.phase_portrait import PHASE_PORTRAIT
 from jointplay.figures.section import SECTION
 from jointplay.figures.spectrum import SPECTRUM
@@ -37,10 +38,12 @@ from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
 from jointplay.figures.work_precision import WORK_PRECISION
 from jointplay.records.channel import by_name
+from jointplay.records.figure_form import FORMS, Form
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
 __all__ = [
+    "FORMS",
     "ROSTER",
     "STUDY_ROSTER",
     "FigureError",
@@ -48,9 +51,11 @@ __all__ = [
     "Form",
     "Listed",
     "NotDrawable",
+    "Options",
     "Selection",
     "UnknownFigure",
     "available",
+    "chosen_options",
     "draw",
     "draw_mechanism",
     "is_study",
@@ -58,7 +63,6 @@ __all__ = [
     "render_mechanism",
     "required",
     "select",
-    "warm_up",
 ]
 
 ROSTER: Final[dict[str, RunFigure]] = {
@@ -120,7 +124,10 @@ def required(
 
 
 def draw(
-    source: Source | StudySource, name: str, selection: Selection | None = None
+    source: Source | StudySource,
+    name: str,
+    selection: Selection | None = None,
+    options: Options | None = None,
 ) -> page.Figure:
     """Draw a figure.
 
@@ -132,24 +139,29 @@ def draw(
         A figure of the roster, or a stored channel for its own picture.
     selection
         Channels, joints, window of time or points; by default all.
+    options
+        Of its page.
 
     Raises
     ------
     UnknownFigure, NotDrawable
-        As for `required`.
+        As for `required`, and where an option means nothing for this figure.
     """
     kind, selection = _find(source, name, selection)
     kind.channels(source, selection)
-    with page.style():
-        return kind.draw(source, selection)
+    return drawn(lambda: kind.draw(source, selection), options)
 
 
 def render(
-    source: Source | StudySource, name: str, form: Form, selection: Selection | None = None
+    source: Source | StudySource,
+    name: str,
+    form: Form,
+    selection: Selection | None = None,
+    options: Options | None = None,
 ) -> bytes:
-    """Draw a figure and give the bytes of a PNG or SVG file; errors as for `draw`."""
+    """Draw a figure and give the bytes of a file; errors as for `draw`."""
     with page.style():
-        return page.save(draw(source, name, selection), form)
+        return saving.save(draw(source, name, selection, options), form)
 
 
 def _find(

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.figures import marks, page, study_facts
+from jointplay.figures import colours, marks, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
@@ -87,7 +87,7 @@ def _exponents(axes: page.Axes, diagram: _Diagram) -> None:
     exponents = diagram.source.indicators["lyapunov"][diagram.points]
     errors = diagram.source.indicators.get("lyapunov_error")
     reach = np.zeros_like(exponents) if errors is None else errors[diagram.points]
-    axes.axhline(0.0, color=page.BLACK, linewidth=0.4, zorder=1.0)
+    axes.axhline(0.0, color=colours.GEOMETRY, linewidth=0.4, zorder=1.0)
     for group in diagram.groups:
         members = group.members[diagram.points] & np.isfinite(exponents)
         axes.errorbar(
@@ -117,6 +117,7 @@ def _verdicts(
             axes.broken_barh(cells, (row - 0.4, 0.8), color=verdict.colour, linewidth=0.0)
     axes.set_yticks(range(len(directions)), [direction.name for direction in directions])
     axes.tick_params(axis="y", length=0.0)
+    axes.set_gid(page.WITHOUT_SCALE)
 
 
 def _legend(diagram: _Diagram, verdicts: tuple[Group, ...]) -> dict[str, tuple[str, str]]:

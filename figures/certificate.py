@@ -2,14 +2,18 @@
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, log_axis, page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection, at_most
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
 from jointplay.records.run import CertificateRecord, Source, inside
 
 MOST_PANELS = 8
-_PANEL_HEIGHT = 30.0  # mm
+_PANEL_HEIGHT = 24.0  # mm
+_CONVERGED = (
+    "Converged: the error of each journal's centre is below a tenth of its clearance, that of each"
+    " body's position below a twentieth of its range. The horizon is the first end of that."
+)
 _SMALLEST = 1e-12
 """Share of the largest error that a panel shows: errors below are drawn there."""
 
@@ -32,8 +36,6 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 
 
 def _draw(source: Source, selection: Selection) -> page.Figure:
-    from matplotlib.ticker import NullLocator, StrMethodFormatter
-
     names = _channels(source, selection)
     end = float(_of(source).attributes["horizon"])
     arrays = _of(source).arrays
@@ -43,7 +45,9 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         raise NotDrawable(sampling.NO_SAMPLES, "start")
     time = time[chosen]
     across = TimeAxis(source, [time])
-    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), legend_rows=1)
+    beside = page.caption_height(_CONVERGED)
+    figure, panels = page.stack([_PANEL_HEIGHT] * len(names), 1, beside)
+    page.caption(figure, _CONVERGED)
     stored = [channel.name for channel in source.channels]
     for axes, name in zip(panels, names, strict=True):
         errors = arrays["error"].values[chosen, stored.index(name)]
@@ -51,15 +55,15 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         shown = scale(scene_facts.channel(source, name).unit, finite)
         floor = _SMALLEST * max(float(finite.max(initial=0.0)), np.finfo(np.float64).tiny)
         drawn = np.maximum(errors, floor) / shown.factor
-        axes.plot(across.shown(time), drawn, color=page.BLUE, label="estimated error")
+        axes.plot(across.shown(time), drawn, color=colours.COMPUTED, label="estimated error")
         axes.set_yscale("log")
-        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
-        axes.yaxis.set_minor_locator(NullLocator())  # a low panel has room for decades
+        log_axis.number(axes.yaxis, intervals=5)
         across.shade(axes)
         if time[0] <= end <= time[-1]:
-            look: page.Look = {"color": page.VERMILION, "linestyle": "--", "linewidth": 0.7}
+            look: page.Look = {"color": colours.MARKED, "linestyle": "--", "linewidth": 0.7}
             axes.axvline(end / across.scale.factor, label="horizon", **look)
-        axes.set_ylabel(shown.label(f"error of\n{name}"))
+        axes.set_ylabel(shown.label("error"))
+        page.corner_text(axes, name)
     page.finish_stack(figure, panels, across.label, panels[0])
     return figure
 

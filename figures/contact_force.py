@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
@@ -31,8 +31,10 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     for axes, joint, (time, force), (onset, peak) in zip(
         panels, joints, curves, impacts, strict=True
     ):
-        axes.plot(across.shown(time), force / newtons.factor, color=page.BLUE, label="samples")
-        look: page.Look = {"color": page.VERMILION, "linewidth": 0.5, "zorder": 1.5}
+        axes.plot(
+            across.shown(time), force / newtons.factor, color=colours.COMPUTED, label="samples"
+        )
+        look: page.Look = {"color": colours.MARKED, "linewidth": 0.5, "zorder": 1.5}
         heights = peak / newtons.factor
         axes.vlines(across.shown(onset), 0.0, heights, label="impacts between samples", **look)
         across.shade(axes)

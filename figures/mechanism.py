@@ -3,12 +3,15 @@
 from collections.abc import Mapping
 from typing import Any
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import page, sampling, saving, scene_facts
+from jointplay.figures.adjustment import drawn
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.mechanism_geometry import Geometry, Pose, geometry
 from jointplay.figures.mechanism_labels import draw_labels
 from jointplay.figures.mechanism_marks import draw_bodies, draw_gravity, draw_joints, draw_rails
+from jointplay.figures.options import Options
 from jointplay.figures.quantity import scale
+from jointplay.records.figure_form import Form
 from jointplay.records.run import Source
 
 _MARGIN = 0.1
@@ -17,7 +20,9 @@ _LEAST_HEIGHT, _MOST_HEIGHT = 45.0, 90.0  # mm
 _FRAME_WIDTH, _FRAME_HEIGHT = 12.0, 16.0  # mm that axes labels and the legend take
 
 
-def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
+def draw_mechanism(
+    scene: Mapping[str, Any], pose: Pose, options: Options | None = None
+) -> page.Figure:
     """Draw a scene at a pose.
 
     Parameters
@@ -26,22 +31,25 @@ def draw_mechanism(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
         The scene document, checked.
     pose
         By body: x and y of the centre of mass [m] and angle [rad].
+    options
+        Of its page.
 
     Raises
     ------
     NotDrawable
-        The pose lacks a body.
+        The pose lacks a body, or an option means nothing for this figure.
     """
     if missing := [name for name in scene["bodies"] if name not in pose]:
         raise NotDrawable(f"The pose does not say where {', '.join(missing)} is.")
-    with page.style():
-        return _draw(geometry(scene, pose))
+    return drawn(lambda: _draw(geometry(scene, pose)), options)
 
 
-def render_mechanism(scene: Mapping[str, Any], pose: Pose, form: page.Form) -> bytes:
-    """Draw a scene at a pose and give the bytes of a PNG or SVG file."""
+def render_mechanism(
+    scene: Mapping[str, Any], pose: Pose, form: Form, options: Options | None = None
+) -> bytes:
+    """Draw a scene at a pose and give the bytes of a file."""
     with page.style():
-        return page.save(draw_mechanism(scene, pose), form)
+        return saving.save(draw_mechanism(scene, pose, options), form)
 
 
 def _draw(shape: Geometry) -> page.Figure:
@@ -88,7 +96,7 @@ def _draw_first(source: Source, selection: Selection) -> page.Figure:
     at = {name: float(values[0]) for name, values in row.items()}
     scene = scene_facts.scene(source)
     pose = {one: (at[f"{one}.x"], at[f"{one}.y"], at[f"{one}.theta"]) for one in scene["bodies"]}
-    return draw_mechanism(scene, pose)
+    return _draw(geometry(scene, pose))
 
 
 MECHANISM = RunFigure(

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.figures import page
+from jointplay.figures import colours, page
 from jointplay.figures.mechanism_geometry import (
     WITH_CLEARANCE,
     Geometry,
@@ -106,11 +106,11 @@ def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre
         write(
             ", ".join(joint.name for joint in joints),
             _joint_places(shape, point, joints),
-            color=page.VERMILION if play else page.BLACK,
+            color=colours.MARKED if play else colours.GEOMETRY,
             weight="bold" if play else "normal",
         )
     for name in shape.bodies:
-        write(name, _body_places(shape, name), color=page.BLACK, style="italic")
+        write(name, _body_places(shape, name), color=colours.GEOMETRY, style="italic")
 
 
 def _joint_places(shape: Geometry, point: Point, joints: list[JointMark]) -> Iterator[_Place]:

@@ -5,7 +5,7 @@ from itertools import cycle
 
 import numpy as np
 
-from jointplay.figures import page
+from jointplay.figures import colours, page
 from jointplay.figures.mechanism_geometry import WITH_CLEARANCE, Geometry, among, distance, outline
 
 TINTS = ("#9CC9E8", "#A8DDC9", "#F5C99B", "#E3B8D2", "#CFCFCF", "#EFE59A")
@@ -27,7 +27,7 @@ def draw_rails(axes: page.Axes, shape: Geometry, metre: float) -> None:
         axes.plot(
             (x + along * math.cos(joint.axis)) / metre,
             (y + along * math.sin(joint.axis)) / metre,
-            color=page.GREY,
+            color=colours.AUXILIARY,
             linewidth=0.6,
             linestyle=(0, (6, 2, 1, 2)),
             zorder=1,
@@ -55,12 +55,12 @@ def draw_bodies(axes: page.Axes, shape: Geometry, metre: float) -> None:
 
 def draw_joints(axes: page.Axes, shape: Geometry, metre: float) -> None:
     """Draw a circle for each joint that turns, a square for each weld, and supports."""
-    black: page.Look = {"color": page.BLACK, "markersize": 4.0}
+    black: page.Look = {"color": colours.GEOMETRY, "markersize": 4.0}
     white: page.Look = {"markerfacecolor": "white"}
-    play: page.Look = {"color": page.VERMILION, "markersize": 5.5, "markeredgewidth": 1.4}
+    play: page.Look = {"color": colours.MARKED, "markersize": 5.5, "markeredgewidth": 1.4}
     looks: dict[str, page.Look] = {
         "ideal joint": black | white,
-        "driven joint": black | {"markerfacecolor": page.BLACK},
+        "driven joint": black | {"markerfacecolor": colours.GEOMETRY},
         WITH_CLEARANCE: play | white,
         "weld": {"markersize": 3.5, "markerfacecolor": EDGE, "color": EDGE, "marker": "s"},
     }
@@ -97,11 +97,11 @@ def draw_gravity(axes: page.Axes, shape: Geometry) -> None:
         width=0.5,
         head_width=3.5,
         length_includes_head=True,
-        color=page.GREY,
+        color=colours.AUXILIARY,
         linewidth=0.0,
     )
     beside = Text(
-        middle + 5.5 * y, middle - 5.5 * x, "g", color=page.GREY, ha="center", va="center"
+        middle + 5.5 * y, middle - 5.5 * x, "g", color=colours.AUXILIARY, ha="center", va="center"
     )
     for artist in (arrow, beside):
         area.add_artist(artist)

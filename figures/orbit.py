@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
@@ -51,12 +51,12 @@ def _orbit(axes: page.Axes, x: Floats, y: Floats, radius: float, beginning: str)
     axes.plot(
         x,
         y,
-        color=page.BLUE,
+        color=colours.COMPUTED,
         linewidth=0.4,
         rasterized=len(x) > page.MOST_VECTOR_POINTS,
         label=f"journal centre{beginning}",
     )
-    axes.plot(x[:1], y[:1], "o", color=page.VERMILION, markersize=2.5, label="first sample")
+    axes.plot(x[:1], y[:1], "o", color=colours.MARKED, markersize=2.5, label="first sample")
     draw_clearance(axes, radius, linewidth=0.6, label="clearance circle")
     frame(axes, 1.12 * max(radius, float(np.nanmax(np.abs([x, y]), initial=0.0))))
 
@@ -65,7 +65,7 @@ def draw_clearance(axes: page.Axes, radius: float, **look: Any) -> None:
     """Draw a circle around the bearing's centre, dashed."""
     angle = np.linspace(0.0, 2.0 * np.pi, 241)
     circle = (radius * np.cos(angle), radius * np.sin(angle))
-    axes.plot(*circle, color=page.BLACK, linestyle=(0, (4, 3)), **look)
+    axes.plot(*circle, color=colours.GEOMETRY, linestyle=(0, (4, 3)), **look)
 
 
 def frame(axes: page.Axes, reach: float) -> None:

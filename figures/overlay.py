@@ -3,12 +3,15 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from jointplay.figures import page
+from jointplay.figures import colours, page, saving
+from jointplay.figures.adjustment import drawn
+from jointplay.figures.options import Options
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
+from jointplay.records.figure_form import Form
 
 _PANEL_HEIGHT = 30.0  # mm
-MOST_CURVES = len(page.STYLES)
+MOST_CURVES = len(colours.COMPARED)
 
 
 @dataclass(frozen=True)
@@ -21,7 +24,9 @@ class Curve:
     values: Floats
 
 
-def draw_overlay(panels: Mapping[str, Sequence[Curve]], form: page.Form) -> bytes:
+def draw_overlay(
+    panels: Mapping[str, Sequence[Curve]], form: Form, options: Options | None = None
+) -> bytes:
     """Return a figure with one panel for each channel, in it a curve for each run.
 
     Parameters
@@ -29,23 +34,29 @@ def draw_overlay(panels: Mapping[str, Sequence[Curve]], form: page.Form) -> byte
     panels
         By channel, curves with the same labels in the same order; at most `MOST_CURVES`.
     form
-        "png" or "svg".
+        Of the file.
+    options
+        Of its page.
     """
-    rows = max(page.legend_rows(curves) for curves in panels.values())
     with page.style():
-        figure, stacked = page.stack([_PANEL_HEIGHT] * len(panels), rows)
-        seconds = scale("s", *(curve.time for curves in panels.values() for curve in curves))
-        for axes, (name, curves) in zip(stacked, panels.items(), strict=True):
-            shown = scale(curves[0].unit, *(curve.values for curve in curves))
-            for curve, (colour, dashes, _) in zip(curves, page.STYLES, strict=False):
-                axes.plot(
-                    curve.time / seconds.factor,
-                    curve.values / shown.factor,
-                    color=colour,
-                    linestyle=dashes,
-                    label=curve.label,
-                    rasterized=len(curve.time) > page.MOST_VECTOR_POINTS,
-                )
-            axes.set_ylabel(shown.label(page.in_two_lines(name)))
-        page.finish_stack(figure, stacked, seconds.label("time"), stacked[0])
-        return page.save(figure, form)
+        return saving.save(drawn(lambda: _draw(panels), options), form)
+
+
+def _draw(panels: Mapping[str, Sequence[Curve]]) -> page.Figure:
+    rows = max(page.legend_rows(curves) for curves in panels.values())
+    figure, stacked = page.stack([_PANEL_HEIGHT] * len(panels), rows)
+    seconds = scale("s", *(curve.time for curves in panels.values() for curve in curves))
+    for axes, (name, curves) in zip(stacked, panels.items(), strict=True):
+        shown = scale(curves[0].unit, *(curve.values for curve in curves))
+        for curve, (colour, dashes, _) in zip(curves, colours.COMPARED, strict=False):
+            axes.plot(
+                curve.time / seconds.factor,
+                curve.values / shown.factor,
+                color=colour,
+                linestyle=dashes,
+                label=curve.label,
+                rasterized=len(curve.time) > page.MOST_VECTOR_POINTS,
+            )
+        axes.set_ylabel(shown.label(page.in_two_lines(name)))
+    page.finish_stack(figure, stacked, seconds.label("time"), stacked[0])
+    return figure

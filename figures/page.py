@@ -1,10 +1,8 @@
-"""The page that every figure is drawn on: journal column width, type, colours, file formats."""
+"""The page that every figure is drawn on: width of a journal's column, type, panels, legends."""
 
-import io
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 from textwrap import wrap
 from threading import RLock
@@ -20,7 +18,6 @@ if TYPE_CHECKING:
 else:  # matplotlib is loaded when something is drawn, not when a signature names its types
     Axes = Axis = Figure = MarkerPath = Any
 
-Form = Literal["png", "svg"]
 Look = dict[str, Any]
 """Keywords of matplotlib's artists."""
 Panels = list[list[Axes]]
@@ -28,31 +25,16 @@ Panels = list[list[Axes]]
 
 COLUMN_WIDTH: Final = 85.0
 """Width of a journal's column [mm]."""
-DOTS_PER_INCH: Final = 300
+WITHOUT_SCALE: Final = "without scale"
+"""Group id of axes whose place along them is no quantity: colour bars, strips of cells."""
 LEGEND_HEIGHT: Final = 5.0
 """Height of a legend above the panels [mm], for each row of it."""
 LEGEND_COLUMNS: Final = 4
-CAPTION_LINE: Final = 2.5
+CAPTION_LINE: Final = 2.8
 """Height of a line of a caption below the panels [mm]."""
 AXIS_HEIGHT: Final = 8.0
 """Height of an axis below panels, with its label [mm]."""
 
-# Okabe and Ito 2008: distinct with any colour vision, and in grey
-BLUE: Final = "#0072B2"
-VERMILION: Final = "#D55E00"
-BLACK: Final = "#000000"
-GREY: Final = "#767676"
-GREEN: Final = "#009E73"
-SHADE: Final = "#E8E8E8"
-"""Behind what is not finished."""
-STYLES: Final = (
-    (BLUE, "-", "o"),
-    (VERMILION, "--", "s"),
-    (GREEN, "-.", "^"),
-    (BLACK, ":", "D"),
-    (GREY, "-", "v"),
-)
-"""Colour, dashes and mark of curves that are compared: distinct in grey, too."""
 RING: Final[Look] = {"markerfacecolor": "none", "markeredgewidth": 0.7}
 """An open circle around a point of a curve."""
 
@@ -62,16 +44,10 @@ MOST_VECTOR_MARKS: Final = 4000
 """The same for marks that stand alone; each takes ten times the bytes."""
 
 _LONGEST_LABEL: Final = 20
-_CAPTION_WIDTH: Final = 82
+_CAPTION_WIDTH: Final = 76
 """Letters in a line of a caption."""
-_GAP: Final = 2.0
-"""Least space between two numbers along an axis [pt]."""
 _MILLIMETRES_AN_INCH: Final = 25.4
 _STYLE: Final = Path(__file__).with_name("journal.mplstyle")
-_METADATA: Final[dict[Form, dict[str, str | None]]] = {
-    "png": {"Software": None},
-    "svg": {"Date": None, "Creator": "jointplay"},
-}
 _lock: Final = RLock()
 
 
@@ -92,13 +68,6 @@ def _settings() -> Any:
     from matplotlib import rc_params_from_file
 
     return rc_params_from_file(_STYLE, use_default_template=False)
-
-
-def warm_up() -> None:
-    """Load what every figure needs, fonts too; the first one of a process else waits for it."""
-    with style():
-        figure, _ = panels(1, 1, 40.0)
-        save(figure, "png")
 
 
 def panels(
@@ -212,61 +181,8 @@ def caption(figure: Figure, sentence: str) -> None:
     """Write a sentence below the panels."""
     if sentence:
         text = "\n".join(_caption_lines(sentence))
-        figure.supxlabel(text, x=0.01, ha="left", fontsize=5.5)
+        figure.supxlabel(text, x=0.01, ha="left", fontsize=6.0)
 
 
 def _caption_lines(sentence: str) -> list[str]:
     return wrap(sentence, _CAPTION_WIDTH)
-
-
-def save(figure: Figure, form: Form) -> bytes:
-    """Give the bytes of a file: the same for the same figure, without date or version.
-
-    `savefig` draws twice, at first into nowhere, to lay the page out. It is laid out by then.
-    """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    _spread_numbers(figure)
-    buffer = io.BytesIO()
-    if form == "png":
-        figure.set_dpi(DOTS_PER_INCH)
-        canvas: Any = FigureCanvasAgg(figure)  # its stubs leave types out
-        canvas.print_png(buffer, metadata=_METADATA[form])
-    else:
-        figure.savefig(buffer, format=form, dpi=DOTS_PER_INCH, metadata=_METADATA[form])
-    return buffer.getvalue()
-
-
-def _spread_numbers(figure: Figure) -> None:
-    """Leave out every second number of a horizontal axis where they would touch, however long.
-
-    Only a page that is laid out tells: numbers such as 0.49925 are wider than their count lets
-    expect. The layout then stays as it is, for it takes as long as drawing.
-    """
-    from matplotlib.ticker import FixedLocator
-
-    engine = figure.get_layout_engine()
-    if engine is None:
-        return
-    engine.execute(figure)
-    gap = _GAP * figure.dpi / 72.0
-    for axes in figure.axes:
-        while len(places := _crowded(axes.xaxis, gap)) > 1:
-            axes.xaxis.set_major_locator(FixedLocator(places[::2]))
-            engine.execute(figure)
-    figure.set_layout_engine("none")
-
-
-def _crowded(axis: Axis, gap: float) -> list[float]:
-    """Give the places of an axis's numbers if two of them touch, else none."""
-    axis.get_tightbbox(None)  # brings the numbers up to date with the page
-    low, high = sorted(axis.get_view_interval())
-    shown = sorted(
-        (box.x0, box.x1, float(tick.get_loc()))
-        for tick in axis.get_major_ticks()
-        for label in (tick.label1, tick.label2)
-        if low <= tick.get_loc() <= high and label.get_visible() and label.get_text()
-        for box in (label.get_window_extent(),)
-    )
-    touch = any(right[0] - left[1] < gap for left, right in pairwise(shown))
-    return [place for _, _, place in shown] if touch else []

@@ -1,15 +1,21 @@
 """The axis of a study's parameter: scale, what is not finished, what failed."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from jointplay.figures import page
+from jointplay.figures import colours, log_axis, page
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
 _LOGARITHMIC = 20.0
-"""Values that span such a ratio, spaced more evenly by ratio, have a logarithmic axis."""
+"""Values of a list that span such a ratio, spaced more evenly by ratio, have a logarithmic axis."""
+_LEAST_RATIO = 1.5
+"""So have values that span this one if their ratios are all the same."""
+_EVEN = 1e-6
+"""Largest relative deviation of steps that are the same."""
 
 
 class ParameterAxis:
@@ -24,7 +30,7 @@ class ParameterAxis:
         """(points,) values as they are shown."""
         self.status = source.status[points]
         """(points,) codes of the points."""
-        self.logarithmic = _spaced_by_ratio(np.unique(values))
+        self.logarithmic = _logarithmic(source, parameter.name, np.unique(values))
         self.values = np.unique(self.shown)
         """(n,) the different values, ascending."""
         spaced = np.log(self.values) if self.logarithmic else self.values
@@ -35,10 +41,10 @@ class ParameterAxis:
         """Give the axes of a panel their ends, shade unfinished ranges and mark failed values."""
         if self.logarithmic:
             axes.set_xscale("log")
-        self.ticks(axes.xaxis, intervals)
         axes.set_xlim(float(self.edges[0]), float(self.edges[-1]))
+        self.ticks(axes.xaxis, intervals)
         for low, high in self.unfinished():
-            axes.axvspan(low, high, color=page.SHADE, linewidth=0.0, zorder=0.5)
+            axes.axvspan(low, high, color=colours.UNKNOWN, linewidth=0.0, zorder=0.5)
         failed = self.shown[self.status == PointStatus.failed]
         if len(failed):
             axes.plot(
@@ -47,43 +53,36 @@ class ParameterAxis:
                 "x",
                 transform=axes.get_xaxis_transform(),
                 clip_on=False,
-                color=page.BLACK,
+                color=colours.GEOMETRY,
                 markersize=3.0,
                 markeredgewidth=0.7,
                 zorder=3.0,
             )
 
-    def ticks(self, axis: page.Axis, intervals: int) -> None:
-        """Give an axis of this one's scale numbers that stand apart."""
-        from matplotlib.ticker import (
-            FixedLocator,
-            LogLocator,
-            MaxNLocator,
-            NullFormatter,
-            StrMethodFormatter,
-        )
+    def ticks(self, axis: page.Axis, intervals: int, *, own: bool = False) -> None:
+        """Give an axis of this one's scale, whose ends are known, numbers that stand apart.
 
-        values = self.values
-        if len(values) <= intervals:
-            axis.set_major_locator(FixedLocator(values.tolist()))
+        They are the parameter's own values where there are few of them, or with `own` some of them.
+        """
+        from matplotlib.ticker import FixedLocator, MaxNLocator, NullLocator, StrMethodFormatter
+
+        if own or len(self.values) <= intervals:
+            apart = -(-len(self.values) // intervals)
+            axis.set_major_locator(FixedLocator(self.values[::apart].tolist()))
             axis.set_major_formatter(StrMethodFormatter("{x:.3g}"))
-            axis.set_minor_locator(FixedLocator([]))
-            return
-        if not self.logarithmic:
+            axis.set_minor_locator(NullLocator())
+        elif self.logarithmic:
+            log_axis.number(axis, intervals)
+        else:
             axis.set_major_locator(MaxNLocator(intervals, steps=[1, 2, 2.5, 5, 10]))
-            return
-        decades = float(np.log10(values[-1] / values[0]))
-        axis.set_major_locator(LogLocator(10.0, subs=(1.0,) if decades > 2.0 else (1.0, 2.0, 5.0)))
-        axis.set_major_formatter(StrMethodFormatter("{x:g}"))  # no powers as mathematics
-        axis.set_minor_formatter(NullFormatter())
 
     def legend(self) -> dict[str, tuple[str, str]]:
         """Explain the signs that `dress` draws: marker and colour by label."""
         entries = {}
         if (self.status == PointStatus.failed).any():
-            entries["failed"] = ("x", page.BLACK)
+            entries["failed"] = ("x", colours.GEOMETRY)
         if self.unfinished():
-            entries["not finished"] = ("s", page.SHADE)
+            entries["not finished"] = ("s", colours.UNKNOWN)
         return entries
 
     def unfinished(self) -> list[tuple[float, float]]:
@@ -107,9 +106,22 @@ def _edges(values: Floats) -> Floats:
     return np.concatenate([[first], middle, [last]])
 
 
-def _spaced_by_ratio(values: Floats) -> bool:
-    """Tell whether ascending values are spaced more evenly by ratio than by difference."""
-    if len(values) < 3 or values[0] <= 0.0 or values[-1] < _LOGARITHMIC * values[0]:
+def _logarithmic(source: StudySource, name: str, values: Floats) -> bool:
+    """Tell whether a parameter's ascending values were asked for, or are, spaced by ratio."""
+    if len(values) < 3 or values[0] <= 0.0:
         return False
-    steps, ratios = np.diff(values), np.diff(np.log(values))
-    return bool(np.std(ratios) / np.mean(ratios) < np.std(steps) / np.mean(steps))
+    job = source.attributes["job"]
+    asked = job.get("grid", {}).get(name)
+    if asked is None and job.get("parameter") == name:
+        asked = job.get("values")
+    if isinstance(asked, Mapping):
+        return bool(asked.get("spacing") == "log")
+    steps, ratios = _unevenness(np.diff(values)), _unevenness(np.diff(np.log(values)))
+    if ratios < _EVEN < steps and values[-1] >= _LEAST_RATIO * values[0]:
+        return True
+    return bool(values[-1] >= _LOGARITHMIC * values[0] and ratios < steps)
+
+
+def _unevenness(steps: Floats) -> float:
+    """Give the standard deviation of steps by their mean."""
+    return float(np.std(steps) / np.mean(steps))

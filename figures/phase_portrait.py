@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.run import Source, inside
@@ -72,7 +72,7 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
     axes.plot(
         path[position] / across.factor,
         path[rate] / up.factor,
-        color=page.BLUE,
+        color=colours.COMPUTED,
         linewidth=0.4,
         rasterized=len(time) > page.MOST_VECTOR_POINTS,
         label=f"trajectory{sampling.beginning(source, time, selection)}",
@@ -82,7 +82,7 @@ def _portrait(axes: page.Axes, source: Source, panel: _Panel, selection: Selecti
             points[position] / across.factor,
             points[rate] / up.factor,
             "o",
-            color=page.VERMILION,
+            color=colours.MARKED,
             markeredgewidth=0.0,
             rasterized=len(points[rate]) > page.MOST_VECTOR_MARKS,
             label="Poincaré points",

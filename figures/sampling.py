@@ -40,7 +40,7 @@ def over_time(source: Source, name: str, selection: Selection) -> tuple[Floats, 
     first, last = window(source, selection)
     span = max(2 * (last - first) // MOST_SAMPLES, 1)
     parts = [
-        _extremes(time, columns[name], span) for time, columns in source.blocks([name], first, last)
+        extremes(time, columns[name], span) for time, columns in source.blocks([name], first, last)
     ]
     return np.concatenate([part[0] for part in parts]), np.concatenate([p[1] for p in parts])
 
@@ -76,7 +76,7 @@ def impacts_of(source: Source, joint: str) -> NDArray[Any]:
     return np.asarray(rows[rows["joint"] == list(source.joints).index(joint)])
 
 
-def _extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
+def extremes(time: Floats, values: Floats, span: int) -> tuple[Floats, Floats]:
     """Keep the smallest and the largest value of every `span` samples, in order of time."""
     if span <= 2:
         return time, values

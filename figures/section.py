@@ -1,5 +1,7 @@
 """Poincare sections of a study's points: a position against its rate, one mark a section."""
 
+import numpy as np
+
 from jointplay.figures import marks, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
 from jointplay.figures.quantity import scale
@@ -51,14 +53,14 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         raise NotDrawable("No section was recorded there yet.", "start")
     verdicts = [one for one in study_facts.by_verdict(source) if one.members[points].any()]
     legend_height = page.LEGEND_HEIGHT if verdicts else 0.0
-    reason = source.reasons.get(points.start, "") if points.stop - points.start == 1 else ""
-    beside = legend_height + page.caption_height(reason)
+    sentence = _of_point(source, points.start) if points.stop - points.start == 1 else ""
+    beside = legend_height + page.caption_height(sentence)
     figure, grid, panels = page.in_columns(len(pairs), _SINGLE_HEIGHT, _PANEL_HEIGHT, beside)
     for axes, pair in zip(panels, pairs, strict=True):
         _scatter(axes, source, pair, points, verdicts or [study_facts.everything(source)])
         axes.locator_params(axis="x", nbins=_INTERVALS // len(grid[0]))
     figure.align_ylabels()
-    page.caption(figure, reason)
+    page.caption(figure, sentence)
     page.legend_of_marks(figure, {one.name: ("o", one.colour) for one in verdicts})
     return figure
 
@@ -82,6 +84,17 @@ def _scatter(
     owners = {name.rpartition(".")[0] for name in pair}
     if len(owners) == 1:
         page.corner_text(axes, owners.pop())
+
+
+def _of_point(source: StudySource, point: int) -> str:
+    """Say the parameters of a point, how many sections it has, and the ground of its verdict."""
+    shown = []
+    for parameter, value in zip(source.parameters, source.values[point], strict=True):
+        unit = scale(parameter.unit, np.array([value]))
+        shown.append(f"{parameter.name} = {value / unit.factor:.6g} {unit.unit}".rstrip())
+    shown.append(f"{int(source.counts[point])} sections")
+    reason = source.reasons.get(point, "")
+    return ", ".join(shown) + (f". {reason[:1].upper()}{reason[1:]}" if reason else "")
 
 
 def _short(name: str) -> str:

@@ -1,13 +1,13 @@
 """Power spectra of channels: lines where the motion is regular, a continuum where it is chaotic."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, log_axis, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
-from jointplay.figures.quantity import per_hertz, power_of_ten
+from jointplay.figures.quantity import per_hertz
 from jointplay.figures.time_history import declared
 from jointplay.records.arrays import Floats
 from jointplay.records.run import Source
@@ -43,14 +43,15 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             axes.text(0.5, 0.5, _NOTHING, transform=axes.transAxes, ha="center", va="center")
             axes.set_yticks([])
             continue
-        axes.loglog(*_thinned(frequency, power), color=page.BLUE, linewidth=0.6)
+        axes.loglog(*_thinned(frequency, power), color=colours.COMPUTED, linewidth=0.6)
         top = float(power.max())
         axes.set_ylim(max(top * 10.0**-_DECADES, float(power.min()) / 3.0), 3.0 * top)
         axes.set_xlim(frequency[0], frequency[-1])
         if marked:
-            look: page.Look = {"color": page.VERMILION, "linewidth": 0.7, "linestyle": (0, (4, 3))}
+            look: page.Look = {"color": colours.MARKED, "linewidth": 0.7, "linestyle": (0, (4, 3))}
             axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **look)
-        _ticks(axes)
+        log_axis.number(axes.xaxis)
+        log_axis.number(axes.yaxis)
     explained = next(axes for axes in panels if axes.lines) if marked else None
     page.finish_stack(figure, panels, "frequency [Hz]", explained)
     return figure
@@ -114,21 +115,6 @@ def _thinned(frequency: Floats, power: Floats) -> tuple[Floats, Floats]:
         return frequency, power
     extremes = [np.minimum.reduceat(power, starts), np.maximum.reduceat(power, starts)]
     return np.repeat(frequency[starts], 2), np.column_stack(extremes).ravel()
-
-
-def _ticks(axes: page.Axes) -> None:
-    """Write powers of ten without mathematics, which names of channels switch off."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, StrMethodFormatter
-
-    def power(value: float, position: Any) -> str:
-        return power_of_ten(round(np.log10(value)))
-
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_locator(LogLocator(10.0, numticks=6))
-    axes.yaxis.set_major_formatter(FuncFormatter(power))
-    axes.yaxis.set_minor_locator(LogLocator(10.0, subs=(1.0,), numticks=99))
-    axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 SPECTRUM = RunFigure(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.figures import page
+from jointplay.figures import colours
 from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.arrays import Flags
 from jointplay.records.channel import Channel, by_name
@@ -20,13 +20,13 @@ _RATES = {
     "theta": "omega",
 }
 COLOURS = {
-    "periodic": page.BLUE,
-    "quasi-periodic": page.GREEN,
-    "chaotic": page.VERMILION,
-    "undecided": page.GREY,
+    "periodic": colours.PERIODIC,
+    "quasi-periodic": colours.QUASI_PERIODIC,
+    "chaotic": colours.CHAOTIC,
+    "undecided": colours.UNDECIDED,
 }
 """By verdict, in the order of legends."""
-UNJUDGED = page.BLACK
+UNJUDGED = colours.NO_VERDICT
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def chosen_points(source: StudySource, selection: Selection) -> slice:
 
 def everything(source: StudySource) -> Group:
     """Give all points alike."""
-    return Group("sections", page.BLUE, np.ones(source.points, dtype=bool))
+    return Group("sections", colours.COMPUTED, np.ones(source.points, dtype=bool))
 
 
 def directions(source: StudySource) -> tuple[Group, ...]:
@@ -105,7 +105,7 @@ def directions(source: StudySource) -> tuple[Group, ...]:
     if source.attributes["job"].get("continuation") != "both":
         return ()
     forward = np.arange(source.points) < source.points // 2
-    return Group("forward", page.BLUE, forward), Group("backward", page.VERMILION, ~forward)
+    return Group("forward", colours.FORWARD, forward), Group("backward", colours.BACKWARD, ~forward)
 
 
 def by_verdict(source: StudySource) -> tuple[Group, ...]:

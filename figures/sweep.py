@@ -1,10 +1,11 @@
 """Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from jointplay.figures import page, study_facts
+from jointplay.figures import colours, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import Scale, scale
@@ -13,6 +14,11 @@ from jointplay.records.channel import by_name
 from jointplay.records.point import PointStatus
 from jointplay.records.study import StudySource
 
+if TYPE_CHECKING:
+    from matplotlib.colorbar import Colorbar
+else:
+    Colorbar = Any
+
 _MOST_CURVES = 8
 _MOST_MAPS = 6
 _FIRST_PANELS = 4
@@ -20,6 +26,10 @@ _FIRST_PANELS = 4
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _MAP_HEIGHT = 46.0
+_FEWEST_TICKS = 3
+"""Numbers along a colour bar."""
+_CONSTANT = 1e-9
+"""Cells that differ by less of their value are the same."""
 _MOST_NUMBERS = 60
 """Marks are drawn at the values of a curve if there are no more."""
 
@@ -122,7 +132,7 @@ def _curve(axes: page.Axes, values: Floats, parameter: ParameterAxis) -> None:
     axes.plot(
         parameter.shown[order],
         values[order],
-        color=page.BLUE,
+        color=colours.COMPUTED,
         marker="o" if len(order) <= _MOST_NUMBERS else "",
         markersize=1.6,
         linewidth=0.7,
@@ -143,23 +153,45 @@ def _map(
     table = np.full((len(up.values), len(across.values)), np.nan)
     row, column = (np.searchsorted(axis.values, axis.shown) for axis in (up, across))
     table[row, column] = values
-    axes.set_facecolor(page.SHADE)
+    axes.set_facecolor(colours.UNKNOWN)
     shown = np.ma.masked_invalid(table)
-    drawn = axes.pcolormesh(across.edges, up.edges, shown, cmap="cividis", rasterized=True)
+    drawn = axes.pcolormesh(across.edges, up.edges, shown, cmap=colours.MAP, rasterized=True)
     failed = across.status == PointStatus.failed
     axes.plot(
-        across.shown[failed], up.shown[failed], "x", color=page.BLACK, markersize=3.0, zorder=3.0
+        across.shown[failed],
+        up.shown[failed],
+        "x",
+        color=colours.GEOMETRY,
+        markersize=3.0,
+        zorder=3.0,
     )
     if across.logarithmic:
         axes.set_xscale("log")
     if up.logarithmic:
         axes.set_yscale("log")
-    across.ticks(axes.xaxis, intervals=3)
-    up.ticks(axes.yaxis, intervals=5)
+    across.ticks(axes.xaxis, intervals=4, own=True)
+    up.ticks(axes.yaxis, intervals=5, own=True)
     axes.tick_params(which="both", direction="out", top=False, right=False)
     bar = figure.colorbar(drawn, ax=axes, location="top", aspect=25.0)
+    bar.ax.set_gid(page.WITHOUT_SCALE)
     bar.set_label(label)
-    bar.ax.locator_params(nbins=3)
+    _number(bar, shown)
+
+
+def _number(bar: Colorbar, values: np.ma.MaskedArray[Any, Any]) -> None:
+    """Give a colour bar at least three numbers, or the one that all cells have."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = float(values.min() or 0.0), float(values.max() or 0.0)
+    if high - low <= _CONSTANT * max(abs(low), abs(high)):
+        bar.set_ticks([low], labels=[f"{low:.4g} everywhere"])
+        return
+    for most in (3, 4, 5, 6):
+        ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+        inside = [tick for tick in ticks if low <= tick <= high]
+        if len(inside) >= _FEWEST_TICKS:
+            break
+    bar.set_ticks(inside)
 
 
 SWEEP = StudyFigure(

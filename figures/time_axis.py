@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from jointplay.figures import page
+from jointplay.figures import colours, page
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.run import Source
@@ -29,7 +29,7 @@ class TimeAxis:
         label = LABEL
         for start, stop in self.unconverged:
             ends = start / self.scale.factor, stop / self.scale.factor
-            axes.axvspan(*ends, color=page.SHADE, linewidth=0.0, zorder=0.5, label=label)
+            axes.axvspan(*ends, color=colours.UNKNOWN, linewidth=0.0, zorder=0.5, label=label)
             label = "_"
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jointplay.figures import page, sampling, scene_facts
+from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection, at_most
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
@@ -43,8 +43,10 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
         panels, names, curves, missed, strict=True
     ):
         shown = scale(scene_facts.channel(source, name).unit, values, extremes)
-        axes.plot(across.shown(time), values / shown.factor, color=page.BLUE, label="samples")
-        look: page.Look = {"color": page.VERMILION, "label": "extreme between samples"} | page.RING
+        axes.plot(
+            across.shown(time), values / shown.factor, color=colours.COMPUTED, label="samples"
+        )
+        look: page.Look = {"color": colours.MARKED, "label": "extreme between samples"} | page.RING
         axes.plot(across.shown(when), extremes / shown.factor, "o", **look)
         across.shade(axes)
         axes.set_ylabel(shown.label(name))

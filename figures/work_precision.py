@@ -1,12 +1,9 @@
 """Work-precision diagram: the error of every method and tolerance over its evaluations."""
 
-import math
-
 import numpy as np
 
-from jointplay.figures import page
+from jointplay.figures import colours, log_axis, page
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure
-from jointplay.figures.quantity import power_of_ten
 from jointplay.records.arrays import Floats
 from jointplay.records.study import StudySource
 
@@ -34,11 +31,13 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     drawn = {"error": errors, "energy astray / losses": _column(source, "astray")}
     if not (drawn["energy astray / losses"][measured] > 0.0).any():  # nothing takes any
         del drawn["energy astray / losses"]
-    height = _PANEL_HEIGHT * len(drawn)
+    uncertainty = float(errors[references - 1])
+    explained = _explained(bool(uncertainty > 0.0), len(drawn) > 1, bool(admitted[measured].all()))
+    height = _PANEL_HEIGHT * len(drawn) + page.caption_height(explained)
     figure, grid = page.panels(len(drawn), 1, height, share_x=True)
     above, last = grid[0][0], grid[-1][0]
     methods = dict.fromkeys(runs[i]["method"] for i in measured)
-    for name, (colour, dashes, mark) in zip(methods, page.STYLES, strict=False):
+    for name, (colour, dashes, mark) in zip(methods, colours.COMPARED, strict=False):
         chosen = np.array([i for i in measured if runs[i]["method"] == name])
         for (axes,), values in zip(grid, drawn.values(), strict=True):
             shown = chosen[values[chosen] > 0.0]
@@ -56,20 +55,29 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         axes.set_yscale("log")
         axes.set_ylabel(label)
         for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_formatter(lambda value, _: power_of_ten(round(math.log10(value))))
-            axis.set_minor_formatter(lambda value, _: "")
-    uncertainty = errors[references - 1]
+            log_axis.number(axis)
     if uncertainty > 0.0:
         low = min(above.get_ylim()[0], uncertainty)
-        above.axhspan(0.1 * low, uncertainty, color=page.SHADE, linewidth=0.0)
+        above.axhspan(0.1 * low, uncertainty, color=colours.UNKNOWN, linewidth=0.0)
         above.set_ylim(bottom=low)
     if last is not above:
-        last.axhline(_MOST_ASTRAY, color=page.GREY, linewidth=0.6, linestyle="--")
-    last.set_xlabel("evaluations; what jobs may not ask for is open")
+        last.axhline(_MOST_ASTRAY, color=colours.AUXILIARY, linewidth=0.6, linestyle="--")
+    last.set_xlabel("evaluations of the equations of motion")
+    page.caption(figure, explained)
     figure.align_ylabels()
     names = above.get_legend_handles_labels()
     figure.legend(*names, loc="outside upper center", ncols=_LEGEND_COLUMNS)
     return figure
+
+
+def _explained(band: bool, threshold: bool, all_admitted: bool) -> str:
+    """Say what open marks, the band and the dashed line are, where they are drawn."""
+    parts = {
+        "Open marks: a job may not ask for this tolerance.": not all_admitted,
+        "Grey band: the reference itself is not known better.": band,
+        "Dashed line: methods that lose more energy are refused.": threshold,
+    }
+    return " ".join(sentence for sentence, drawn in parts.items() if drawn)
 
 
 def _column(source: StudySource, name: str) -> Floats:

@@ -7,14 +7,14 @@ from typing import Final
 
 import numpy as np
 
-from jointplay.figures import marks, page, sampling
+from jointplay.figures import colours, marks, page, sampling, saving
 from jointplay.figures.kind import Selection
 from jointplay.figures.orbit import draw_clearance, frame
 from jointplay.paper.cases import JOINTS
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
-COLOURS: Final = (page.GREEN, page.BLUE, page.VERMILION)
+COLOURS: Final = (colours.PERIODIC, colours.COMPUTED, colours.MARKED)
 """One for each of the runs that are compared."""
 _FIRST: Final = 0.4
 """s: in which the publication sees the motion settle from its start."""
@@ -53,7 +53,7 @@ def draw_responses(runs: Sequence[Compared], ideals: Sequence[Compared]) -> byte
             axes.set_ylabel(label)
         page.finish_stack(figure, [axes for (axes,) in grid], "time [s]")
         page.legend_of_marks(figure, {one.label: ("s", one.colour) for one in (*runs, ideals[0])})
-        return page.save(figure, "png")
+        return saving.save(figure, "png")
 
 
 def draw_forces(runs: Sequence[Compared], ideals: Sequence[Compared]) -> bytes:
@@ -84,8 +84,8 @@ def draw_portraits(trajectory: Path, start: float, before: Path, after: Path) ->
             names = [f"{joint}.eccentricity{rate}_x" for rate in ("", "_rate")]
             _, path = run.history(names, first, last)
             position, rate = (path[name] / _MILLI for name in names)
-            row[0].plot(position, rate, color=page.BLUE, linewidth=0.25, rasterized=True)
-            for source, colour in ((early, page.GREY), (late, page.VERMILION)):
+            row[0].plot(position, rate, color=colours.COMPUTED, linewidth=0.25, rasterized=True)
+            for source, colour in ((early, colours.AUXILIARY), (late, colours.MARKED)):
                 position, rate = (source.sections(name, 0, 1).ravel() / _MILLI for name in names)
                 diameter = max(marks.size(int(np.isfinite(position).sum())), 1.0)
                 marks.draw_cloud(row[1], position, rate, colour, diameter)
@@ -96,12 +96,12 @@ def draw_portraits(trajectory: Path, start: float, before: Path, after: Path) ->
             row[0].set_ylabel("rate [mm/s]")
         figure.align_ylabels()
         entries = {
-            "trajectory": ("s", page.BLUE),
-            "section before settling": ("o", page.GREY),
-            "section settled": ("o", page.VERMILION),
+            "trajectory": ("s", colours.COMPUTED),
+            "section before settling": ("o", colours.AUXILIARY),
+            "section settled": ("o", colours.MARKED),
         }
         page.legend_of_marks(figure, entries)
-        return page.save(figure, "png")
+        return saving.save(figure, "png")
 
 
 def _by_joint(
@@ -125,7 +125,7 @@ def _by_joint(
             axes.set_xlabel(labels[0])
         if same_time:
             figure.align_ylabels()
-        return page.save(figure, "png")
+        return saving.save(figure, "png")
 
 
 def _force(axes: page.Axes, one: Compared, joint: str) -> None:

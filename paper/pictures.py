@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from jointplay import figures
-from jointplay.figures import page
+from jointplay.figures import colours
 from jointplay.paper import drawings, reported
 from jointplay.paper.cases import Stores
 from jointplay.paper.drawings import COLOURS, Compared
@@ -77,7 +77,7 @@ def _sweep(stores: Stores, index: int, sweep: dict[str, Any], size: Size) -> Ite
     names = {case: reported.in_words(setting, entry[setting]) for case, entry in entries.items()}
     values = ", ".join(names.values())
     ideals = [
-        Compared(stores.path("ideal", f"{speed:g}pi"), "ideal", page.BLACK)
+        Compared(stores.path("ideal", f"{speed:g}pi"), "ideal", colours.GEOMETRY)
         for speed in sorted({entry["omega_over_pi"] for entry in entries.values()})
     ]
     for beside, (what, alternative, draw) in zip(sweep["figures"], _OF_SWEEPS, strict=True):

@@ -3,19 +3,23 @@
 import math
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import NotFound
 from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
-from jointplay.client.results import Form, Impacts, Names, Peak, Seconds, Store
+from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
 from jointplay.client.window import Window, floats
+from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.peak import PEAK
 from jointplay.records.run import Dataset
 from jointplay.records.study import StudyDataset
+
+if TYPE_CHECKING:
+    from jointplay.figures import Options
 
 _Times = tuple[Seconds, Seconds]
 
@@ -110,10 +114,11 @@ class HttpResults:
         joints: Sequence[str],
         start: Seconds,
         stop: Seconds,
+        options: "Options",
     ) -> bytes:
         """Return a figure, drawn by the service."""
         shown = {"channels": channels or None, "joints": joints or None}
-        query = _query(**shown, start=start, stop=stop)
+        query = _query(**shown, start=start, stop=stop) | options.given()
         path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
         return self._connection.content(path, query)
 

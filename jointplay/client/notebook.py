@@ -1,11 +1,11 @@
 """Representations in notebooks: small tables, and figures as pictures."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
-from typing import NamedTuple
 
-from jointplay.client.results import Form
+from jointplay.records.figure_form import FORMS, Form
 
 
 def html_table(title: str, rows: Mapping[str, object]) -> str:
@@ -19,11 +19,13 @@ def html_table(title: str, rows: Mapping[str, object]) -> str:
     return f"<table><caption>{escape(title)}</caption><tbody>{cells}</tbody></table>"
 
 
-class Picture(NamedTuple):
-    """A drawn figure: the ``content`` of a file, and its ``form``, "png" or "svg"."""
+@dataclass(frozen=True)
+class Picture:
+    """A drawn figure: the ``content`` of a file, and its ``form``, such as "png"."""
 
     content: bytes
     form: Form
+    _draw: Callable[[Form], bytes] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
         return f"<Picture: {self.form}, {len(self.content)} bytes>"
@@ -35,9 +37,14 @@ class Picture(NamedTuple):
         return self.content.decode() if self.form == "svg" else None
 
     def save(self, path: Path | str) -> Path:
-        """Write the file, and return its path; the suffix is appended if it is missing."""
+        """Write the file, and return its path.
+
+        A suffix that names another form, such as ``.pdf``, draws the figure again in that form;
+        without one its own is appended.
+        """
         file = Path(path)
-        if file.suffix != f".{self.form}":
+        asked = next((form for form in FORMS if file.suffix == f".{form}"), None)
+        if asked is None:
             file = file.with_name(f"{file.name}.{self.form}")
-        file.write_bytes(self.content)
+        file.write_bytes(self.content if asked in (None, self.form) else self._draw(asked))
         return file

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from jointplay.client.errors import FieldProblem, Refused
 from jointplay.client.notebook import Picture
-from jointplay.client.results import Form
 from jointplay.client.tables import TabledJob
 from jointplay.client.window import Window
+from jointplay.records.figure_form import Form
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
@@ -88,6 +89,7 @@ class ReadableJob(TabledJob):
         start: float | None = None,
         stop: float | None = None,
         form: Form = "png",
+        **options: Any,
     ) -> Picture:
         """Draw a figure; notebooks show it, and ``save`` writes it to a file.
 
@@ -100,19 +102,32 @@ class ReadableJob(TabledJob):
         start, stop
             Window of time, s; of a study the first point, and the one before which to end.
         form
-            "png" or "svg".
+            "png", "svg", "pdf" or "eps".
+        options
+            Of the page: width and height in mm, ``x_min``, ``x_max``, ``y_min``, ``y_max`` in the
+            unit that the axis shows, ``x_scale``, ``y_scale`` "linear" or "log", ``title``,
+            ``units`` such as "mm,kN"; see `jointplay.figures.Options`.
         """
-        return Picture(
-            self.results.figure(
+        from jointplay.figures import NotDrawable, chosen_options
+
+        try:
+            page = chosen_options(options)
+        except NotDrawable as error:
+            field = FieldProblem(error.cause, str(error))
+            raise Refused(str(error), problem="not-drawable", fields=[field]) from None
+
+        def draw(form: Form) -> bytes:
+            return self.results.figure(
                 name,
                 form,
                 channels=_listed(channel) or (),
                 joints=_listed(joint) or (),
                 start=start,
                 stop=stop,
-            ),
-            form,
-        )
+                options=page,
+            )
+
+        return Picture(draw(form), form, draw)
 
 
 def _listed(names: Names | None) -> list[str] | None:

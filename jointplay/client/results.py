@@ -2,17 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.client.window import Window
 from jointplay.records import peak
+from jointplay.records.figure_form import Form
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
-Form = Literal["png", "svg"]
+if TYPE_CHECKING:
+    from jointplay.figures import Options
+
 Names = Sequence[str] | None
 """Names or globs of channels; all if None."""
 Seconds = float | None
@@ -103,5 +106,6 @@ class Results(Protocol):
         joints: Sequence[str],
         start: Seconds,
         stop: Seconds,
+        options: "Options",
     ) -> bytes:
         """Return a figure as a file's bytes."""

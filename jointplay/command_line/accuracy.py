@@ -7,9 +7,10 @@ from typing import Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Stopped
+from jointplay.command_line.figure_options import form_of
 from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.options import AS_JSON, JOB, SET, form_of
+from jointplay.command_line.options import AS_JSON, JOB, SET
 from jointplay.command_line.output import json_text, tell
 
 _OF_A_RUN = ("scene", "duration", "formulation", "label")
@@ -25,7 +26,7 @@ def accuracy(
             "-o",
             "--output",
             metavar="FILE",
-            help="A work-precision diagram, .png or .svg; or .json.",
+            help="A work-precision diagram: .png, .svg, .pdf, .eps; or its numbers: .json.",
         ),
     ] = None,
     as_json: AS_JSON = False,
@@ -43,7 +44,7 @@ def accuracy(
 
     form = None
     if output is not None and output.suffix != ".json":
-        form = form_of(output, f"{output}: the name ends in .png, .svg or .json.")
+        form = form_of(output, ".json")
     job = job_document(source, settings=settings, options=options)
     if job.get("kind") == "simulate":
         chosen = {name: job[name] for name in _OF_A_RUN if name in job}

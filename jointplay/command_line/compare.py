@@ -8,16 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jointplay.command_line.exits import Stopped
-from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, form_of, job_of
+from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
+from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import tell
 from jointplay.command_line.peaks import peak_rows, peak_table
 
 if TYPE_CHECKING:
     from jointplay.client import Job
+    from jointplay.figures import Form, Options
+    from jointplay.figures.overlay import Curve
 
 _MOST_PANELS = 6
 
 
+@with_figure_options
 def compare(
     results: Annotated[
         list[str], typer.Argument(metavar="OUT|ID...", help="Runs: folders, or ids of jobs.")
@@ -29,18 +33,20 @@ def compare(
     start: Annotated[float | None, typer.Option(metavar="SECONDS", help="From this time.")] = None,
     stop: Annotated[float | None, typer.Option(metavar="SECONDS", help="To this time.")] = None,
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FILE", help="The figure, .png or .svg.")
+        Path,
+        typer.Option("-o", "--output", metavar="FILE", help="The figure: .png, .svg, .pdf, .eps."),
     ] = Path("comparison.png"),
     as_json: AS_JSON = False,
     url: URL = DEFAULT_URL,
+    **options: Any,
 ) -> None:
     """Draw channels of several simulations over one another, and print their peaks side by side.
 
     Example: `jointplay compare OUT1 OUT2 --channels displacement --stop 0.5 -o both.svg`
     """
-    from jointplay.figures.overlay import MOST_CURVES, Curve, draw_overlay
+    from jointplay.figures.overlay import MOST_CURVES, Curve
 
-    form = form_of(output, f"{output}: a figure's name ends in .png or .svg.")
+    form, page = form_of(output), page_of(options)
     if not 2 <= len(results) <= MOST_CURVES:
         raise Stopped(f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}.")
     with ExitStack() as stack:
@@ -58,11 +64,21 @@ def compare(
             window = job.window(drawn, start, stop)
             for name, one in window.channels.items():
                 panels[name].append(Curve(label, one.unit, window.time, one.values))
-        output.write_bytes(draw_overlay(panels, form))
+        output.write_bytes(_drawn(panels, form, page))
     of_runs = list(zip(labels, peaks, strict=True))
     table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
     lines = [*peak_table(table, "run"), output]
     tell({"figure": str(output), "peaks": table}, lines, as_json=as_json)
+
+
+def _drawn(panels: dict[str, list["Curve"]], form: "Form", page: "Options") -> bytes:
+    from jointplay.figures import NotDrawable
+    from jointplay.figures.overlay import draw_overlay
+
+    try:
+        return draw_overlay(panels, form, page)
+    except NotDrawable as error:
+        raise Stopped(f"--{error.cause.replace('_', '-')}: {error}") from None
 
 
 def _labels(jobs: list["Job"]) -> list[str] | None:

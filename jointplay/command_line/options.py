@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -53,20 +53,11 @@ START = Annotated[
 STOP = Annotated[
     float | None, typer.Option(metavar="SECONDS", help="To this time; before this point.")
 ]
-Form = Literal["png", "svg"]
 
 
 def listed(text: str | None) -> list[str] | None:
     """Return the parts of a comma-separated list."""
     return None if text is None else [part.strip() for part in text.split(",")]
-
-
-def form_of(path: Path, otherwise: str) -> Form:
-    """Return the form of a figure by the name of its file; `otherwise` is said of other names."""
-    forms: dict[str, Form] = {".png": "png", ".svg": "svg"}
-    if path.suffix not in forms:
-        raise Stopped(otherwise)
-    return forms[path.suffix]
 
 
 def connect(url: str) -> "Client":

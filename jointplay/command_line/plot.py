@@ -1,11 +1,12 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from jointplay.command_line.exits import Stopped
+from jointplay.command_line.figure_options import page_of, with_figure_options
 from jointplay.command_line.options import (
     AS_JSON,
     DEFAULT_URL,
@@ -13,14 +14,18 @@ from jointplay.command_line.options import (
     START,
     STOP,
     URL,
-    Form,
     job_of,
     listed,
 )
 from jointplay.command_line.output import tell
 from jointplay.progress import progress
+from jointplay.records.figure_form import Form
+
+if TYPE_CHECKING:
+    from jointplay.client import Job
 
 
+@with_figure_options
 def plot(
     results: RESULTS,
     names: Annotated[
@@ -41,32 +46,38 @@ def plot(
     form: Annotated[Form, typer.Option("--format", help="File type.")] = "png",
     as_json: AS_JSON = False,
     url: URL = DEFAULT_URL,
+    **options: Any,
 ) -> None:
     """Draw figures: those of the job's mechanism, of a study, or of any channel.
 
-    Examples: `jointplay plot OUT acceleration A.normal_force --format svg -o figures`,
+    Examples: `jointplay plot OUT acceleration A.normal_force --format pdf -o figures`,
+    `jointplay plot OUT orbit --units um --width 170 --title "Journal centres"`,
     `jointplay plot OUT section --start 42 --stop 43` for one value of a bifurcation diagram
     """
     chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop}
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
         raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
+    page = page_of(options)
+    shown = {"channel": listed(channels) or (), "joint": listed(joints) or ()}
+    window = {"start": start, "stop": stop}
+    with job_of(results, url) as job:
+        written = draw_all(job, folder, names, form, **shown, **window, **page.given())
+    tell({"figures": written}, [one["path"] for one in written], as_json=as_json)
+
+
+def draw_all(
+    job: "Job", folder: Path, names: list[str] | None = None, form: Form = "png", **shown: Any
+) -> list[dict[str, str]]:
+    """Draw figures of a job, by default all, into a folder; return their names and paths."""
+    wanted = names or job.figures
+    folder.mkdir(parents=True, exist_ok=True)
     written = []
-    with job_of(results, url) as job, progress("figures") as report:
-        wanted = names or job.figures
-        folder.mkdir(parents=True, exist_ok=True)
+    with progress("figures") as report:
         for done, name in enumerate(wanted):
             report(done / len(wanted), name)
-            picture = job.figure(
-                name,
-                channel=listed(channels) or (),
-                joint=listed(joints) or (),
-                start=start,
-                stop=stop,
-                form=form,
-            )
             path = folder / f"{name}.{form}"
-            path.write_bytes(picture.content)
+            path.write_bytes(job.figure(name, form=form, **shown).content)
             written.append({"name": name, "path": str(path)})
         report(1.0, "")
-    tell({"figures": written}, [one["path"] for one in written], as_json=as_json)
+    return written

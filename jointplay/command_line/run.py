@@ -26,21 +26,25 @@ def run(
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
+    figures: Annotated[
+        bool, typer.Option(help="Draw all figures, too, as `jointplay plot OUT` does later.")
+    ] = False,
     as_json: AS_JSON = False,
     **options: Any,
 ) -> None:
     """Simulate here and now, without any service; a study on all cores.
 
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr.zip
-    (a Zarr store in one file), outcome.json, peaks.csv, of a study points.csv or accuracy.json,
-    and figures.  Ctrl-C ends the run and keeps what was computed.
+    (a Zarr store in one file), outcome.json, peaks.csv, of a study points.csv or accuracy.json.
+    Figures are drawn when they are asked for: `jointplay plot OUT`.  Ctrl-C ends the run and keeps
+    what was computed.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
+    from jointplay.command_line.plot import draw_all
     from jointplay.command_line.summary import document_of, results_of
     from jointplay.local import load
-    from jointplay.local.drawing_process import draw_all, drawing_process
     from jointplay.progress import progress
     from jointplay.solver.kinds import Study, admit
     from jointplay.worker.local.computing import compute
@@ -49,13 +53,13 @@ def run(
     if processes is not None and not isinstance(admission, Study):
         raise Stopped("--processes is of studies; this is one simulation.")
     make_folder(output)
-    with drawing_process(admission) as second:
-        with progress(output.name) as report:
-            compute(admission, output, processes, report)
-        job = load(output)
-        found = results_of(job)
-        table = _write(found, output)
-        draw_all(job, output / "figures", second)
+    with progress(output.name) as report:
+        compute(admission, output, processes, report)
+    job = load(output)
+    found = results_of(job)
+    table = _write(found, output)
+    if figures:
+        draw_all(job, output / "figures")
     document = document_of(job, found)
     del document["statistics"]
     tell(document, _lines(job, found, table), as_json=as_json)

@@ -9,10 +9,12 @@ import numpy as np
 
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
-from jointplay.client.results import Form, Impacts, Names, Peak, Seconds, Store
+from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
 from jointplay.client.window import ChannelSeries, Window
+from jointplay.figures import Options
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.records.run import Floats
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
@@ -125,11 +127,12 @@ class FolderResults:
         joints: Sequence[str],
         start: Seconds,
         stop: Seconds,
+        options: Options,
     ) -> bytes:
         """Draw a figure."""
         with _refusals():
             chosen = figures.select(self._reader, channels, joints, start, stop)
-            return figures.render(self._reader, name, form, chosen)
+            return figures.render(self._reader, name, form, chosen, options)
 
     def _run(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):

@@ -3,15 +3,16 @@
 from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Path, Query, Response
-from pydantic import Field
 
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
+from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
-from jointplay.service.results.queries import TimeOrPoints, unknown_channels
+from jointplay.service.results.figure_query import FigureQuery, FigureSelection
+from jointplay.service.results.queries import unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
 from jointplay.storage.results.reader import ResultReader
@@ -22,23 +23,12 @@ router = APIRouter(
     tags=["results"],
     responses=problems(*kinds.OF_STORES),
 )
-_MEDIA_TYPES = {"png": "image/png", "svg": "image/svg+xml"}
 _DRAWN: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The figure.",
-        "content": dict.fromkeys(_MEDIA_TYPES.values(), BINARY),
+        "content": dict.fromkeys(MEDIA_TYPES.values(), BINARY),
     }
 }
-
-
-class FigureSelection(TimeOrPoints):
-    """Selection of what a figure shows."""
-
-    joints: str | None = Field(
-        default=None,
-        max_length=2000,
-        description="Clearance joints, separated by commas; default: all.",
-    )
 
 
 @router.get("", dependencies=[NO_PARAMETERS])
@@ -50,8 +40,7 @@ def list_figures(results: ResultsOfThePath) -> Figures:
             FigureLink(
                 name=one.name,
                 title=one.title,
-                png=f"{base}/{one.name}.png",
-                svg=f"{base}/{one.name}.svg",
+                **{form: f"{base}/{one.name}.{form}" for form in FORMS},
             )
             for one in figures.available(_reader(results))
         ]
@@ -66,12 +55,13 @@ def list_figures(results: ResultsOfThePath) -> Figures:
 def draw_figure(
     results: ResultsOfThePath,
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
-    form: Annotated[str, Path(description="File type: png or svg.")],
-    selection: Annotated[FigureSelection, Query()],
+    form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
+    query: Annotated[FigureQuery, Query()],
 ) -> Response:
     """Draw a figure of the job's results, also as it runs."""
-    if form not in _MEDIA_TYPES:
-        sentence = f"Figures are drawn as png or svg, not as {clipped(form)!r}."
+    selection = cast("FigureSelection", query)
+    if form not in FORMS:
+        sentence = f"Figures are drawn as {IN_WORDS}, not as {clipped(form)!r}."
         raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
     store = _reader(results)
     if isinstance(store, ResultReader):
@@ -81,14 +71,14 @@ def draw_figure(
     )
     try:
         chosen = figures.select(store, channels, joints, selection.start, selection.stop)
-        picture = figures.render(store, name, cast("figures.Form", form), chosen)
+        picture = figures.render(store, name, form, chosen, selection.options())
     except figures.UnknownFigure as error:
         raise RequestRefused.of_parameter("name", str(error), kinds.UNKNOWN_FIGURE) from None
     except figures.NotDrawable as error:
         raise RequestRefused.of_parameter(error.cause, str(error), kinds.NOT_DRAWABLE) from None
     except NoSuchChannel as error:
         raise unknown_channels(error) from None
-    return Response(picture, media_type=_MEDIA_TYPES[form])
+    return Response(picture, media_type=MEDIA_TYPES[form])
 
 
 def _reader(results: ResultsOfJob) -> ResultReader | StudyReader:

@@ -159,6 +159,8 @@ class FigureLink(BaseModel):
     title: str
     png: str = Field(description="Address of the figure as PNG.")
     svg: str = Field(description="Address of the figure as SVG.")
+    pdf: str = Field(description="Address of the figure as PDF.")
+    eps: str = Field(description="Address of the figure as EPS.")
 
 
 class Figures(BaseModel):

@@ -146,8 +146,14 @@ def test_figures_come_as_files(client, finished_job, tmp_path):
     assert picture.save(tmp_path / "orbit").read_bytes() == picture.content
     assert picture.content != job.figure("orbit", joint=["A", "B"]).content
     assert "<svg" in job.figure("slider7.x", form="svg")._repr_svg_()
+    saved = job.figure("orbit", title="Centres", width=120).save(tmp_path / "orbit.pdf")
+    assert saved.read_bytes().startswith(b"%PDF")  # a suffix says the form
     with pytest.raises(NotFound, match="orbit"):
         job.figure("obrit")
+    with pytest.raises(Refused, match="width"):
+        job.figure("orbit", width=900.0)
+    with pytest.raises(TypeError, match="no option 'font'"):
+        job.figure("orbit", font="serif")
 
 
 def test_results_of_an_unfinished_job_are_not_ready(client, worker):

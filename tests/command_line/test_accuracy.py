@@ -31,7 +31,7 @@ def test_the_file_and_what_is_printed_are_the_same_document(jointplay, tmp_path)
     ("arguments", "told"),
     [
         (("seven-bar-press", "--set", "clearance=0"), "positive clearance"),
-        (("seven-bar-press", "-o", "trade.pdf"), ".png, .svg or .json"),
+        (("seven-bar-press", "-o", "trade.jpg"), ".eps or .json"),
         (("seven-bar-pres",), "seven-bar-press"),
     ],
 )
@@ -43,7 +43,7 @@ def test_what_cannot_be_measured_is_said_in_one_line(jointplay, arguments, told)
 
 def test_a_local_run_keeps_the_study_with_its_figure(jointplay, tmp_path):
     output = tmp_path / "OUT"
-    ended = jointplay("run", *SHORT, "--accuracy-study", "-o", output)
+    ended = jointplay("run", *SHORT, "--accuracy-study", "--figures", "-o", output)
     assert ended.code == 0, ended.err
     assert "| rodas | 1e-06 |" in ended.out
     assert [path.name for path in (output / "figures").iterdir()] == ["work-precision.png"]

@@ -56,9 +56,10 @@ def test_what_cannot_be_compared_is_refused(jointplay, at, runs, finished_sweep,
     figure = ["-o", tmp_path / "x.png"]
     for arguments, words in (
         ([runs / "a", *figure], "2 to"),
-        ([runs / "a", runs / "b", "-o", tmp_path / "x.pdf"], ".png or .svg"),
+        ([runs / "a", runs / "b", "-o", tmp_path / "x.jpg"], ".pdf or .eps"),
         ([runs / "a", finished_sweep, *figure, *at], "sweep"),
         ([runs / "a", tmp_path, *figure], "no results"),
+        ([runs / "a", runs / "b", "--width", "900", *figure], "--width"),
         ([runs / "a", runs / "b", "--channels", "none.x", *figure], "none.x"),
     ):
         ended = jointplay("compare", *arguments)

@@ -28,7 +28,7 @@ def diagram(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return output
 
 
-def test_a_study_leaves_the_filled_in_job_the_store_the_points_and_figures(diagram):
+def test_a_study_leaves_the_filled_in_job_the_store_and_the_points(diagram):
     job = json.loads((diagram / "job.json").read_text())
     assert (job["kind"], job["settle"], job["continuation"]) == ("bifurcation", 2, "none")
     reader = StudyReader(diagram / "results.zarr.zip")
@@ -46,7 +46,6 @@ def test_a_study_leaves_the_filled_in_job_the_store_the_points_and_figures(diagr
         rows = list(csv.DictReader(file))
     assert [row["status"] for row in rows] == ["done"] * 17
     assert [float(row["clearance [m]"]) for row in rows] == reader.values[:, 0].tolist()
-    assert [path.name for path in (diagram / "figures").iterdir()] == ["bifurcation.png"]
 
 
 def test_the_number_of_processes_changes_no_byte(jointplay, diagram, tmp_path):
@@ -92,7 +91,6 @@ def test_every_kind_of_study_runs_locally(jointplay, tmp_path, options, points):
     reader = StudyReader(output / "results.zarr.zip")
     assert reader.complete
     assert reader.points == points
-    assert list((output / "figures").iterdir()) != []
 
 
 def test_statistics_of_a_sweep_are_in_the_store_and_in_the_table(jointplay, tmp_path):

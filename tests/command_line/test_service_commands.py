@@ -109,6 +109,13 @@ def test_figures_of_a_job_are_fetched(jointplay, at, finished_job, tmp_path):
     files = [tmp_path / "figures" / name for name in ("orbit.png", "slider7.vx.png")]
     assert drawn.out.split() == [str(file) for file in files]
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)
+    page = ["--format", "eps", "--title", "Centres", "--units", "um", "--width", "120"]
+    drawn = jointplay("plot", finished_job, "orbit", *page, "-o", tmp_path, *at)
+    assert drawn.code == 0, drawn.err
+    assert b"%%BoundingBox" in (tmp_path / "orbit.eps").read_bytes()
+    wrong = jointplay("plot", finished_job, "orbit", "--units", "furlong", *at)
+    assert wrong.code == 2
+    assert "--units" in wrong.line()
 
 
 def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finished_job):

@@ -84,7 +84,7 @@ def test_a_study_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_pa
         same = load(tmp_path / "OUT")
         for name in ("points", "poincare"):
             pd.testing.assert_frame_equal(getattr(job, name), getattr(same, name))
-    assert drawn == (tmp_path / "OUT" / "figures" / "bifurcation.png").read_bytes()
+    assert drawn == same.figure("bifurcation").content
     assert "20 done" in jointplay("show", job_id, "--url", url).out
 
 

@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex
 from test_every_figure import CHOICES
 
 from jointplay import figures
-from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page
 from jointplay.figures.mechanism_marks import EDGE, TINTS
 from jointplay.records.peak import Peak
 
@@ -33,10 +33,10 @@ def drawn(motion, name):
 
 
 def test_its_colours_are_told_apart_with_any_colour_vision(motion, name):
-    chosen = {page.BLUE, page.VERMILION, page.BLACK, page.GREY, EDGE, *TINTS}
+    chosen = {colours.COMPUTED, colours.MARKED, colours.GEOMETRY, colours.AUXILIARY, EDGE, *TINTS}
     for axes in drawn(motion, name).axes:
-        colours = {to_hex(line.get_color()).upper() for line in axes.lines}
-        assert colours <= chosen
+        seen = {to_hex(line.get_color()).upper() for line in axes.lines}
+        assert seen <= chosen
 
 
 def test_a_channel_that_was_not_stored_is_named(motion, name):
@@ -256,7 +256,7 @@ def shaded(motion, name):
         [
             tuple(patch.get_extents().transformed(axes.transData.inverted()).intervalx)
             for patch in axes.patches
-            if to_hex(patch.get_facecolor()).upper() == page.SHADE
+            if to_hex(patch.get_facecolor()).upper() == colours.UNKNOWN
         ]
         for axes in figure.axes
     ]

@@ -9,7 +9,7 @@ from drawn import drawn_with, stand_apart
 from matplotlib.colors import to_hex
 
 from jointplay import figures
-from jointplay.figures import NotDrawable, Selection, UnknownFigure, page
+from jointplay.figures import NotDrawable, Selection, UnknownFigure, colours, page, saving
 from jointplay.records.channel import Channel
 
 
@@ -75,7 +75,7 @@ def test_verdicts_colour_the_sections_of_their_values():
     source = bifurcation(points=60, record=5, judged=True)
     axes, exponents = drawn_with(source, "block.x", None).axes
     marks = marks_of(axes)
-    for verdict, colour in ((1, page.BLUE), (3, page.VERMILION), (0, page.GREY)):
+    for verdict, colour in ((1, colours.PERIODIC), (3, colours.CHAOTIC), (0, colours.UNDECIDED)):
         judged = source.values[source.verdicts == verdict, 0]
         np.testing.assert_allclose(np.unique(marks[colour.upper()][:, 0]), judged * 1e3)
     assert exponents.get_ylabel() == "exponent [1/s]"
@@ -88,10 +88,10 @@ def test_directions_have_two_colours_and_their_verdicts_a_strip():
     axes, _, strip = drawn_with(source, "block.x", None).axes
     marks = marks_of(axes)
     np.testing.assert_allclose(
-        marks[page.BLUE.upper()][:, 1], source.section_values["block.x"][:40].ravel()
+        marks[colours.FORWARD.upper()][:, 1], source.section_values["block.x"][:40].ravel()
     )
     np.testing.assert_allclose(
-        marks[page.VERMILION.upper()][:, 1], source.section_values["block.x"][40:].ravel()
+        marks[colours.BACKWARD.upper()][:, 1], source.section_values["block.x"][40:].ravel()
     )
     assert [label.get_text() for label in strip.get_yticklabels()] == ["forward", "backward"]
     cells = sum(len(one.get_paths()) for one in strip.collections)
@@ -143,8 +143,8 @@ def test_verdicts_colour_the_sections_of_an_ensemble():
     axes, _ = drawn_with(source, "section", None).axes
     marks = marks_of(axes)
     x = source.section_values["left.eccentricity_x"] * 1e3
-    np.testing.assert_allclose(marks[page.BLUE.upper()][:, 0], x[[0, 3]].ravel())
-    np.testing.assert_allclose(marks[page.VERMILION.upper()][:, 0], x[[1, 2]].ravel())
+    np.testing.assert_allclose(marks[colours.PERIODIC.upper()][:, 0], x[[0, 3]].ravel())
+    np.testing.assert_allclose(marks[colours.CHAOTIC.upper()][:, 0], x[[1, 2]].ravel())
 
 
 def test_extremes_of_a_sweep_are_drawn_over_its_parameter_in_order():
@@ -257,7 +257,7 @@ def test_long_numbers_of_a_section_stand_apart():
     moved = {**source.section_values, "left.eccentricity_x": near}
     with page.style():
         figure = figures.draw(replace(source, section_values=moved), "section", None)
-        page.save(figure, "png")
+        saving.save(figure, "png")
         figure.draw_without_rendering()
         stand_apart(figure)
 
@@ -269,6 +269,6 @@ def test_long_numbers_of_a_map_stand_apart():
     peaks = {**source.extremes, "stroke": near}
     with page.style():
         figure = figures.draw(replace(source, extremes=peaks), "sweep", None)
-        page.save(figure, "png")
+        saving.save(figure, "png")
         figure.draw_without_rendering()
         stand_apart(figure)

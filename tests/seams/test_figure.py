@@ -12,7 +12,7 @@ import pytest
 from jointplay import figures
 from jointplay.client import Job, NotFound, Refused
 from jointplay.command_line.application import run
-from jointplay.figures import page, scene_facts
+from jointplay.figures import colours, page, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.local import load
 from jointplay.records.run import Source
@@ -32,7 +32,7 @@ def draw(source: Source, selection: Selection) -> Figure:
     names = velocities(source, selection)
     figure, ((axes,),) = page.panels(1, 1, 40.0)
     for time, columns in source.blocks(names, *source.between(selection.start, selection.stop)):
-        axes.plot(time, np.hypot(*columns.values()), color=page.BLUE)
+        axes.plot(time, np.hypot(*columns.values()), color=colours.COMPUTED)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("speed [m/s]")
     return figure

@@ -163,12 +163,21 @@ def test_any_stored_channel_is_a_figure(http, finished_job):
     assert png.content.startswith(b"\x89PNG")
 
 
+def test_options_of_the_page_are_parameters(http, finished_job):
+    path = f"/v1/jobs/{finished_job}/figures/slider7.vx"
+    asked = {"width": 120.0, "title": "Slider", "y_max": 3.0, "units": "mm/s"}
+    pdf = http.get(f"{path}.pdf", params=asked)
+    assert pdf.headers["Content-Type"] == "application/pdf"
+    assert pdf.content.startswith(b"%PDF")
+    assert http.get(f"{path}.png", params=asked).content != http.get(f"{path}.png").content
+
+
 def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
     problem = get(http, f"/v1/jobs/{finished_job}/figures/obrit.png", 404)
     assert problem["type"] == "/problems/unknown-figure"
     assert "orbit" in problem["detail"]
     problem = get(http, f"/v1/jobs/{finished_job}/figures/orbit.jpg", 404)
-    assert "png or svg" in problem["detail"]
+    assert "png, svg, pdf or eps" in problem["detail"]
     assert problem["errors"][0]["parameter"] == "form"
 
 
@@ -183,6 +192,9 @@ def test_an_unknown_figure_is_refused_with_those_there_are(http, finished_job):
         ("phase-portrait", {"channels": "slider7.x"}, "channels"),
         ("velocity", {"joints": "A"}, "joints"),
         ("orbit", {"channels": "slider7.x"}, "channels"),
+        ("orbit", {"x_scale": "log"}, "x_scale"),
+        ("orbit", {"units": "furlong"}, "units"),
+        ("orbit", {"width": 900.0}, "width"),
     ],
 )
 def test_what_a_figure_cannot_show_is_named(http, finished_job, figure, query, parameter):

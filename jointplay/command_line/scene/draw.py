@@ -1,23 +1,29 @@
 """``jointplay scene draw``: a mechanism in its starting position, to look at."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from jointplay.command_line.options import AS_JSON, SCENE, SET, form_of
+from jointplay.command_line.exits import Stopped
+from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
+from jointplay.command_line.options import AS_JSON, SCENE, SET
 from jointplay.command_line.output import tell
 from jointplay.command_line.scene.assembled import assemble_scene
 
 
+@with_figure_options
 def draw(
     source: SCENE,
     settings: SET = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="A .png or .svg; default NAME.png."),
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="A .png, .svg, .pdf, .eps; default NAME.png."
+        ),
     ] = None,
     as_json: AS_JSON = False,
+    **options: Any,
 ) -> None:
     """Draw a mechanism as it stands at t = 0.
 
@@ -30,8 +36,12 @@ def draw(
 
     scene = assemble_scene(source, settings or ())
     file = output or Path(f"{scene.document['name']}.png")
-    form = form_of(file, f"-o {file}: name a file that ends in .png or .svg.")
-    file.write_bytes(figures.render_mechanism(scene.document, scene.pose(), form))
+    form, page = form_of(file), page_of(options)
+    try:
+        picture = figures.render_mechanism(scene.document, scene.pose(), form, page)
+    except figures.NotDrawable as error:
+        raise Stopped(str(error)) from None
+    file.write_bytes(picture)
     tell({"figure": str(file), "problems": scene.problems}, [file], as_json=as_json)
     if scene.refusal is not None:
         typer.echo(f"jointplay: drawn, but it cannot be run. {scene.refusal}", err=True)

@@ -1,0 +1,41 @@
+"""Query of a figure: what it shows, and the options of its page, as figures have them."""
+
+from typing import Any, Literal
+
+from pydantic import Field, create_model
+
+from jointplay.figures import Options
+from jointplay.records.page_option import OPTIONS, Option
+from jointplay.service.fields import in_unit
+from jointplay.service.results.queries import TimeOrPoints
+
+
+class FigureSelection(TimeOrPoints):
+    """Selection of what a figure shows."""
+
+    joints: str | None = Field(
+        default=None,
+        max_length=2000,
+        description="Clearance joints, separated by commas; default: all.",
+    )
+
+    def options(self) -> Options:
+        """Return the options of the page; `NotDrawable` if one cannot be."""
+        return Options(**{name: getattr(self, name) for name in OPTIONS})
+
+
+def _field(option: Option) -> tuple[Any, Any]:
+    """Return type and meaning of an option's parameter."""
+    description = f"{option.help}."
+    if option.choices:
+        return Literal[option.choices] | None, Field(default=None, description=description)
+    if option.is_text:
+        return str | None, Field(default=None, max_length=int(option.most), description=description)
+    if option.unit:
+        bounds: dict[str, Any] = {"ge": option.least, "le": option.most}
+        return float | None, in_unit(option.unit, description, default=None, **bounds)
+    return float | None, Field(default=None, allow_inf_nan=False, description=description)
+
+
+_OPTIONS: dict[str, Any] = {name: _field(option) for name, option in OPTIONS.items()}
+FigureQuery = create_model("FigureQuery", __base__=FigureSelection, **_OPTIONS)
