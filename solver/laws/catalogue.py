@@ -1,4 +1,4 @@
-"""What every law of the rosters is, as documents: for the API, the command line and readers."""
+"""Catalogue of the laws in the rosters, as documents: for the API, the command line, readers."""
 
 import inspect
 import re
@@ -45,7 +45,7 @@ class LawParameter(BaseModel):
 
 
 class DeliveredRestitution(BaseModel):
-    """What free impacts give back, beside what the parameter asks for; shares of the speed."""
+    """Restitution in free impacts, beside the one that is asked for; shares of the speed."""
 
     asked: list[float]
     delivered: list[float]

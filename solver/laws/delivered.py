@@ -21,4 +21,4 @@ DELIVERED: dict[str, tuple[float, ...]] = {
     "jankowski": (0.0933, 0.2917, 0.4946, 0.6977, 0.7989, 0.8997, 0.9499, 0.9900),
     "tsuji": (0.2527, 0.3971, 0.5503, 0.7182, 0.8081, 0.9020, 0.9505, 0.9900),
 }
-"""By law, for each restitution asked."""
+"""Restitution delivered, by law, for each one asked."""

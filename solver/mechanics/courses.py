@@ -3,7 +3,8 @@
 from collections.abc import Callable, Mapping
 
 from jointplay.solver.laws.force import Ends, ForceElement, Over
-from jointplay.solver.quantities.scalars import Scalar, sqrt
+from jointplay.solver.laws.force.distance import distance
+from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene
 
 EndsOf = Callable[[str, str], Ends]
@@ -38,6 +39,6 @@ def _between_points(element: ForceElement, over: Over, ends: EndsOf) -> tuple[Sc
     if over.quantity == "angle":
         return found.angles[1] - found.angles[0], found.spins[1] - found.spins[0]
     if over.quantity == "distance":
-        distance = sqrt(x * x + y * y)
-        return distance, (x * vx + y * vy) / distance
+        apart = distance(found)
+        return apart.length, apart.rate
     return (x, vx) if over.quantity == "x" else (y, vy)

@@ -12,7 +12,7 @@ DEPENDENT = 1e-13
 
 
 def is_zero(value: Scalar) -> bool:
-    """Whether a value is zero whatever the state: such entries are left out."""
+    """Tell whether a value is zero whatever the state: such entries are left out."""
     return isinstance(value, float) and value == 0.0
 
 

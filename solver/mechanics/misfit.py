@@ -1,4 +1,4 @@
-"""What keeps a mechanism from being put together: a joint that stays open, drivers that fight."""
+"""Misfits that keep a mechanism from assembly: a joint that stays open, drivers that fight."""
 
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from jointplay.solver.mechanics.assembly import (
     shortest_link,
 )
 from jointplay.solver.mechanics.closing import arrays, rank
+from jointplay.solver.mechanics.drawing import drawn_places
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.document import Scene
@@ -41,7 +42,8 @@ def opening(scene: Scene) -> Opening:
 
     ideal = AbsoluteMechanism(scene, view(scene), close_play=True)
     driven, length = first_clocks(scene), shortest_link(scene)
-    pose = first_pose(ideal, first_angles(scene), driven)
+    angles = first_angles(scene)
+    pose = first_pose(ideal, angles, driven, drawn_places(scene, angles))
     still, count = np.zeros_like(pose), len(pose)
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     tree = spanning_tree(scene)

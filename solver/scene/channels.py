@@ -33,7 +33,7 @@ POINT = (
     ("vx", "m/s", "velocity x"),
     ("vy", "m/s", "velocity y"),
 )
-"""Of points that are recorded."""
+"""Channels of points that are recorded."""
 LONGEST_RECORDED = 61
 """Characters of a recorded point's reference: names of channels have 64 at most."""
 HOLDING = ("prismatic", "fixed")

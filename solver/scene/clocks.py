@@ -12,7 +12,7 @@ from jointplay.solver.scene.joints import Revolute
 
 @dataclass(frozen=True)
 class Clock:
-    """What a clock shows at the start, gains a second, and after how much it may begin anew.
+    """A clock: its reading at the start, its gain a second, and after how much it may begin anew.
 
     `turn` is 2 pi of an angle, the period of a function; 0: it goes on for ever.
     """

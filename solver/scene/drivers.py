@@ -37,12 +37,12 @@ class Driver(Strict):
     @property
     @abstractmethod
     def clock_start(self) -> Scalar:
-        """What the clock shows at the start."""
+        """Reading of the clock at the start."""
 
     @property
     @abstractmethod
     def clock_rate(self) -> Scalar:
-        """What the clock gains a second."""
+        """Gain of the clock in a second."""
 
 
 class SteadyDriver(Driver):

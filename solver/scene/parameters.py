@@ -12,7 +12,7 @@ from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.document import Parameter, Scene
 
 PLACE = "/scene/parameters"
-"""Where a job gives values, and where a scene document declares parameters."""
+"""Place where a job gives values, and a scene document declares parameters."""
 
 
 def set_parameters(
@@ -91,7 +91,7 @@ def value_at(node: Any, path: str) -> Any:
 
 
 def has_place(document: Any, path: str) -> bool:
-    """Whether a JSON pointer leads to a single value, or to a field beside existing ones.
+    """Tell whether a JSON pointer leads to a single value, or to a field beside existing ones.
 
     What holds other values is no place: two parameters might then be put into each other.
     """

@@ -9,10 +9,10 @@ from pydantic_core import ErrorDetails
 
 from jointplay.records.failure import Problem
 from jointplay.records.suggestions import instead
-from jointplay.solver.quantities.roster import MemberOf
+from jointplay.solver.quantities.roster import MemberOf, quoted
 from jointplay.solver.scene.unions import is_form
 
-JOINTS = frozenset({"revolute", "prismatic", "pin-in-slot", "fixed"})
+JOINTS = ("revolute", "prismatic", "pin-in-slot", "flat-follower", "roller-follower", "fixed")
 TYPES = frozenset({"float", "str", "none"})
 """Parts of a location that name a branch of a union, not a place in the document."""
 
@@ -35,9 +35,7 @@ SENTENCES = {
     "model_type": "'{field}' must be an object.",
     "literal_error": "'{field}' must be {expected}.",
     "union_tag_invalid": "'type' must be one of {expected_tags}.",
-    "union_tag_not_found": (
-        "The field 'type' is required: 'revolute', 'prismatic', 'pin-in-slot' or 'fixed'."
-    ),
+    "union_tag_not_found": f"The field 'type' is required: {quoted([*JOINTS])}.",
     "too_short": "'{field}' needs at least {min_length} entries.",
     "too_long": "'{field}' may have at most {max_length} entries.",
     "string_too_long": "'{field}' may have at most {max_length} characters.",
@@ -47,7 +45,7 @@ SENTENCES = {
     ),
     "reference": "'{field}' must be body.point, for example crank.pin or ground.O.",
 }
-"""By pydantic's type of error, in its context; a reference is a string with a point."""
+"""Sentences by pydantic's type of error, with its context; a reference is a string with a point."""
 
 
 def schema_problems(
@@ -63,15 +61,22 @@ def schema_problems(
         field = next((part for part in reversed(place) if not part.isdigit()), "the document")
         if item["type"] == "extra_forbidden":
             hints += 1
-            hint = ""
+            sentence = f"There is no field '{field}' here."
             if hints <= MOST_HINTS:
-                _, models = _reached(place[:-1], root, document)
-                hint = "; " + instead(field, {name for m in models for name, _ in _fields(m)})
-            sentence = f"There is no field '{field}' here" + (hint or ".")
+                sentence = _out_of_place(field, place, root, document)
         else:
             sentence = _sentence(item, field, _unit(place, root, document))
         found.setdefault(pointer, sentence)  # the first of a union's complaints says enough
     return [Problem(pointer, sentence) for pointer, sentence in found.items()]
+
+
+def _out_of_place(field: str, place: list[str], root: type[BaseModel], document: object) -> str:
+    """Return what is wrong with a field that the object at a place must not have."""
+    _, models = _reached(place[:-1], root, document)
+    known = {name for model in models for name, _ in _fields(model)}
+    if field in known:  # of another form of the object
+        return f"The field '{field}' does not go with the others here; leave it or them out."
+    return f"There is no field '{field}' here; {instead(field, known)}"
 
 
 def _sentence(item: ErrorDetails, field: str, unit: str) -> str:

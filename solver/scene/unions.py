@@ -31,10 +31,10 @@ def told_by(tell: Callable[[Any], str | None], otherwise: str) -> Discriminator:
 
 
 def is_form(part: str) -> bool:
-    """Whether a part of an error's location names a form, which is no place in the document."""
+    """Tell whether a part of an error's location names a form, which is no place in a document."""
     return part.startswith(_PREFIX)
 
 
 def has(value: Any, field: str) -> bool:
-    """Whether a value, parsed or not, is an object with a field."""
+    """Tell whether a value, parsed or not, is an object with a field."""
     return field in value if isinstance(value, Mapping) else hasattr(value, field)

@@ -15,7 +15,7 @@ from jointplay.solver.laws.fit import Fit
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power
 from jointplay.solver.scene.document import Scene
 from tests.seams.conftest import Platform
-from tests.solver.laws.specification import ContactSpecification
+from tests.solver.laws.specification.contact import ContactSpecification
 
 
 class Hertz(ContactLaw):

@@ -13,7 +13,7 @@ from jointplay.client import Refused
 from jointplay.solver.laws.force import ELEMENTS, Effect, Ends, ForceElement
 from jointplay.solver.quantities.scalars import sqrt
 from tests.seams.conftest import Platform
-from tests.solver.laws.specification import ElementSpecification
+from tests.solver.laws.specification.element import ElementSpecification
 
 
 class Winch(ForceElement):

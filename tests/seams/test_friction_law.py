@@ -17,7 +17,7 @@ from jointplay.solver.quantities.scalars import Scalar, absolute
 from jointplay.solver.runs.simulate import Simulation
 from tests.seams.conftest import Platform
 from tests.solver.completed_runs import Run, collect
-from tests.solver.laws.specification import FrictionSpecification
+from tests.solver.laws.specification.friction import FrictionSpecification
 
 
 class Bristle(FrictionLaw):

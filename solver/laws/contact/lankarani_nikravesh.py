@@ -83,7 +83,7 @@ class LankaraniNikravesh(ContactLaw):
 
     @property
     def needs_radii(self) -> bool:
-        """Whether eq. 9 supplies the stiffness."""
+        """True where eq. 9 supplies the stiffness."""
         return self.stiffness is None
 
     @property

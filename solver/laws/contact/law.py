@@ -42,7 +42,7 @@ class ContactLaw(Strict):
 
     @property
     def title(self) -> str:
-        """What sentences call the law."""
+        """Name of the law in sentences."""
         return self.law
 
     @property
@@ -52,10 +52,10 @@ class ContactLaw(Strict):
 
     @property
     def needs_radii(self) -> bool:
-        """Whether the force depends on the radii of journal and bearing, which a wall has not."""
+        """True if the force depends on the radii of journal and bearing, which a wall has not."""
         return True
 
     @property
     def tangent_obstacle(self) -> str:
-        """Why no tangent vector can follow a run with this law, and the remedy; empty: one can."""
+        """Reason why no tangent vector follows a run with this law, with the remedy, or nothing."""
         return ""

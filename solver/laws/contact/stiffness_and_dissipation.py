@@ -43,12 +43,12 @@ class StiffnessAndDissipation(ContactLaw):
 
     @property
     def clearance_rules(self) -> tuple[Rule, ...]:
-        """Those of the stiffness."""
+        """Rules of the stiffness."""
         return self.stiffness.fit_rules
 
     @property
     def needs_radii(self) -> bool:
-        """Whether the stiffness does."""
+        """True where the stiffness needs them."""
         return self.stiffness.needs_radii
 
     @property
@@ -58,7 +58,7 @@ class StiffnessAndDissipation(ContactLaw):
 
     @property
     def title(self) -> str:
-        """Names of both."""
+        """The names of both parts."""
         return f"{self.stiffness.law} with {self.dissipation.law}"
 
     @property

@@ -41,5 +41,5 @@ class Jankowski(Dissipation):
         return elastic.force + damping * positive_part(rate)
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:
-        """Where the stiffness is there at once."""
+        """Tell whether it does: where the stiffness is there at once."""
         return self.restitution < 1.0 and stiffness.is_stiff_at_once

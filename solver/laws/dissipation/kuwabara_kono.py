@@ -32,5 +32,5 @@ class KuwabaraKono(Dissipation):
         return elastic.force + self.relaxation_time * elastic.slope * rate
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:
-        """Where the stiffness is there at once."""
+        """Tell whether it does: where the stiffness is there at once."""
         return self.relaxation_time > 0.0 and stiffness.is_stiff_at_once

@@ -1,4 +1,4 @@
-"""What the laws share whose damping is a multiple of the elastic force, by the impact rate."""
+"""Shared parts of laws whose damping is a multiple of the elastic force, by the impact rate."""
 
 from abc import abstractmethod
 from typing import Annotated

@@ -14,7 +14,7 @@ from jointplay.solver.quantities.units import Rule, Strict
 
 Restitution = Annotated[float, Field(ge=0.0, le=1.0, json_schema_extra={"unit": "1"})]
 SomeRestitution = Annotated[float, Field(ge=1e-3, le=1.0, json_schema_extra={"unit": "1"})]
-"""Of laws that divide by it, or take its logarithm."""
+"""Restitution of laws that divide by it, or take its logarithm."""
 EffectiveMass = Annotated[
     float,
     Field(
@@ -41,7 +41,7 @@ class Elastic:
 
     @property
     def slope(self) -> Scalar:
-        """Its derivative dF_e/dδ, N/m."""
+        """The derivative dF_e/dδ, N/m."""
         return self.law.slope(self.fit, self.depth)
 
     @property
@@ -73,5 +73,5 @@ class Dissipation(Strict):
         return 0.0
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:
-        """Whether the force is not zero at once where a contact begins."""
+        """Tell whether the force jumps where a contact begins."""
         return False

@@ -38,5 +38,5 @@ class Tsuji(Dissipation):
         return elastic.force + factor * sqrt(self.effective_mass * elastic.secant) * rate
 
     def jumps_at_onset(self, stiffness: Stiffness) -> bool:
-        """Where the stiffness is there at once."""
+        """Tell whether it does: where the stiffness is there at once."""
         return self.restitution < 1.0 and stiffness.is_stiff_at_once

@@ -9,12 +9,12 @@ from jointplay.solver.quantities.units import Name, PointReference, Rule, Strict
 
 
 class Ends(NamedTuple):
-    """How the second of two points lies and moves against the first, world components."""
+    """Place and motion of the second of two points against the first, world components."""
 
     gap: tuple[Scalar, Scalar]
     """Position of the second point less that of the first, m."""
     rate: tuple[Scalar, Scalar]
-    """Its rate, m/s."""
+    """Rate of the gap, m/s."""
     spins: tuple[Scalar, Scalar]
     """Angular velocities of the first point's body and of the second's, rad/s."""
     turned: tuple[tuple[Scalar, Scalar], tuple[Scalar, Scalar]] = ((1.0, 0.0), (1.0, 0.0))
@@ -22,16 +22,16 @@ class Ends(NamedTuple):
     angles: tuple[Scalar, Scalar] = (0.0, 0.0)
     """These angles, rad; whole turns count."""
     argument: Scalar = 0.0
-    """What an element that varies is a function of; see `Over`."""
+    """Argument of an element that varies; see `Over`."""
     argument_rate: Scalar = 0.0
-    """Its rate, where the function is not of a rate itself."""
+    """Rate of the argument, where that is not a rate itself."""
 
 
 class Effect(NamedTuple):
     """Action of an element at one instant. The power that goes into it is d(stored)/dt + loss."""
 
     force: tuple[Scalar, Scalar]
-    """On the second point, N; its opposite acts on the first."""
+    """Force on the second point, N; its opposite acts on the first."""
     channels: Mapping[str, Scalar]
     """Values of the element's `channels`, by name."""
     stored: Scalar = 0.0
@@ -39,13 +39,13 @@ class Effect(NamedTuple):
     loss: Scalar = 0.0
     """Power that is lost, W; negative where the element drives."""
     moment: Scalar = 0.0
-    """On the second point's body, N m; its opposite acts on the first's."""
+    """Moment on the second point's body, N m; its opposite acts on the first's."""
     couple: Scalar = 0.0
-    """On the first point's body besides, N m: of a force that is not along the line between."""
+    """Moment on the first point's body besides, N m: of a force not along the line between."""
 
 
 class Over(Strict):
-    """What a strength is a function of: time (s), a driver's position, or how two points lie.
+    """Argument of a strength: time (s), a driver's position, or the places of two points.
 
     Of two points, by default the element's own: `angle` of the second's body less that of the
     first's (rad, whole turns count), `distance`, or `x` and `y` of the second less the first (m,
@@ -85,5 +85,5 @@ class ForceElement(Strict):
 
     @property
     def needs_direction(self) -> bool:
-        """Whether the points must not start in one place, for the force has no direction there."""
+        """True if the points must not start in one place, for the force has no direction there."""
         return False

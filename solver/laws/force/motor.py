@@ -49,5 +49,5 @@ class Motor(ForceElement):
 
     @property
     def fastest(self) -> float:
-        """Its speed without load."""
+        """The speed without load."""
         return abs(self.no_load_speed)

@@ -4,12 +4,9 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from jointplay.solver.laws.force.distance import distance
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
-from jointplay.solver.quantities.scalars import sqrt
 from jointplay.solver.quantities.units import Rule
-
-COINCIDENT = 1e-300
-"""Added to the square of the length (m^2), so that points in one place divide by no zero."""
 
 
 class SpringDamper(ForceElement):
@@ -50,12 +47,7 @@ class SpringDamper(ForceElement):
 
     def effect(self, ends: Ends) -> Effect:
         """Return tension along the line, stored energy k (L - L_0)² / 2 and loss c (dL/dt)²."""
-        (x, y), (vx, vy) = ends.gap, ends.rate
-        square = x * x + y * y
-        length = sqrt(square)
-        inverse = length / (square + COINCIDENT)
-        ux, uy = x * inverse, y * inverse
-        rate = ux * vx + uy * vy
+        length, (ux, uy), rate = distance(ends)
         stretch = length - self.free_length
         tension = self.stiffness * stretch + self.damping * rate
         return Effect(
@@ -67,5 +59,5 @@ class SpringDamper(ForceElement):
 
     @property
     def needs_direction(self) -> bool:
-        """Whether it has a free length."""
+        """True with a free length."""
         return self.free_length > 0.0

@@ -10,7 +10,7 @@ from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit
 
 TIME = Over()
-"""What an element varies with where nothing else is said."""
+"""Argument where nothing else is said."""
 
 
 class Varying(ForceElement):

@@ -1,4 +1,4 @@
-"""What friction laws share that hold a joint at rest harder than a sliding one."""
+"""Shared parts of friction laws that hold a joint at rest harder than a sliding one."""
 
 from typing import Annotated, ClassVar
 

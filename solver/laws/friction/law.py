@@ -51,7 +51,7 @@ class FrictionLaw(Strict):
 
     @property
     def is_off(self) -> bool:
-        """Whether there is no friction at all, so that nothing is computed."""
+        """True if there is no friction at all, so that nothing is computed."""
         return False
 
     @property
@@ -61,10 +61,10 @@ class FrictionLaw(Strict):
 
     @property
     def slips_with_material(self) -> bool:
-        """Whether rotation counts in the slip; else it is that of the press paper's eqs 5-7."""
+        """True if rotation counts in the slip; else it is that of the press paper's eqs 5-7."""
         return True
 
     @property
     def tangent_obstacle(self) -> str:
-        """Why no tangent vector can follow a run with this law, and the remedy; empty: one can."""
+        """Reason why no tangent vector follows a run with this law, with the remedy, or nothing."""
         return ""

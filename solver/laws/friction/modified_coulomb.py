@@ -77,7 +77,7 @@ class ModifiedCoulomb(FrictionLaw):
 
     @property
     def is_off(self) -> bool:
-        """Whether the coefficient is zero, and not data of a run."""
+        """True if the coefficient is zero, and not data of a run."""
         return self.coefficient == 0.0
 
     @property
@@ -87,7 +87,7 @@ class ModifiedCoulomb(FrictionLaw):
 
     @property
     def slips_with_material(self) -> bool:
-        """Whether `slip_velocity` says so."""
+        """True where `slip_velocity` says so."""
         return self.slip_velocity == "material"
 
     @property

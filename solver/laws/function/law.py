@@ -45,7 +45,7 @@ class Function(Strict):
 
     @property
     def has_curvature(self) -> bool:
-        """Whether the second derivative exists everywhere but at single arguments, bounded."""
+        """True if the second derivative is bounded, and exists but at single arguments."""
         return True
 
     @abstractmethod

@@ -42,7 +42,7 @@ class Ramp(Function):
 
     @property
     def bend(self) -> float:
-        """Its length."""
+        """The length of the step."""
         return self.length
 
     def largest(self, until: float) -> list[float]:

@@ -37,7 +37,7 @@ class Sinusoidal(Function):
 
     @property
     def bend(self) -> float:
-        """Its period."""
+        """The period."""
         return self.period
 
     def largest(self, until: float) -> list[float]:

@@ -133,7 +133,7 @@ class Table(Function):
 
     @property
     def has_curvature(self) -> bool:
-        """Whether it is smooth."""
+        """True where it is smooth."""
         return self.between == "smooth"
 
     def largest(self, until: float) -> list[float]:

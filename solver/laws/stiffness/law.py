@@ -21,7 +21,7 @@ class Stiffness(Strict):
     fit_rules: ClassVar[tuple[Rule, ...]] = ()
     """Rules that a clearance with this law must keep."""
     needs_radii: ClassVar[bool] = True
-    """Whether the force depends on the radii of journal and bearing, which a wall has not."""
+    """True if the force depends on the radii of journal and bearing, which a wall has not."""
 
     @abstractmethod
     def force(self, fit: Fit, depth: Scalar) -> Scalar:
@@ -41,5 +41,5 @@ class Stiffness(Strict):
 
     @property
     def is_stiff_at_once(self) -> bool:
-        """Whether the slope does not set in from zero as a power of the depth does."""
+        """True if the slope does not set in from zero as a power of the depth does."""
         return False

@@ -12,7 +12,7 @@ from jointplay.solver.laws.stiffness.power import NOTHING
 from jointplay.solver.quantities.scalars import Scalar, positive_part, select_positive, sqrt
 
 NODES = [(0.5 + 0.5 * x, 0.5 * w) for x, w in np.transpose(leggauss(10)).tolist()]
-"""Of Gauss's rule on 0..1: the energy's integrand is smooth there once δ x² stands for the depth;
+"""Points of Gauss's rule on 0..1: the integrand of the energy, over δ x² for the depth, is smooth;
 up to depths of twice the clearance it errs by 1e-11."""
 
 

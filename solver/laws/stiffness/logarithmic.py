@@ -39,7 +39,7 @@ SMALLEST = 1e-300
 
 
 class Constants(NamedTuple):
-    """Those of δ = a F (ln(b / F) + c)."""
+    """Constants of δ = a F (ln(b / F) + c)."""
 
     a: Scalar
     """m/N."""
@@ -88,7 +88,7 @@ class Logarithmic(OfWidth):
 
     @property
     def is_stiff_at_once(self) -> bool:
-        """Always: the slope vanishes as 1 / ln δ only."""
+        """True always: the slope vanishes as 1 / ln δ only."""
         return True
 
     def _solved(self, fit: Fit, depth: Scalar) -> tuple[Scalar, Scalar, Scalar, Scalar]:

@@ -1,4 +1,4 @@
-"""What stiffness laws share that compute it from one material: its constants, a bearing's width."""
+"""Shared parts of stiffness laws of one material: its constants, and a bearing's width."""
 
 from typing import Annotated, ClassVar
 

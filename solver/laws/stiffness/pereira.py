@@ -17,7 +17,7 @@ from jointplay.solver.quantities.scalars import (
 from jointplay.solver.quantities.units import Rule
 
 MILLIMETRES = 1e3
-"""In a metre: the law's numbers are in millimetres and newtons."""
+"""Millimetres in a metre: the law's numbers are in millimetres and newtons."""
 LEAST, BREAK, MOST = 0.005, 0.34954, 10.0
 """Clearances (mm) from which, and up to which, the law was fitted; where its exponent changes."""
 

@@ -61,5 +61,5 @@ class Power(Stiffness):
 
     @property
     def is_stiff_at_once(self) -> bool:
-        """Whether n is 1."""
+        """True where n is 1."""
         return self.exponent == 1.0

@@ -25,18 +25,9 @@ from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.references import tangent_obstacle
 from tests.solver.completed_runs import Run, run
 from tests.solver.kernels.test_recorder import evaluate
-from tests.solver.laws.specification import (
-    FIT,
-    ROUNDING,
-    Fit,
-    Units,
-    depths,
-    documented,
-    impact_rates,
-    rates,
-    rescaled,
-    some_units,
-)
+from tests.solver.laws.specification.contact import FIT, Fit, depths, impact_rates
+from tests.solver.laws.specification.member import documented, rates
+from tests.solver.laws.specification.units import ROUNDING, Units, rescaled, some_units
 from tests.solver.laws.thrown import CLEARANCE, MASS, SPEED, pair, thrown
 from tests.solver.runs.study.test_run import Computed
 

@@ -17,7 +17,7 @@ from jointplay.solver.laws.force.spring_damper import SpringDamper
 from jointplay.solver.laws.force.torque import Torque
 from jointplay.solver.laws.force.torsion_spring import TorsionSpring
 from tests.solver.completed_runs import Run, run
-from tests.solver.laws.specification import ElementSpecification
+from tests.solver.laws.specification.element import ElementSpecification
 
 MASS, STIFFNESS, FREE_LENGTH = 2.0, 50.0, 0.4
 RATE = math.sqrt(STIFFNESS / MASS)

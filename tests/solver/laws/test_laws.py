@@ -19,15 +19,9 @@ from jointplay.solver.laws.friction.lugre import LuGre
 from jointplay.solver.laws.friction.modified_coulomb import ModifiedCoulomb
 from jointplay.solver.laws.friction.stribeck import Stribeck
 from jointplay.solver.laws.friction.threlfall import Threlfall
-from tests.solver.laws.specification import (
-    FIT,
-    ROUNDING,
-    ContactSpecification,
-    Fit,
-    FrictionSpecification,
-    normal_forces,
-    slips,
-)
+from tests.solver.laws.specification.contact import FIT, ContactSpecification, Fit
+from tests.solver.laws.specification.friction import FrictionSpecification, normal_forces, slips
+from tests.solver.laws.specification.units import ROUNDING
 
 exponents = st.one_of(st.just(1.5), st.floats(1.0, 3.0))
 restitutions = st.floats(0.0, 1.0)

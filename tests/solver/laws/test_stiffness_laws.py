@@ -19,7 +19,9 @@ from jointplay.solver.laws.stiffness.logarithmic import LAST_T, Logarithmic, low
 from jointplay.solver.laws.stiffness.pereira import Pereira
 from jointplay.solver.scene.sizes import ill_sized
 from tests.solver.kernels.test_recorder import evaluate
-from tests.solver.laws.specification import FIT, Fit, Units, documented, rescaled, some_units
+from tests.solver.laws.specification.contact import FIT, Fit
+from tests.solver.laws.specification.member import documented
+from tests.solver.laws.specification.units import Units, rescaled, some_units
 from tests.solver.laws.thrown import pair, thrown
 
 STEEL = {"youngs_modulus": 2.07e11, "poisson_ratio": 0.3}

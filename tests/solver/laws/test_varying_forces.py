@@ -9,6 +9,9 @@ from scipy.integrate import solve_ivp
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds import admit
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.force.distance import distance
+from jointplay.solver.mechanics.courses import acting_between
 from jointplay.solver.scene.periods import common_period
 from tests.solver.completed_runs import Run, run
 from tests.solver.driven_motions import carried, function
@@ -73,6 +76,16 @@ def test_both_formulations_agree_and_power_goes_where_the_ledger_says(seed: int)
     taken = sum(element.power for element in motion.forces.elements.values())
     # rounding of a dozen terms of some ten watts
     assert kinetic_power == pytest.approx(put_in - taken, abs=1e-9)
+
+
+def test_a_force_over_a_distance_is_finite_where_the_points_meet() -> None:
+    scene = scene_of(laden())
+    ends = Ends((0.0, 0.0), (0.3, -0.4), (1.0, 2.0))
+    acting = acting_between(scene, "far", lambda _first, _second: ends, {})
+    assert (acting.argument, acting.argument_rate) == (0.0, 0.0)
+    apart = distance(ends._replace(gap=(3.0, 4.0)))
+    assert apart.length == 5.0
+    assert [*apart.direction, apart.rate] == pytest.approx([0.6, 0.8, -0.14], rel=1e-15)
 
 
 def test_the_period_is_that_of_driver_and_force_together() -> None:
