@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from jointplay.figures.scene_facts import PLAY
 from jointplay.records.arrays import Floats
 
 Point = tuple[float, float]
@@ -120,6 +121,8 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
             "revolute": ("bearing", "journal"),
             "prismatic": ("guide", "slider"),
             "pin-in-slot": ("slot", "pin"),
+            "flat-follower": ("cam", "follower"),
+            "roller-follower": ("cam", "follower"),
             "fixed": ("base", "part"),
         }[kind]
         bodies = (joint[first].partition(".")[0], joint[second].partition(".")[0])
@@ -157,7 +160,7 @@ def _look(joint: Mapping[str, Any], driven: bool) -> str:
     if joint["type"] in ("prismatic", "fixed"):
         return "weld" if joint["type"] == "fixed" else ""
     clearance = joint.get("clearance") or {}
-    if clearance.get("radial_clearance", clearance.get("wall_clearance", 0.0)) > 0.0:
+    if any(clearance.get(play, 0.0) > 0.0 for play in PLAY):
         return WITH_CLEARANCE
     return "driven joint" if driven else "ideal joint"
 

@@ -10,6 +10,9 @@ from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.channel import Channel, by_name
 from jointplay.records.run import Source
 
+PLAY = ("radial_clearance", "wall_clearance", "lash")
+"""Fields that say how far a joint's parts may move apart, m."""
+
 
 def outputs(source: Source) -> tuple[str, ...]:
     """Name the declared outputs that were stored, in the order of the scene."""
@@ -19,13 +22,13 @@ def outputs(source: Source) -> tuple[str, ...]:
 
 
 def clearances(scene_document: Mapping[str, Any]) -> dict[str, float]:
-    """Give the clearance [m] of every joint that has one above zero: radial, or to a wall."""
+    """Give the clearance [m] of every joint that has one above zero: radial, to a wall, lash."""
     found: dict[str, float] = {}
     for name, joint in scene_document.get("joints", {}).items():
         clearance = joint.get("clearance") or {}
-        play = clearance.get("radial_clearance", clearance.get("wall_clearance", 0.0))
+        play = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
         if play > 0.0:
-            found[name] = float(play)
+            found[name] = play
     return found
 
 

@@ -5,15 +5,25 @@ give equations Φ(q, t) = 0. Runs on floats, arrays of instants and recorded exp
 """
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
-from typing import NamedTuple
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.mechanics.cams import lift
 from jointplay.solver.mechanics.frames import WORLD, Pair, unit
 from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.motion import Forces
+from jointplay.solver.mechanics.rows import (
+    RESTING,
+    Marker,
+    Row,
+    angle_row,
+    guided_rows,
+    less,
+    lifted_row,
+    projection_row,
+)
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import JournalStart, Scene
 from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic
@@ -21,41 +31,6 @@ from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 
 CONCENTRIC = JournalStart()
-RESTING = Derivatives(0.0, 0.0, 0.0)
-"""Motion of what stays where it is."""
-
-
-class Marker(NamedTuple):
-    """A named point on a moving body, or on the ground (body index -1), in world axes.
-
-    `arm` reaches from the centre of mass to the point; `position`, `velocity` are the point's,
-    `angle` and `spin` the body's.
-    """
-
-    body: int
-    arm: Pair
-    position: Pair
-    velocity: Pair
-    angle: Scalar
-    spin: Scalar
-    turned: Pair = (1.0, 0.0)
-    """Cosine and sine of the angle."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """One constraint, of a joint or a driver that turns a body, by its name.
-
-    Its value, its Jacobian entries by coordinate index, and γ (eq. 22).
-    `rate` is dΦ/dt; the acceleration level reads Φ_q q̈ = `gamma`.
-    """
-
-    joint: str
-    part: str
-    value: Scalar
-    jacobian: dict[int, Scalar]
-    rate: Scalar
-    gamma: Scalar
 
 
 class AbsoluteMechanism:
@@ -111,7 +86,7 @@ class AbsoluteMechanism:
         wound : (3 bodies,) whole turns of angles that `q` leaves out, rad.
         """
         here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
-        gap, rate = _less(there.position, here.position), _less(there.velocity, here.velocity)
+        gap, rate = less(there.position, here.position), less(there.velocity, here.velocity)
         one, two = (
             marker.angle + (wound[3 * marker.body + 2] if wound and marker.body >= 0 else 0.0)
             for marker in (here, there)
@@ -146,23 +121,30 @@ class AbsoluteMechanism:
             (_, here), (_, there) = ends(joint)
             first, second = self.marker(here, q, v), self.marker(there, q, v)
             if isinstance(joint, Prismatic):
-                rows += _guided(name, first, second, self.axis(joint, first), joint.angle, motion)
+                rows += guided_rows(
+                    name, first, second, self.axis(joint, first), joint.angle, motion
+                )
                 continue
             if isinstance(joint, PinInSlot):
                 x, y = self.axis(joint, first)
-                rows.append(_projection(name, "normal", (-y, x), RESTING, first, second))
+                rows.append(projection_row(name, "normal", (-y, x), RESTING, first, second))
+                continue
+            if isinstance(joint, CamJoint):
+                rows.append(
+                    lifted_row(name, first, second, lift(joint, self.ends((here, there), q, v)))
+                )
                 continue
             rows += self._coincidence(name, first, second)
             if isinstance(joint, Fixed):
-                rows.append(_angle(name, first, second, RESTING._replace(value=joint.angle)))
+                rows.append(angle_row(name, first, second, RESTING._replace(value=joint.angle)))
             elif motion is not None:
-                rows.append(_angle(name, first, second, motion))
+                rows.append(angle_row(name, first, second, motion))
         still = Marker(-1, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 0.0, 0.0)
         for body, name in self.turned.items():
             i = self.bodies.index(body)
             turning = still._replace(body=i, angle=q[3 * i + 2], spin=v[3 * i + 2])
             motion = self.numbers.drivers[name].at(driven[name])
-            rows.append(_angle(name, still, turning, motion))
+            rows.append(angle_row(name, still, turning, motion))
         return rows + [self._gear(name, q, v) for name in self.numbers.gears]
 
     def _gear(self, name: str, q: Scalars, v: Scalars) -> Row:
@@ -253,68 +235,3 @@ class AbsoluteMechanism:
             return x, y
         sine, cosine = sine_cosine(guide.angle)
         return cosine * x - sine * y, sine * x + cosine * y
-
-
-def _angle(name: str, first: Marker, second: Marker, motion: Derivatives) -> Row:
-    """θ_second - θ_first - motion = 0."""
-    jacobian: dict[int, Scalar] = {}
-    value: Scalar = -motion.value
-    rate: Scalar = -motion.slope
-    for sign, marker in ((1.0, second), (-1.0, first)):
-        if marker.body >= 0:
-            jacobian[3 * marker.body + 2] = sign
-            value = value + sign * marker.angle
-            rate = rate + sign * marker.spin
-    return Row(name, "angle", value, jacobian, rate, motion.curvature)
-
-
-def _guided(
-    name: str,
-    first: Marker,
-    second: Marker,
-    axis: Pair,
-    angle: Scalar,
-    motion: Derivatives | None,
-) -> list[Row]:
-    """Return the rows of a slider: it stays on the axis and at its angle, and moves as driven."""
-    normal = (-axis[1], axis[0])
-    rows = [_projection(name, "normal", normal, RESTING, first, second)]
-    rows.append(_angle(name, first, second, RESTING._replace(value=angle)))
-    if motion is not None:
-        rows.append(_projection(name, "along", axis, motion, first, second))
-    return rows
-
-
-def _projection(
-    name: str,
-    part: str,
-    direction: Pair,
-    motion: Derivatives,
-    first: Marker,
-    second: Marker,
-) -> Row:
-    """(r_second - r_first) · u - motion = 0, u fixed in the first body."""
-    (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
-    gap, gap_rate = _less(second.position, first.position), _less(second.velocity, first.velocity)
-    jacobian: dict[int, Scalar] = {}
-    rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - motion.slope
-    gamma: Scalar = motion.curvature
-    for sign, marker in ((1.0, second), (-1.0, first)):
-        if marker.body < 0:
-            continue
-        k, (ax, ay) = 3 * marker.body, marker.arm
-        jacobian[k], jacobian[k + 1] = sign * ux, sign * uy
-        jacobian[k + 2] = sign * (uy * ax - ux * ay)
-        gamma = gamma + sign * (marker.spin * marker.spin) * (ux * ax + uy * ay)
-    if first.body >= 0:
-        k, spin = 3 * first.body + 2, first.spin
-        jacobian[k] = jacobian[k] + (tx * gap[0] + ty * gap[1])
-        rate = rate + spin * (tx * gap[0] + ty * gap[1])
-        gamma = gamma + (spin * spin) * (ux * gap[0] + uy * gap[1])
-        gamma = gamma - 2.0 * spin * (tx * gap_rate[0] + ty * gap_rate[1])
-    value = ux * gap[0] + uy * gap[1] - motion.value
-    return Row(name, part, value, jacobian, rate, gamma)
-
-
-def _less(first: Pair, second: Pair) -> Pair:
-    return first[0] - second[0], first[1] - second[1]

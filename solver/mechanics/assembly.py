@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from jointplay.records.arrays import Flags, Floats
 from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.closing import RANK_TOLERANCE, arrays, close, rank
+from jointplay.solver.mechanics.drawing import drawn_angles, drawn_places
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.channels import HOLDING
@@ -32,6 +34,7 @@ GEOMETRY: Final[Any] = {
     "drivers": True,
     "start": True,
 }
+NOWHERE: Mapping[str, Floats] = MappingProxyType({})
 MOST_KEPT = 512
 """Assemblies that are kept; studies of one geometry need one."""
 
@@ -53,7 +56,7 @@ class Assembly:
     freedom: int
     """Degrees of freedom of the ideal mechanism."""
     freedom_with_play: int
-    """The same once joints with clearance are let go."""
+    """Degrees of freedom once joints with clearance are let go."""
     redundant_with_play: int
     """Dependent rows that remain then."""
     rate: float
@@ -110,8 +113,9 @@ def first_clocks(scene: Scene) -> dict[str, float]:
 
 
 def first_angles(scene: Scene) -> dict[str, float]:
-    """Return angles, rad, from which the assembly starts: as given, as driven, or as carried."""
+    """Return angles, rad, from which the assembly starts: as given, drawn, driven, or carried."""
     angles = {"ground": 0.0}
+    chosen = drawn_angles(scene) | scene.start.angles
     for branch in spanning_tree(scene).branches:
         joint = scene.joints.get(branch.joint)
         offset = 0.0
@@ -121,7 +125,7 @@ def first_angles(scene: Scene) -> dict[str, float]:
             driver = scene.drivers[branch.driver]
             offset = driver.at(driver.clock_start).value
         carried = angles[branch.parent] + (offset if branch.outward else -offset)
-        given = scene.start.angles.get(branch.body)
+        given = chosen.get(branch.body)
         if branch.turned_by is not None:
             turning = scene.drivers[branch.turned_by]
             angles[branch.body] = turning.at(turning.clock_start).value
@@ -167,7 +171,8 @@ def _assembled(scene: Scene) -> Assembly:
     scale = np.tile([length, length, 1.0], len(ideal.bodies))
     still = np.zeros(count)
 
-    pose = first_pose(ideal, first_angles(scene), driven)
+    angles = first_angles(scene)
+    pose = first_pose(ideal, angles, driven, drawn_places(scene, angles))
     close(ideal, pose, driven, scale)
     residual, jacobian = arrays(ideal.rows(pose, still, driven), count)
 
@@ -191,16 +196,25 @@ def _assembled(scene: Scene) -> Assembly:
 
 
 def first_pose(
-    ideal: AbsoluteMechanism, angles: Mapping[str, float], driven: dict[str, float]
+    ideal: AbsoluteMechanism,
+    angles: Mapping[str, float],
+    driven: dict[str, float],
+    places: Mapping[str, Floats] = NOWHERE,
 ) -> Floats:
-    """Return a pose with these angles, rad by body, in which joints are as near as they come."""
+    """Return a pose with these angles, rad by body, in which joints are as near as they come.
+
+    places : centres of mass, (2,) m by body, of those that keep theirs.
+    """
     count = 3 * len(ideal.bodies)
     pose = np.zeros(count)
+    positions = np.arange(count) % 3 != 2
     for i, body in enumerate(ideal.bodies):
         pose[3 * i + 2] = angles[body]
-    positions = np.arange(count) % 3 != 2
+        if body in places:
+            pose[3 * i : 3 * i + 2] = places[body]
+            positions[3 * i : 3 * i + 2] = False
     residual, jacobian = arrays(ideal.rows(pose, np.zeros(count), driven), count)
-    if len(residual):  # revolute joints are linear in x and y
+    if len(residual) and positions.any():  # revolute joints are linear in x and y
         step, *_ = np.linalg.lstsq(jacobian[:, positions], -residual, rcond=None)
         pose[positions] += step
     return pose

@@ -3,7 +3,8 @@
 import numpy as np
 
 from jointplay.records.arrays import Flags, Floats
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.rows import Row
 
 RANK_TOLERANCE = 1e-9
 """Singular values below this share of the largest count as zero (rows scaled by length)."""

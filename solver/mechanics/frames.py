@@ -81,6 +81,32 @@ def cross(first: Pair, second: Pair) -> Scalar:
     return first[0] * second[1] - first[1] * second[0]
 
 
+def dot(first: Pair, second: Pair) -> Scalar:
+    """Return the scalar product of two pairs of components."""
+    return first[0] * second[0] + first[1] * second[1]
+
+
+def left(vector: Pair) -> Pair:
+    """Return a vector after a quarter turn to the left."""
+    return -vector[1], vector[0]
+
+
+def scaled(vector: Pair, factor: Scalar) -> Pair:
+    """Return a vector times a factor."""
+    return factor * vector[0], factor * vector[1]
+
+
+def plus(first: Pair, second: Pair) -> Pair:
+    """Return the sum of two vectors."""
+    return first[0] + second[0], first[1] + second[1]
+
+
+def turned(vector: Pair, by: Pair) -> Pair:
+    """Return a vector turned by an angle, whose cosine and sine are given."""
+    (x, y), (cosine, sine) = vector, by
+    return cosine * x - sine * y, sine * x + cosine * y
+
+
 def unit(axis: Sequence[Scalar]) -> Pair:
     """Return a direction of unit length."""
     x, y = axis

@@ -12,6 +12,7 @@ from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import PinInSlot, Prismatic, Revolute
 
@@ -127,7 +128,7 @@ class Kinematics:
                 name = branch.coordinates[0]
                 angle, spin = self.position[name], self.speed[name]
                 spin_partials, spin_bias = {name: 1.0}, 0.0
-        elif not isinstance(joint, PinInSlot):
+        elif not isinstance(joint, PinInSlot | CamJoint):
             angle = angle + sense * joint.angle
         self._orient(branch.body, angle)
         if isinstance(joint, Prismatic):

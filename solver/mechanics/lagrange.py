@@ -7,9 +7,10 @@ constraints of ideal joints and drivers, Baumgarte's stabilisation (eq. 26).
 from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.elimination import solve_semidefinite, solve_symmetric
 from jointplay.solver.mechanics.motion import NOTHING, Forces, Motion, body_motions, forces_between
+from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.document import Scene

@@ -12,161 +12,23 @@ Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection; not yet check
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from jointplay.solver.laws.function import Derivatives
-from jointplay.solver.mechanics.absolute import RESTING
+from jointplay.solver.mechanics.cams import lift
+from jointplay.solver.mechanics.closing_rows import Between, axis_of, closing_rows
 from jointplay.solver.mechanics.elimination import (
     Matrix,
     is_zero,
     solve_semidefinite,
     solve_symmetric,
 )
-from jointplay.solver.mechanics.frames import FrameVector, Pair, cross, unit
-from jointplay.solver.mechanics.gears import coupled, sides
+from jointplay.solver.mechanics.frames import Pair, cross, scaled
+from jointplay.solver.mechanics.gears import sides
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.play import Interaction
-from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
+from jointplay.solver.scene.joints import PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.references import ends
-
-
-@dataclass(frozen=True)
-class ClosingRow:
-    """One equation of a cut joint: Φ (m, or the sine of an angle), its rate and its Jacobian.
-
-    `partials` by coordinate, without zeros; Φ̈ = Σ partial q̈ + `bias`.
-    """
-
-    joint: str
-    part: str
-    value: Scalar
-    rate: Scalar
-    partials: dict[str, Scalar]
-    bias: Scalar
-
-
-class _Between:
-    """A cut joint's second point against its first."""
-
-    def __init__(self, kinematics: Kinematics, joint: str) -> None:
-        k = self.kinematics = kinematics
-        (_, here), (_, there) = ends(k.numbers.joints[joint])
-        self.joint = joint
-        (self.first, p), (self.second, q) = here.split("."), there.split(".")
-        arms = k.arm(self.first, p), k.arm(self.second, q)
-        start, start_rate, start_partials = k.point_motion(self.first, arms[0])
-        end, end_rate, end_partials = k.point_motion(self.second, arms[1])
-        self.gap = end + start.scaled(-1.0)
-        self.rate = end_rate + start_rate.scaled(-1.0)
-        start_bias = k.point_bias(self.first, arms[0])
-        self.bias = k.point_bias(self.second, arms[1]) + start_bias.scaled(-1.0)
-        self.partials: dict[str, FrameVector] = {}
-        for name in k.tree.coordinates:
-            parts = [end_partials[name]] if name in end_partials else []
-            if name in start_partials:
-                parts.append(start_partials[name].scaled(-1.0))
-            if parts:
-                self.partials[name] = parts[0] + parts[1] if len(parts) > 1 else parts[0]
-
-    def coincidence(self) -> list[ClosingRow]:
-        """Return the rows of two points that are one, x and y in the world's axes."""
-        (x, y), (vx, vy), (ax, ay) = self.gap.world(), self.rate.world(), self.bias.world()
-        partials = {name: partial.world() for name, partial in self.partials.items()}
-        return [
-            self._row("x", x, vx, {name: px for name, (px, _) in partials.items()}, ax),
-            self._row("y", y, vy, {name: py for name, (_, py) in partials.items()}, ay),
-        ]
-
-    def projection(
-        self, part: str, direction: FrameVector, motion: Derivatives = RESTING
-    ) -> ClosingRow:
-        """Return the row of a gap, along a direction of the first body, that is the travel."""
-        guide = self.kinematics.carried[self.first]
-        turned, spin = direction.turned(), guide.spin
-        sideways = turned.dot(self.gap)
-        partials = {name: direction.dot(partial) for name, partial in self.partials.items()}
-        for name, share in guide.spin_partials.items():
-            partials[name] = partials.get(name, 0.0) + share * sideways
-        along = direction.dot(self.gap)
-        bias = direction.dot(self.bias) + 2.0 * (spin * turned.dot(self.rate))
-        if not is_zero(guide.spin_bias):
-            bias = bias + guide.spin_bias * sideways
-        return self._row(
-            part,
-            along - motion.value,
-            direction.dot(self.rate) + spin * sideways - motion.slope,
-            partials,
-            bias - (spin * spin) * along - motion.curvature,
-        )
-
-    def angle(self, motion: Derivatives) -> ClosingRow:
-        """Return the row of an angle between the bodies as prescribed, but for whole turns."""
-        one, two = (self.kinematics.carried[body] for body in (self.first, self.second))
-        cosine, sine = self.kinematics.orientations.between(self.first, self.second)
-        sine_offset, cosine_offset = sine_cosine(motion.value)
-        partials = dict(two.spin_partials)
-        for name, share in one.spin_partials.items():
-            partials[name] = partials.get(name, 0.0) - share
-        value = sine * cosine_offset - cosine * sine_offset
-        bias = two.spin_bias - one.spin_bias - motion.curvature
-        return self._row("angle", value, two.spin - one.spin - motion.slope, partials, bias)
-
-    def _row(
-        self, part: str, value: Scalar, rate: Scalar, partials: dict[str, Scalar], bias: Scalar
-    ) -> ClosingRow:
-        names = self.kinematics.tree.coordinates
-        found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
-        return ClosingRow(self.joint, part, value, rate, found, bias)
-
-
-def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
-    """Return the equations of all cut joints, in the order of the document."""
-    numbers = kinematics.numbers
-    drivers = {driver.joint: name for name, driver in numbers.drivers.items()}
-    rows: list[ClosingRow] = []
-    for name in kinematics.tree.closing:
-        if name in numbers.gears:
-            rows.append(_gear_row(kinematics, name))
-            continue
-        joint, between = numbers.joints[name], _Between(kinematics, name)
-        motion = kinematics.moved[drivers[name]] if name in drivers else None
-        held = Derivatives(getattr(joint, "angle", 0.0), 0.0, 0.0)
-        if isinstance(joint, Prismatic):
-            axis = _axis(kinematics, between.first, joint)
-            rows += [between.projection("normal", axis.turned()), between.angle(held)]
-            rows += [between.projection("along", axis, motion)] if motion else []
-            continue
-        if isinstance(joint, PinInSlot):
-            axis = _axis(kinematics, between.first, joint)
-            rows.append(between.projection("normal", axis.turned()))
-            continue
-        rows += between.coincidence()
-        if isinstance(joint, Fixed):
-            rows.append(between.angle(held))
-        elif motion is not None:
-            rows.append(between.angle(motion))
-    return rows
-
-
-def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
-    """Return α_2 - ratio α_1 - offset = 0."""
-    gear, names = kinematics.numbers.gears[name], kinematics.tree.coordinates
-    partials: dict[str, Scalar] = {}
-    value: Scalar = -gear.offset
-    rate: Scalar = 0.0
-    bias: Scalar = 0.0
-    for factor, body in coupled(kinematics.numbers, gear):
-        frame = kinematics.carried[body]
-        value, rate = value + factor * frame.angle, rate + factor * frame.spin
-        bias = bias + factor * frame.spin_bias
-        for coordinate, share in frame.spin_partials.items():
-            partials[coordinate] = partials.get(coordinate, 0.0) + factor * share
-    found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
-    return ClosingRow(name, "angle", value, rate, found, bias)
-
-
-def _axis(kinematics: Kinematics, guide: str, joint: Prismatic | PinInSlot) -> FrameVector:
-    return FrameVector(kinematics.orientations, {guide: unit(joint.axis)})
 
 
 @dataclass(frozen=True)
@@ -234,13 +96,23 @@ class Loops:
                     turn = factor * moment
                     found.couples.append(Interaction(bearing, journal, (0.0, 0.0), -turn, turn))
                 continue
-            joint, between = k.numbers.joints[name], _Between(k, name)
+            joint, between = k.numbers.joints[name], Between(k, name)
             (_, here), (_, there) = ends(joint)
+            if isinstance(joint, CamJoint):
+                pushing, held = lift(joint, between.ends), parts["normal"]
+                found.interactions[name] = Interaction(
+                    here,
+                    there,
+                    scaled(pushing.along, held),
+                    pushing.on_cam * held,
+                    pushing.on_follower * held,
+                )
+                continue
             turning = parts.get("angle", 0.0)
             force: Pair = (parts.get("x", 0.0), parts.get("y", 0.0))
             offset: Scalar = 0.0
             if isinstance(joint, Prismatic | PinInSlot):
-                axis = _axis(k, between.first, joint)
+                axis = axis_of(k, between.first, joint)
                 pushed = axis.turned().scaled(parts["normal"])
                 if "along" in parts:
                     pushed = pushed + axis.scaled(parts["along"])

@@ -7,11 +7,13 @@ from types import MappingProxyType
 from typing import Any
 
 from jointplay.solver.laws.force import Effect
+from jointplay.solver.mechanics.cam_contact import cam_contact
 from jointplay.solver.mechanics.courses import EndsOf, acting_between
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.play import Contact, Interaction, contact
 from jointplay.solver.mechanics.walls import wall_contact
 from jointplay.solver.quantities.scalars import Scalar, Scalars
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Joint, PinInSlot, Prismatic, Revolute
@@ -28,7 +30,7 @@ class Element:
     effect: Effect
     interaction: Interaction
     power: Scalar
-    """That goes into the element, W."""
+    """Power that goes into the element, W."""
 
 
 @dataclass(frozen=True)
@@ -138,6 +140,8 @@ def forces_between(
                 forces.contacts[pair.name] = contact(name, joint, between, *state)
             elif isinstance(joint, Prismatic | PinInSlot):
                 forces.contacts[pair.name] = wall_contact(pair, joint, between, *state)
+            elif isinstance(joint, CamJoint):
+                forces.contacts[pair.name] = cam_contact(pair, joint, between, *state)
     for name, element in numbers.forces.items():
         between = acting_between(numbers, name, ends, clocks)
         effect = element.effect(between)

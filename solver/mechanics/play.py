@@ -37,7 +37,7 @@ class Interaction:
 
 
 class Rubbing(NamedTuple):
-    """What the friction law of a contact pair makes of its slip; SI units."""
+    """Friction of a contact pair at its slip; SI units."""
 
     friction: Scalar
     inner: Mapping[str, Scalar]
@@ -51,10 +51,10 @@ class Contact:
     joint: str
     """The joint that owns the pair."""
     enclosure: Literal["circle", "wall", "none"]
-    """What encloses `eccentricity` while the gap is open: a circle as wide as the play, the half
-    plane whose first component is less than it, or nothing that is known."""
+    """Enclosure of `eccentricity` while the gap is open: a circle as wide as the play, the half
+    plane whose first component is less than it, or none that is known."""
     eccentricity: Pair
-    """Of a point at a wall: how far it is from where it is centred, towards the wall, and 0."""
+    """Journal's centre less the bearing's, m; of a point at a wall its way to the wall, and 0."""
     eccentricity_rate: Pair
     penetration: Scalar
     """e - c (eq. 3), or the depth in a wall: negative apart, m."""

@@ -23,7 +23,7 @@ from jointplay.solver.scene.document import Scene
 Load = tuple[Scalar, Scalar, Scalar]
 """Force (x and y, N) and moment (N m)."""
 Loads = Mapping[str, Load]
-"""On bodies, by name."""
+"""Loads on bodies, by name."""
 NO_LOAD: Load = (0.0, 0.0, 0.0)
 
 

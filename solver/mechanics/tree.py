@@ -6,6 +6,7 @@ Pure structure: no number of the scene is used but whether a clearance is zero.
 from dataclasses import dataclass
 from typing import Literal
 
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import contact_pairs, has_play
@@ -78,7 +79,7 @@ def spanning_tree(scene: Scene) -> Tree:
             parent = reached[position]
             position += 1
             for name, joint in ideal.items():
-                if isinstance(joint, PinInSlot):  # it holds a body less than the tree needs
+                if isinstance(joint, PinInSlot | CamJoint):  # they hold a body less than needed
                     continue
                 (_, first), (_, second) = ends(joint)
                 sides = [first.split("."), second.split(".")]

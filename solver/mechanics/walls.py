@@ -15,7 +15,17 @@ from dataclasses import dataclass
 
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.laws.force import Ends
-from jointplay.solver.mechanics.frames import WORLD, Pair, cross, unit
+from jointplay.solver.mechanics.frames import (
+    WORLD,
+    Pair,
+    cross,
+    dot,
+    left,
+    plus,
+    scaled,
+    turned,
+    unit,
+)
 from jointplay.solver.mechanics.play import Contact, Interaction, rub
 from jointplay.solver.quantities.scalars import Scalar, select_positive, sine_cosine
 from jointplay.solver.scene.joints import PinClearance, PinInSlot, Prismatic, SliderClearance
@@ -51,31 +61,31 @@ def wall_contact(
     clearance = joint.clearance
     assert clearance is not None  # noqa: S101  (narrows the type)
     side = CORNERS[pair.part][1] if pair.part in CORNERS else WALLS[pair.part]
-    n = _scaled(_perpendicular(_turned(unit(joint.axis), between.turned[0])), side)
+    n = scaled(left(turned(unit(joint.axis), between.turned[0])), side)
     if isinstance(joint, Prismatic) and isinstance(clearance, SliderClearance):
         reach = 0.5 * clearance.height
         r = _corner(joint, clearance, pair.part, between.turned[1])
     elif isinstance(clearance, PinClearance):
         reach = clearance.pin_radius
-        r = _scaled(n, reach)
-    d = _sum(between.gap, r)
-    t = _perpendicular(n)
+        r = scaled(n, reach)
+    d = plus(between.gap, r)
+    t = left(n)
     # of the slider's material there against the guide's
-    velocity = _sum(
+    velocity = plus(
         between.rate,
-        _sum(
-            _scaled(_perpendicular(r), between.spins[1]),
-            _scaled(_perpendicular(d), -between.spins[0]),
+        plus(
+            scaled(left(r), between.spins[1]),
+            scaled(left(d), -between.spins[0]),
         ),
     )
-    centred = _dot(n, d) - reach
+    centred = dot(n, d) - reach
     penetration = centred - clearance.wall_clearance
-    rate, slip = _dot(n, velocity), _dot(t, velocity)
+    rate, slip = dot(n, velocity), dot(t, velocity)
     depth = select_positive(mode, penetration, 0.0)
     normal_force = clearance.contact.normal_force(STRAIGHT, depth, rate, impact_rate)
     stored = clearance.contact.elastic_energy(STRAIGHT, depth)
     rubbing = rub(clearance.friction, normal_force, slip, inner)
-    force = _sum(_scaled(n, -normal_force), _scaled(t, rubbing.friction))
+    force = plus(scaled(n, -normal_force), scaled(t, rubbing.friction))
     (_, first), (_, second) = ends(joint)
     return Contact(
         pair.joint,
@@ -101,33 +111,12 @@ def wall_contact(
     )
 
 
-def _corner(joint: Prismatic, slider: SliderClearance, corner: str, turned: Pair) -> Pair:
+def _corner(joint: Prismatic, slider: SliderClearance, corner: str, by: Pair) -> Pair:
     """Return the vector from a slider's point to a corner."""
     along, side = CORNERS[corner]
     (sine, cosine), (ux, uy) = sine_cosine(joint.angle), unit(joint.axis)
-    axis = _turned((cosine * ux + sine * uy, cosine * uy - sine * ux), turned)
-    return _sum(
-        _scaled(axis, 0.5 * along * slider.length),
-        _scaled(_perpendicular(axis), 0.5 * side * slider.height),
+    axis = turned((cosine * ux + sine * uy, cosine * uy - sine * ux), by)
+    return plus(
+        scaled(axis, 0.5 * along * slider.length),
+        scaled(left(axis), 0.5 * side * slider.height),
     )
-
-
-def _turned(vector: Pair, by: Pair) -> Pair:
-    (x, y), (cosine, sine) = vector, by
-    return cosine * x - sine * y, sine * x + cosine * y
-
-
-def _perpendicular(vector: Pair) -> Pair:
-    return -vector[1], vector[0]
-
-
-def _scaled(vector: Pair, factor: Scalar) -> Pair:
-    return factor * vector[0], factor * vector[1]
-
-
-def _sum(first: Pair, second: Pair) -> Pair:
-    return first[0] + second[0], first[1] + second[1]
-
-
-def _dot(first: Pair, second: Pair) -> Scalar:
-    return first[0] * second[0] + first[1] * second[1]

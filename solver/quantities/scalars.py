@@ -14,6 +14,9 @@ type_of_array = np.ndarray
 Scalar = Any
 """A float, a NumPy array or a recorded expression."""
 
+SLIGHT = 1e-300
+"""Added to a length that may be zero, so that it can divide."""
+
 Scalars = Any
 """A sequence of scalars: a list, or an array of floats."""
 
@@ -30,6 +33,28 @@ def sine_cosine(x: Scalar) -> tuple[Scalar, Scalar]:
     if isinstance(x, float | int):
         return math.sin(x), math.cos(x)
     return (np.sin(x), np.cos(x)) if isinstance(x, type_of_array) else x.sine_cosine()
+
+
+def direction_angle(x: Scalar, y: Scalar) -> Scalar:
+    """Return the angle of a direction against the x axis, rad, from -pi to pi.
+
+    Recorded: an eighth of the angle to the nearer half of that axis, by two halvings of its
+    tangent, and the series of the arcus tangent up to the 19th power; the rest is 4e-16 of it.
+    """
+    if isinstance(x, float | int) and isinstance(y, float | int):
+        return math.atan2(y, x)
+    if isinstance(x, type_of_array) or isinstance(y, type_of_array):
+        return np.arctan2(y, x)
+    tangent = y / (sqrt(x * x + y * y) + absolute(x) + SLIGHT)
+    for _ in range(2):
+        tangent = tangent / (1.0 + sqrt(1.0 + tangent * tangent))
+    square = tangent * tangent
+    series: Scalar = 0.0
+    for power_of_tangent in range(19, 0, -2):
+        term = (1.0 if power_of_tangent % 4 == 1 else -1.0) / power_of_tangent
+        series = series * square + term
+    angle = 8.0 * (tangent * series)
+    return select_positive(x, angle, sign(y) * math.pi - angle)
 
 
 def floor(x: Scalar) -> Scalar:

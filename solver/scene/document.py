@@ -45,7 +45,7 @@ Element = Annotated[ForceElement, MemberOf(ELEMENTS, "type", required=True)]
 
 
 class JournalStart(Strict):
-    """Where a journal starts in its bearing, in world axes: its centre less the bearing's.
+    """A journal's start in its bearing, in world axes: its centre less the bearing's.
 
     Without a rate it moves as the velocities of the bodies say, else not. A journal that starts in
     contact has its rate of penetration as impact rate, or the floor of that if it is larger.
@@ -56,15 +56,17 @@ class JournalStart(Strict):
 
 
 class Start(Strict):
-    """Where Newton's iteration on the geometry begins, and what the constraints leave free.
+    """The beginning of Newton's iteration on the geometry, and what the constraints leave free.
 
     Journals start concentric unless `joints` says where; positions and velocities are those of the
     mechanism that holds them there, but for a body whose velocity is given: its journal may move in
     its bearing from the start, and its slider move and turn in its guide. Angles choose between the
-    assemblies that a mechanism allows.
+    assemblies that a mechanism allows, and so do places of points of bodies, in the world, as read
+    from a drawing: two points of a body give its angle, too.
     """
 
     angles: Annotated[dict[Name, Angle], Field(max_length=64)] = {}
+    points: Annotated[dict[PointReference, Point], Field(max_length=256)] = {}
     angular_velocities: Annotated[dict[Name, AngularVelocity], Field(max_length=64)] = {}
     velocities: Annotated[
         dict[Name, Annotated[list[Velocity], Field(min_length=2, max_length=2)]],
@@ -74,7 +76,7 @@ class Start(Strict):
 
 
 class Target(Strict):
-    """Where a parameter goes: a JSON pointer into this document, times a factor."""
+    """A place that a parameter goes to: a JSON pointer into this document, and a factor."""
 
     path: Annotated[str, Field(pattern=r"^(/[A-Za-z0-9_-]{1,40}){1,8}$")]
     factor: float = 1.0

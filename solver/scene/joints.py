@@ -18,6 +18,7 @@ from jointplay.solver.quantities.units import (
     Radius,
     Strict,
 )
+from jointplay.solver.scene.cams import FlatFollower, RollerFollower
 
 
 class Clearance(Strict):
@@ -121,4 +122,7 @@ class Gear(Strict):
     offset: Angle = 0.0
 
 
-Joint = Annotated[Revolute | Prismatic | PinInSlot | Fixed, Field(discriminator="type")]
+Joint = Annotated[
+    Revolute | Prismatic | PinInSlot | FlatFollower | RollerFollower | Fixed,
+    Field(discriminator="type"),
+]

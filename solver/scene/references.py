@@ -7,6 +7,8 @@ from jointplay.records.failure import Problem
 from jointplay.records.names import RESERVED, RESERVED_OUTPUTS
 from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
+from jointplay.solver.scene.cam_profiles import cam_problems
+from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.joints import Fixed, Gear, Joint, PinInSlot, Prismatic, Revolute
@@ -15,7 +17,12 @@ from jointplay.solver.scene.parameters import has_place
 from jointplay.solver.scene.sizes import size_problems
 from jointplay.solver.scene.varying_forces import varying_problems
 
-UNDRIVEN = {"fixed": "fixed", "pin-in-slot": "a pin in a slot"}
+UNDRIVEN = {
+    "fixed": "fixed",
+    "pin-in-slot": "a pin in a slot",
+    "flat-follower": "a cam and its follower",
+    "roller-follower": "a cam and its follower",
+}
 """Types of joints that have no motion to be driven."""
 
 
@@ -27,6 +34,8 @@ def ends(joint: Joint) -> tuple[tuple[str, str], tuple[str, str]]:
         return ("guide", joint.guide), ("slider", joint.slider)
     if isinstance(joint, PinInSlot):
         return ("slot", joint.slot), ("pin", joint.pin)
+    if isinstance(joint, CamJoint):
+        return ("cam", joint.cam), ("follower", joint.follower)
     return ("base", joint.base), ("part", joint.part)
 
 
@@ -67,6 +76,7 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
             yield from _points(scene, f"/forces/{name}/over", other)
     yield from varying_problems(scene)
     yield from size_problems(scene)
+    yield from cam_problems(scene)
     for name, gear in scene.gears.items():
         yield from _gear(scene, f"/gears/{name}", gear)
     for name, driver in scene.drivers.items():
@@ -81,14 +91,21 @@ def part_problems(scene: Scene) -> Iterator[Problem]:
 def _recorded(scene: Scene) -> Iterator[Problem]:
     doubled = Counter(scene.recorded)
     for index, reference in enumerate(scene.recorded):
-        place, (body, point) = f"/recorded/{index}", reference.split(".")
-        if body not in scene.bodies:
-            yield Problem(place, unknown("body", body, scene.bodies))
-        elif point not in scene.bodies[body].points:
-            points = scene.bodies[body].points
-            yield Problem(place, unknown(f"point of '{body}' named", point, points))
-        elif doubled[reference] > 1:
+        place = f"/recorded/{index}"
+        problems = list(_point(scene, place, reference))
+        yield from problems
+        if doubled[reference] > 1 and not problems:
             yield Problem(place, f"'{reference}' is named twice; name it once.")
+
+
+def _point(scene: Scene, place: str, reference: str) -> Iterator[Problem]:
+    """Yield what is wrong with the reference of a body's point."""
+    body, point = reference.split(".")
+    if body not in scene.bodies:
+        yield Problem(place, unknown("body", body, scene.bodies))
+    elif point not in scene.bodies[body].points:
+        points = scene.bodies[body].points
+        yield Problem(place, unknown(f"point of '{body}' named", point, points))
 
 
 def _start(scene: Scene) -> Iterator[Problem]:
@@ -101,6 +118,8 @@ def _start(scene: Scene) -> Iterator[Problem]:
         for body in table:
             if body not in scene.bodies:
                 yield Problem(f"/start/{field}/{body}", unknown("body", body, scene.bodies))
+    for reference in start.points:
+        yield from _point(scene, f"/start/points/{reference}", reference)
     for name in start.joints:
         if name not in scene.joints:
             yield Problem(f"/start/joints/{name}", unknown("joint", name, scene.joints))
@@ -221,7 +240,7 @@ def _driver(scene: Scene, name: str, driver: Driver) -> Iterator[Problem]:
     joint = scene.joints.get(joint_name)
     if joint is None:
         yield Problem(f"/drivers/{name}/joint", unknown("joint", joint_name, scene.joints))
-    elif isinstance(joint, Fixed | PinInSlot) or has_play(joint):
+    elif isinstance(joint, Fixed | PinInSlot | CamJoint) or has_play(joint):
         yield Problem(
             f"/drivers/{name}/joint",
             f"Joint '{joint_name}' cannot be driven: it is "

@@ -11,9 +11,10 @@ from jointplay.records.arrays import Flags, Floats
 from jointplay.records.failure import Problem
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.units import Rule
+from jointplay.solver.scene.cams import CamJoint, FlatFollower
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.drivers import MovingDriver
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
+from jointplay.solver.scene.joints import Fixed, Joint, PinInSlot, Prismatic, Revolute
 
 CLEARANCE = (
     Rule(
@@ -32,6 +33,13 @@ GUIDE = (
         lambda _joint: "The axis has no direction; give e.g. [1, 0].",
     ),
 )
+FACE = (
+    Rule(
+        "normal",
+        lambda joint: (joint.normal[0] == 0.0) & (joint.normal[1] == 0.0),
+        lambda _joint: "The normal has no direction; give e.g. [0, 1].",
+    ),
+)
 GEAR = (
     Rule(
         "ratio",
@@ -45,7 +53,7 @@ WALL = (
         lambda clearance: clearance.contact.needs_radii,
         lambda clearance: (
             f"The law '{clearance.contact.title}' takes its stiffness from the radii of journal and"
-            " bearing, which a straight wall has not; give a stiffness (N/m^n)."
+            " bearing, which a wall or a cam has not; give a stiffness (N/m^n)."
         ),
     ),
     Rule(
@@ -54,8 +62,8 @@ WALL = (
             clearance.friction is not None and not clearance.friction.slips_with_material
         ),
         lambda _clearance: (
-            "The slip velocity 'as-published' is that of a journal in its bearing; at a straight"
-            " wall take 'material'."
+            "The slip velocity 'as-published' is that of a journal in its bearing; at a wall or a"
+            " cam take 'material'."
         ),
     ),
 )
@@ -75,17 +83,23 @@ SLIDER = (
     ),
 )
 
-PLAY = {"revolute": CLEARANCE, "prismatic": SLIDER, "pin-in-slot": WALL}
+PLAY = {
+    "revolute": CLEARANCE,
+    "prismatic": SLIDER,
+    "pin-in-slot": WALL,
+    "flat-follower": WALL,
+    "roller-follower": WALL,
+}
 """Rules of the clearance of each type of joint."""
 
 
 def out_of_reach(start: Any, joint: Any) -> Any:
-    """Whether a journal would start with its centre outside the bearing."""
+    """Tell whether a journal would start with its centre outside the bearing."""
     return np.hypot(*start.eccentricity) >= joint.clearance.bearing_radius
 
 
 def too_deep(start: Any, joint: Any) -> Any:
-    """Whether a journal would start deeper than its contact law holds."""
+    """Tell whether a journal would start deeper than its contact law holds."""
     clearance = joint.clearance
     depth = np.hypot(*start.eccentricity) - clearance.radial_clearance
     return depth > clearance.contact.deepest(clearance)
@@ -149,14 +163,7 @@ def ill_sized(scene: Scene, columns: Mapping[str, Floats], points: int) -> Flags
 def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
     """Yield the place, the rules and the part of everything in a scene that has rules."""
     for name, joint in scene.joints.items():
-        place = f"/joints/{name}"
-        if isinstance(joint, Prismatic | PinInSlot):
-            yield place, GUIDE, joint
-        play = None if isinstance(joint, Fixed) else joint.clearance
-        if play is not None:
-            own = play.contact.clearance_rules if isinstance(joint, Revolute) else ()
-            yield f"{place}/clearance", (*PLAY[joint.type], *own), play
-            yield from _ruled(f"{place}/clearance", play)
+        yield from _of_joint(f"/joints/{name}", joint)
     for name, driver in scene.drivers.items():
         if isinstance(driver, MovingDriver):
             yield f"/drivers/{name}/motion", driver.motion.rules, driver.motion
@@ -166,6 +173,20 @@ def _parts(scene: Scene) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
         yield f"/forces/{name}", element.rules, element
         if isinstance(element, Varying) and element.course is not None:
             yield f"/forces/{name}/course", element.course.rules, element.course
+
+
+def _of_joint(place: str, joint: Joint) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:
+    if isinstance(joint, Prismatic | PinInSlot):
+        yield place, GUIDE, joint
+    if isinstance(joint, CamJoint):
+        yield f"{place}/profile", joint.profile.rules, joint.profile
+    if isinstance(joint, FlatFollower):
+        yield place, FACE, joint
+    play = None if isinstance(joint, Fixed) else joint.clearance
+    if play is not None:
+        own = play.contact.clearance_rules if isinstance(joint, Revolute) else ()
+        yield f"{place}/clearance", (*PLAY[joint.type], *own), play
+        yield from _ruled(f"{place}/clearance", play)
 
 
 def _ruled(place: str, part: BaseModel) -> Iterator[tuple[str, tuple[Rule, ...], Any]]:

@@ -11,10 +11,11 @@ from jointplay.solver.kernels.record.recorder import (
     reachable,
     too_many,
 )
+from jointplay.solver.mechanics.closing_rows import closing_rows
 from jointplay.solver.mechanics.frames import Pair
 from jointplay.solver.mechanics.kinematics import Kinematics
 from jointplay.solver.mechanics.lagrange import LagrangeMechanism
-from jointplay.solver.mechanics.loops import Loops, closing_rows
+from jointplay.solver.mechanics.loops import Loops
 from jointplay.solver.mechanics.observe import channel_values, ledger_rates, stored_energy
 from jointplay.solver.mechanics.reduced import ReducedMechanism
 from jointplay.solver.mechanics.tree import Tree
@@ -53,7 +54,7 @@ class Equations:
     eccentricities: tuple[tuple[Expression, ...], ...]
     """Motion of each pair, as `MOTION` says."""
     enclosures: tuple[str, ...]
-    """What encloses that motion while the pair is apart, see `Contact`."""
+    """Enclosure of that motion while the pair is apart, see `Contact`."""
     channels: dict[str, Expression]
     """Every channel, then ``stored`` (elastic energy, J), of the state and its accelerations."""
     loops: Loops | None

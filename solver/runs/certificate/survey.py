@@ -13,9 +13,10 @@ from jointplay.solver.kernels.emit.tangents import compile_tangents
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.runs import SAMPLES
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
+from jointplay.solver.mechanics.closing_rows import ClosingRow, closing_rows
 from jointplay.solver.mechanics.kinematics import Kinematics
-from jointplay.solver.mechanics.loops import ClosingRow, closing_rows
+from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.runs.certificate.certificate import Certificate, certify

@@ -12,9 +12,10 @@ import numpy as np
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import SimulationFailed
 from jointplay.solver.kernels.compensated import product_difference
-from jointplay.solver.mechanics.absolute import AbsoluteMechanism, Row
+from jointplay.solver.mechanics.absolute import AbsoluteMechanism
 from jointplay.solver.mechanics.assembly import ASSEMBLED, assemble, shortest_link
 from jointplay.solver.mechanics.motion import Motion, body_motions, forces_between
+from jointplay.solver.mechanics.rows import Row
 from jointplay.solver.mechanics.view import view
 from jointplay.solver.scene.clocks import clocks
 from jointplay.solver.scene.document import Scene

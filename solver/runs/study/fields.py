@@ -25,7 +25,7 @@ _CONFIG = ConfigDict(
 )
 HARMLESS = re.compile(
     r"/(bodies/[^/]+/(mass|inertia)|gravity/\d|drivers/[^/]+/speed"
-    r"|joints/[^/]+/clearance/(radial_clearance|wall_clearance|bearing_radius|pin_radius|length|height|(contact|friction)/[^/]+)"
+    r"|joints/[^/]+/clearance/(radial_clearance|wall_clearance|lash|bearing_radius|pin_radius|length|height|(contact|friction)/[^/]+)"
     r"|start/(velocities/[^/]+/\d|angular_velocities/[^/]+))"
 )
 """Numbers that neither the assembly at t = 0 nor any check of names depends on, but for what
@@ -90,7 +90,7 @@ def distinct(columns: Sequence[NDArray[Any]], count: int) -> Integers:
 
 
 def _is_clearance(scene: Scene, path: str) -> bool:
-    found = re.fullmatch(r"/joints/([^/]+)/clearance/(radial|wall)_clearance", path)
+    found = re.fullmatch(r"/joints/([^/]+)/clearance/(radial_clearance|wall_clearance|lash)", path)
     return found is not None and found[1] in scene.joints
 
 

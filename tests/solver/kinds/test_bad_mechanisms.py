@@ -39,6 +39,15 @@ PLAY = {
 LAW = "lankarani-nikravesh"
 GUIDE = {"type": "prismatic", "guide": "ground.O", "slider": "crank.a", "axis": [1.0, 0.0]}
 SLOT = {"type": "pin-in-slot", "slot": "ground.O", "pin": "crank.a", "axis": [1.0, 0.0]}
+WAVE = {"type": "sinusoidal", "offset": 0.03, "amplitude": 0.01, "frequency": 1.0}
+FACE = {
+    "type": "flat-follower",
+    "cam": "crank.a",
+    "follower": "rocker.b",
+    "profile": WAVE,
+    "normal": [0.0, 1.0],
+}
+ROLLER = {k: v for k, v in FACE.items() if k != "normal"} | {"type": "roller-follower"}
 WALLS = {
     "wall_clearance": 1e-3,
     "length": 0.1,
@@ -120,7 +129,7 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
     "a guide whose law needs radii": (
         {"/joints/guide": GUIDE | {"clearance": WALLS | {"contact": {"law": LAW}}}},
         "/joints/guide/clearance/contact",
-        ["radii of journal and bearing, which a straight wall has not", "give a stiffness"],
+        ["radii of journal and bearing, which a wall or a cam has not", "give a stiffness"],
     ),
     "a slip of journals in a guide": (
         {"/joints/guide": GUIDE | {"clearance": WALLS | {"friction": PUBLISHED}}},
@@ -149,6 +158,46 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
         },
         "/start/joints/guide",
         ["what it guides starts centred", "give a velocity of the body"],
+    ),
+    "a cam that is no cam after a turn": (
+        {"/joints/cam": FACE | {"profile": WAVE | {"frequency": 1.5}}},
+        "/joints/cam/profile",
+        ["repeats every turn of its cam, 2 pi rad; this one repeats after 4.18879"],
+    ),
+    "a cam that a face cannot follow": (
+        {"/joints/cam": FACE | {"profile": WAVE | {"frequency": 3.0}}},
+        "/joints/cam/profile",
+        ["At 0.524 rad the cam is not convex (radius of curvature -0.05 m)", "enlarge the base"],
+    ),
+    "a cam that its roller cuts away": (
+        {"/joints/cam": ROLLER | {"roller_radius": 0.05}},
+        "/joints/cam/roller_radius",
+        ["At 3.48 rad", "a radius of 0.02828 m", "a roller of 0.05 m cuts the cam away"],
+    ),
+    "a cam without a base": (
+        {"/joints/cam": FACE | {"profile": WAVE | {"offset": 0.0}}},
+        "/joints/cam/profile",
+        ["The profile is -0.01 m at 4.71 rad", "add a base radius"],
+    ),
+    "a cam whose law needs radii": (
+        {"/joints/cam": FACE | {"clearance": {"lash": 1e-4, "contact": {"law": LAW}}}},
+        "/joints/cam/clearance/contact",
+        ["which a wall or a cam has not", "give a stiffness"],
+    ),
+    "a point of the drawing that is not there": (
+        {"/start/points": {"coupler.c": [1.0, 0.5]}},
+        "/start/points/coupler.c",
+        ["There is no point of 'coupler' named 'c'; there are: a, b."],
+    ),
+    "a driver of two forms": (
+        {"/drivers/motor": {"joint": "O", "speed": 10.0, "motion": {"type": "constant"}}},
+        "/drivers/motor/speed",
+        ["'speed' does not go with the others here; leave it or them out."],
+    ),
+    "a preset that is written out, too": (
+        {"/preset": "four-bar"},
+        "/bodies",
+        ["'bodies' does not go with the others here; leave it or them out."],
     ),
     "a field misspelt": (
         {"/joints/B/clearance": PLAY | {"contact": PLAY["contact"] | {"stifness": 1e9}}},

@@ -55,6 +55,22 @@ def test_a_four_bar_closes_in_two_ways_mirrored_in_its_diagonal() -> None:
         assert math.remainder(second[body] - turn, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)
 
 
+def test_points_of_a_drawing_choose_the_assembly() -> None:
+    scene = drawn()
+    a, b, c = (np.array(PINS[pin]) for pin in "ABC")
+    along = (c - a) / np.linalg.norm(c - a)
+    mirrored = a + 2.0 * along * ((b - a) @ along) - (b - a)
+    places = {"coupler.A": a, "coupler.B": mirrored, "rocker.B": mirrored, "rocker.C": c}
+    rough = {name: np.round(place, 2).tolist() for name, place in places.items()}
+    document = scene.model_dump() | {"start": {"points": rough}}
+    found = assemble(Scene.model_validate(document))
+    angles = dict(zip(scene.bodies, found.pose[2::3], strict=True))
+    assert found.residual <= 1e-15
+    _, second = branches(scene).angles
+    for body in ("coupler", "rocker"):
+        assert math.remainder(angles[body] - second[body], 2.0 * math.pi) == pytest.approx(0.0)
+
+
 def test_what_moves_is_held_where_it_starts() -> None:
     found = branches(Scene.model_validate(presets.document("andrews-squeezer")))
     assert found.held == ["K1.theta"]

@@ -1,0 +1,188 @@
+"""Equations of joints that close loops, in the coordinates of the spanning tree."""
+
+from dataclasses import dataclass
+
+from jointplay.solver.laws.force import Ends
+from jointplay.solver.laws.function import Derivatives
+from jointplay.solver.mechanics.cams import lift
+from jointplay.solver.mechanics.elimination import (
+    is_zero,
+)
+from jointplay.solver.mechanics.frames import WORLD, FrameVector, unit
+from jointplay.solver.mechanics.gears import coupled
+from jointplay.solver.mechanics.kinematics import Kinematics
+from jointplay.solver.mechanics.rows import RESTING
+from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.scene.cams import CamJoint
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic
+from jointplay.solver.scene.references import ends
+
+
+@dataclass(frozen=True)
+class ClosingRow:
+    """One equation of a cut joint: Φ (m, or the sine of an angle), its rate and its Jacobian.
+
+    `partials` by coordinate, without zeros; Φ̈ = Σ partial q̈ + `bias`.
+    """
+
+    joint: str
+    part: str
+    value: Scalar
+    rate: Scalar
+    partials: dict[str, Scalar]
+    bias: Scalar
+
+
+class Between:
+    """A cut joint's second point against its first."""
+
+    def __init__(self, kinematics: Kinematics, joint: str) -> None:
+        k = self.kinematics = kinematics
+        (_, here), (_, there) = ends(k.numbers.joints[joint])
+        self.joint = joint
+        (self.first, p), (self.second, q) = here.split("."), there.split(".")
+        arms = k.arm(self.first, p), k.arm(self.second, q)
+        start, start_rate, start_partials = k.point_motion(self.first, arms[0])
+        end, end_rate, end_partials = k.point_motion(self.second, arms[1])
+        self.gap = end + start.scaled(-1.0)
+        self.rate = end_rate + start_rate.scaled(-1.0)
+        start_bias = k.point_bias(self.first, arms[0])
+        self.bias = k.point_bias(self.second, arms[1]) + start_bias.scaled(-1.0)
+        self.partials: dict[str, FrameVector] = {}
+        for name in k.tree.coordinates:
+            parts = [end_partials[name]] if name in end_partials else []
+            if name in start_partials:
+                parts.append(start_partials[name].scaled(-1.0))
+            if parts:
+                self.partials[name] = parts[0] + parts[1] if len(parts) > 1 else parts[0]
+
+    def coincidence(self) -> list[ClosingRow]:
+        """Return the rows of two points that are one, x and y in the world's axes."""
+        (x, y), (vx, vy), (ax, ay) = self.gap.world(), self.rate.world(), self.bias.world()
+        partials = {name: partial.world() for name, partial in self.partials.items()}
+        return [
+            self._row("x", x, vx, {name: px for name, (px, _) in partials.items()}, ax),
+            self._row("y", y, vy, {name: py for name, (_, py) in partials.items()}, ay),
+        ]
+
+    def projection(
+        self, part: str, direction: FrameVector, motion: Derivatives = RESTING
+    ) -> ClosingRow:
+        """Return the row of a gap, along a direction of the first body, that is the travel."""
+        guide = self.kinematics.carried[self.first]
+        turned, spin = direction.turned(), guide.spin
+        sideways = turned.dot(self.gap)
+        partials = {name: direction.dot(partial) for name, partial in self.partials.items()}
+        for name, share in guide.spin_partials.items():
+            partials[name] = partials.get(name, 0.0) + share * sideways
+        along = direction.dot(self.gap)
+        bias = direction.dot(self.bias) + 2.0 * (spin * turned.dot(self.rate))
+        if not is_zero(guide.spin_bias):
+            bias = bias + guide.spin_bias * sideways
+        return self._row(
+            part,
+            along - motion.value,
+            direction.dot(self.rate) + spin * sideways - motion.slope,
+            partials,
+            bias - (spin * spin) * along - motion.curvature,
+        )
+
+    @property
+    def ends(self) -> Ends:
+        """The second point against the first, whole turns left out."""
+        bodies = self.first, self.second
+        one, two = (self.kinematics.carried[body] for body in bodies)
+        first, second = (self.kinematics.orientations.cosine_sine[body] for body in bodies)
+        return Ends(
+            self.gap.world(),
+            self.rate.world(),
+            (one.spin, two.spin),
+            (first, second),
+            (one.angle, two.angle),
+        )
+
+    def lifted(self, joint: CamJoint) -> ClosingRow:
+        """Return the row of a follower on its profile, see `Lift`."""
+        found = lift(joint, self.ends)
+        along = FrameVector(self.kinematics.orientations, {WORLD: found.along})
+        partials = {name: along.dot(partial) for name, partial in self.partials.items()}
+        bias = found.bias + along.dot(self.bias)
+        for body, turning in ((self.first, found.on_cam), (self.second, found.on_follower)):
+            frame = self.kinematics.carried[body]
+            bias = bias + turning * frame.spin_bias
+            for name, share in frame.spin_partials.items():
+                partials[name] = partials.get(name, 0.0) + turning * share
+        return self._row("normal", found.value, found.rate, partials, bias)
+
+    def angle(self, motion: Derivatives) -> ClosingRow:
+        """Return the row of an angle between the bodies as prescribed, but for whole turns."""
+        one, two = (self.kinematics.carried[body] for body in (self.first, self.second))
+        cosine, sine = self.kinematics.orientations.between(self.first, self.second)
+        sine_offset, cosine_offset = sine_cosine(motion.value)
+        partials = dict(two.spin_partials)
+        for name, share in one.spin_partials.items():
+            partials[name] = partials.get(name, 0.0) - share
+        value = sine * cosine_offset - cosine * sine_offset
+        bias = two.spin_bias - one.spin_bias - motion.curvature
+        return self._row("angle", value, two.spin - one.spin - motion.slope, partials, bias)
+
+    def _row(
+        self, part: str, value: Scalar, rate: Scalar, partials: dict[str, Scalar], bias: Scalar
+    ) -> ClosingRow:
+        names = self.kinematics.tree.coordinates
+        found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
+        return ClosingRow(self.joint, part, value, rate, found, bias)
+
+
+def closing_rows(kinematics: Kinematics) -> list[ClosingRow]:
+    """Return the equations of all cut joints, in the order of the document."""
+    numbers = kinematics.numbers
+    drivers = {driver.joint: name for name, driver in numbers.drivers.items()}
+    rows: list[ClosingRow] = []
+    for name in kinematics.tree.closing:
+        if name in numbers.gears:
+            rows.append(_gear_row(kinematics, name))
+            continue
+        joint, between = numbers.joints[name], Between(kinematics, name)
+        motion = kinematics.moved[drivers[name]] if name in drivers else None
+        held = Derivatives(getattr(joint, "angle", 0.0), 0.0, 0.0)
+        if isinstance(joint, Prismatic):
+            axis = axis_of(kinematics, between.first, joint)
+            rows += [between.projection("normal", axis.turned()), between.angle(held)]
+            rows += [between.projection("along", axis, motion)] if motion else []
+            continue
+        if isinstance(joint, PinInSlot):
+            axis = axis_of(kinematics, between.first, joint)
+            rows.append(between.projection("normal", axis.turned()))
+            continue
+        if isinstance(joint, CamJoint):
+            rows.append(between.lifted(joint))
+            continue
+        rows += between.coincidence()
+        if isinstance(joint, Fixed):
+            rows.append(between.angle(held))
+        elif motion is not None:
+            rows.append(between.angle(motion))
+    return rows
+
+
+def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
+    """Return α_2 - ratio α_1 - offset = 0."""
+    gear, names = kinematics.numbers.gears[name], kinematics.tree.coordinates
+    partials: dict[str, Scalar] = {}
+    value: Scalar = -gear.offset
+    rate: Scalar = 0.0
+    bias: Scalar = 0.0
+    for factor, body in coupled(kinematics.numbers, gear):
+        frame = kinematics.carried[body]
+        value, rate = value + factor * frame.angle, rate + factor * frame.spin
+        bias = bias + factor * frame.spin_bias
+        for coordinate, share in frame.spin_partials.items():
+            partials[coordinate] = partials.get(coordinate, 0.0) + factor * share
+    found = {n: p for n, p in partials.items() if n in names and not is_zero(p)}
+    return ClosingRow(name, "angle", value, rate, found, bias)
+
+
+def axis_of(kinematics: Kinematics, guide: str, joint: Prismatic | PinInSlot) -> FrameVector:
+    """Return the unit axis of a guide or a slot, fixed in its body."""
+    return FrameVector(kinematics.orientations, {guide: unit(joint.axis)})

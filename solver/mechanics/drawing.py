@@ -1,0 +1,44 @@
+"""Bodies as drawn: the angles and places that `start.points` gives them, as a first guess.
+
+Two points or more of a body give it an angle, by the least squares of their distances from where
+they are drawn; one gives it a place only.
+"""
+
+import math
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.scene.document import Scene
+
+
+def drawn_angles(scene: Scene) -> dict[str, float]:
+    """Return the angles of bodies of which two points or more are drawn apart, rad."""
+    found: dict[str, float] = {}
+    for body, (own, there) in _drawn(scene).items():
+        (x, y), (u, v) = (own - own.mean(axis=0)).T, (there - there.mean(axis=0)).T
+        along, across = float(x @ u + y @ v), float(x @ v - y @ u)
+        if len(own) > 1 and math.hypot(along, across) > 0.0:
+            found[body] = math.atan2(across, along)
+    return found
+
+
+def drawn_places(scene: Scene, angles: dict[str, float]) -> dict[str, Floats]:
+    """Return centres of mass of drawn bodies, (2,) m, once their angles, rad, are known."""
+    found: dict[str, Floats] = {}
+    for body, (own, there) in _drawn(scene).items():
+        c, s = math.cos(angles[body]), math.sin(angles[body])
+        found[body] = (there - own @ np.array([[c, s], [-s, c]])).mean(axis=0)
+    return found
+
+
+def _drawn(scene: Scene) -> dict[str, tuple[Floats, Floats]]:
+    """Return points of each drawn body, (points, 2) m, in its own axes and in the world's."""
+    places: dict[str, list[tuple[list[float], list[float]]]] = {}
+    for reference, place in scene.start.points.items():
+        body, point = reference.split(".")
+        places.setdefault(body, []).append((scene.bodies[body].points[point], place))
+    return {
+        body: (np.array([own for own, _ in pairs]), np.array([there for _, there in pairs]))
+        for body, pairs in places.items()
+    }

@@ -1,0 +1,77 @@
+"""Cams in runs: closed forms of the ideal ones, the ledger and lifting off of those with lash."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.solver.cams import (
+    CIRCLE,
+    ECCENTRICITY,
+    RADIUS,
+    ROLLER,
+    SPEED,
+    follower,
+    pitch_table,
+    valve,
+)
+from tests.solver.completed_runs import run
+
+TURN = 2.0 * np.pi / SPEED
+
+
+def test_a_flat_face_on_an_eccentric_circle_rises_by_e_less_e_cosine() -> None:
+    found = run(valve(follower("flat", CIRCLE)), TURN, output_step=TURN / 50)
+    turned = SPEED * found.time
+    lift = ECCENTRICITY * (1.0 - np.cos(turned))
+    height = found["tappet.y"] - 0.02 - (RADIUS - ECCENTRICITY)  # F is below the centre of mass
+    np.testing.assert_allclose(height, lift, rtol=0.0, atol=1e-12)
+    # Newton: the cam carries weight, inertia and the spring from 0.2 m, 0.25 m long when free
+    face = RADIUS - ECCENTRICITY * np.cos(turned)
+    spring = 2e3 * (0.25 - (0.2 - face))
+    inertia = 0.2 * SPEED**2 * ECCENTRICITY * np.cos(turned)
+    force = spring + 0.2 * 9.81 + inertia
+    np.testing.assert_allclose(found["cam.force_y"], force, rtol=1e-9)
+    # virtual work: the motor's torque times its speed raises the tappet; the shaft is balanced
+    torque = force * ECCENTRICITY * np.sin(turned)
+    np.testing.assert_allclose(found["motor.torque"], torque, rtol=0.0, atol=1e-9)
+
+
+def test_a_roller_on_an_eccentric_circle_is_a_rod_from_its_centre() -> None:
+    constant = {"type": "constant", "value": RADIUS + ROLLER}
+    exact = run(valve(follower("roller", constant, cam="C")), TURN, output_step=TURN / 50)
+    turned = SPEED * exact.time
+    reach = RADIUS + ROLLER
+    across = ECCENTRICITY * np.sin(turned)
+    height = np.sqrt(reach**2 - across**2) - ECCENTRICITY * np.cos(turned)
+    np.testing.assert_allclose(exact["tappet.y"] - 0.02, height, rtol=0.0, atol=1e-12)
+    table = run(valve(follower("roller", pitch_table())), TURN, output_step=TURN / 50)
+    # a cubic spline through 64 knots
+    np.testing.assert_allclose(table["tappet.y"], exact["tappet.y"], rtol=0.0, atol=3e-8)
+    np.testing.assert_allclose(table["cam.force_y"], exact["cam.force_y"], rtol=1e-3)
+
+
+@pytest.mark.parametrize("shape", ["flat", pytest.param("roller", marks=pytest.mark.long)])
+def test_a_follower_strikes_lifts_off_and_its_ledger_closes(shape: str) -> None:
+    profile = CIRCLE if shape == "flat" else pitch_table()
+    joint = follower(shape, profile, lash=1e-4, friction={"coefficient": 0.1})
+    scene = valve(joint)
+    scene["drivers"]["motor"]["speed"] = 400.0  # too fast for the spring
+    found = run(scene, 0.04, tolerance=1e-7)
+    ledger = found.statistics["energy"]
+    assert abs(ledger["residual"]) <= 10.0 * 1e-7 * ledger["gross_work"]
+    assert ledger["friction_loss"] > 0.0 < ledger["contact_loss"]
+    assert len(found.contacts("cam")) > 1
+    assert found.peaks["cam.penetration"].minimum < -1e-3
+
+
+def test_two_descriptions_of_one_cam_move_their_follower_alike() -> None:
+    """An eccentric circle about the shaft, and a circle about its own centre."""
+    play: dict[str, Any] = {"lash": 1e-4, "friction": {"coefficient": 0.1}}
+    round_one = {"type": "constant", "value": RADIUS}
+    one = run(valve(follower("flat", CIRCLE, **play)), 0.02, tolerance=1e-9)
+    two = run(valve(follower("flat", round_one, cam="C", **play)), 0.02, tolerance=1e-9)
+    assert len(one.contacts("cam")) == len(two.contacts("cam")) > 0
+    for channel in ("tappet.y", "tappet.vy", "cam.normal_force", "motor.torque"):
+        tiny = 1e-6 * np.ptp(one[channel])
+        np.testing.assert_allclose(one[channel], two[channel], rtol=0.0, atol=tiny)
