@@ -18,6 +18,7 @@ from jointplay.solver.kernels.watched import (
     CompilationUnwanted,
 )
 from jointplay.solver.kinds import Admission
+from jointplay.solver.runs.dense_output.columns import step_columns
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
@@ -196,6 +197,7 @@ def _advance(
             piece.section_time,
             piece.sections,
             piece.impacts,
+            piece.steps if writer.keeps_steps else None,
         )
         time, fraction = piece.time, piece.fraction
 
@@ -223,4 +225,5 @@ def layout_of(admission: Admission) -> ResultLayout:
             "period": admission.period,
             "section_note": admission.section_note,
         },
+        steps=step_columns(admission),
     )

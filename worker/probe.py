@@ -24,6 +24,7 @@ from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.certificate_group import CERTIFICATE
+from jointplay.storage.results.steps import GROUP as STEPS
 from jointplay.worker.execute import Answer, Outcome, Progress, execute
 from jointplay.worker.study_block import computation_of
 
@@ -79,7 +80,7 @@ def cost_of(document: dict[str, Any]) -> Cost:
 def _of_simulation(admission: Admission) -> Cost:
     with suppress(SimulationFailed):
         next(Simulation(admission).slices(), None)  # kernels are loaded, or compiled
-    outcome, marks, fixed, growing = _run(admission, BUDGET)
+    outcome, marks, fixed, growing, steps_kept = _run(admission, BUDGET)
     exact = outcome.state != "cancelled"
     if exact:
         steps = int((outcome.statistics or {}).get("steps", 0))
@@ -91,10 +92,11 @@ def _of_simulation(admission: Admission) -> Cost:
         whole = _extrapolated(marks)
     # of the trajectory: its companions, by which progress goes, may be behind
     reached = max(outcome.time / float(admission.job["duration"]), 1e-9)
+    share = 1.0 if exact else reached
     return Cost(
         seconds=whole.seconds,
         steps=round(whole.steps),
-        bytes=round(fixed + growing / (1.0 if exact else reached)),
+        bytes=round(fixed + growing / share + min(steps_kept / share, admission.steps_limit)),
         compilation=0.0,
         points=1,
         blocks=1,
@@ -103,8 +105,8 @@ def _of_simulation(admission: Admission) -> Cost:
     )
 
 
-def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int]:
-    """Compute for `budget` seconds; return also the bytes of documents, and those of numbers."""
+def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int, int, int]:
+    """Compute for `budget` seconds; return also bytes: of documents, of numbers, of steps."""
     marks: list[Mark] = []
     began = time.process_time()
 
@@ -118,14 +120,15 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
         outcome = execute(admission, Path(name) / "running", target, report=report)
         marks.append(Mark(time.process_time() - began, outcome.fraction, 0))
         total, entries = target.size(), Packed(target).entries
-    growing = sum(
-        entry.size
-        for key, entry in entries.items()
-        if not key.endswith(".json") and not key.startswith(CERTIFICATE)
-    )
+    growing = steps = 0
+    for key, entry in entries.items():
+        if key.startswith(f"{STEPS}/"):
+            steps += entry.size
+        elif not key.endswith(".json") and not key.startswith(CERTIFICATE):
+            growing += entry.size
     if outcome.state == "cancelled":
         marks.pop()  # sealing a part says nothing about the rest
-    return outcome, marks, total - growing, growing
+    return outcome, marks, total - growing - steps, growing, steps
 
 
 def _scratch() -> str | None:

@@ -26,8 +26,8 @@ _FRESH: Final = 0.5
 _OUTPUTS: Final = {name: Channel(name, *output) for name, output in OUTPUTS.items()}
 _GRACE: Final = 600.0
 """Seconds in which clients that opened a running job's store may still read on."""
-INTERNAL: Final = "pyramid/"
-"""Group of what the service reads itself and no client is shown."""
+INTERNAL: Final = ("pyramid/", "steps/")
+"""Groups of what the service reads itself and no client is shown."""
 
 _KEY: Final = re.compile(
     r"(?:(?!\.)[A-Za-z0-9_.-]{1,96}/){0,4}(?:zarr\.json|c(?:/\d{1,9}){0,4})", re.ASCII

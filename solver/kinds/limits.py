@@ -9,6 +9,8 @@ LONGEST_IDEAL_RUN = 100.0
 """The same for an ideal mechanism that never repeats: every pose follows from the one before."""
 MOST_SAMPLES = 100_000_000
 MOST_BYTES = 10_000_000_000
+STEP_BYTES = 32_000_000
+"""Bytes of accepted steps that a run keeps unless it is told otherwise."""
 BYTES_PER_VALUE = 8.0
 DEFAULT_SAMPLES = 2000
 

@@ -54,6 +54,19 @@ class SimulateJob(Job):
         Field(description="say how far the result can be believed; does not change its bits"),
     ] = True
 
+    steps_limit: Annotated[
+        int,
+        Field(
+            ge=0,
+            le=limits.MOST_BYTES,
+            description=(
+                "most bytes of accepted steps to keep, before compression: from them every window"
+                " is read exactly; 0: none, and windows show samples"
+            ),
+            json_schema_extra={"unit": "B"},
+        ),
+    ] = limits.STEP_BYTES
+
     @property
     def named_channels(self) -> list[str]:
         """See `MechanismJob.named_channels`."""

@@ -43,6 +43,11 @@ class Admission:
         return float(self.job["tolerance"] or STANDARD_TOLERANCE)
 
     @property
+    def steps_limit(self) -> int:
+        """Most bytes of accepted steps to keep; 0 of a job that was filled in without it."""
+        return int(self.job.get("steps_limit", 0))
+
+    @property
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.job["tolerance"])

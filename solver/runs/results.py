@@ -27,6 +27,8 @@ class Slice:
     """(sections, channels)."""
     impacts: NDArray[np.void]
     """Contacts that ended, of dtype `IMPACT`, in the order of their release."""
+    steps: Floats
+    """(steps, columns) accepted steps, see `dense_output.columns`; without columns: not kept."""
 
 
 @dataclass(frozen=True)

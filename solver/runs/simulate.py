@@ -18,6 +18,7 @@ from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
+from jointplay.solver.runs.dense_output.columns import most_steps, number_of
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
@@ -93,6 +94,7 @@ class DynamicRun:
             step=job["step"],
         )
         self.seconds = 0.0
+        self.most_steps = most_steps(admission)
         self.open = stiff_method.is_open(admission)
         """Whether the method is still to be chosen."""
         self._start(admission.method, stiff_method.reason_for(admission))
@@ -103,7 +105,7 @@ class DynamicRun:
         if method != self.admission.method:
             problem = stiff_method.tightened(problem)
         kernel = ready_kernel(problem.scene, formulation, method)
-        bundle = Bundle(kernel, [problem])
+        bundle = Bundle(kernel, [problem], keep_steps=self.most_steps > 0)
         certified = self.admission.job["certificate"]
         survey = Survey(bundle, problem, formulation) if certified else None
         # compiling may have ended the run, with what it had so far
@@ -112,6 +114,7 @@ class DynamicRun:
         self.columns = np.array([rows.index(c.name) for c in channels], dtype=np.int64)
         self.samples_done = 0
         self.sections_done = 0
+        self.steps_kept = 0
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
@@ -155,6 +158,7 @@ class DynamicRun:
             "solver_seconds": self.seconds,
             "samples": self.samples_done,
             "sections": self.sections_done,
+            "steps": self.steps_kept,
         }
         arrays = self.survey.checkpoint() if self.survey and not self.open else {}
         return encode(_KIND, SOLVER_VERSION, facts, arrays | self.bundle.state("lanes"))
@@ -171,6 +175,7 @@ class DynamicRun:
         if self.survey:
             self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
+        self.steps_kept = facts["steps"]
 
     def summary(self) -> Summary:
         """See `Simulation.summary`."""
@@ -214,7 +219,17 @@ class DynamicRun:
             section_time,
             sections,
             self.bundle.impacts(LANE),
+            self._steps(),
         )
+
+    def _steps(self) -> Floats:
+        """Return the steps that were accepted, with their method; none beyond the limit."""
+        if not self.most_steps:
+            return np.empty((0, 0))
+        steps = self.bundle.steps()[: self.most_steps - self.steps_kept]
+        self.steps_kept += len(steps)
+        method = np.full((len(steps), 1), number_of(self.kernel.tableau.name))
+        return np.concatenate([steps, method], axis=1)
 
     def _observe(self, kind: int) -> tuple[Floats, Floats]:
         rows = self.bundle.rows(kind, LANE)

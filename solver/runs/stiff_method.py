@@ -90,7 +90,9 @@ def withheld(found: Slice) -> Slice:
     """Return a slice that tells nothing, while its run may yet begin again."""
     samples, sections = found.samples[:0], found.sections[:0]
     nothing = np.zeros(0)
-    return Slice(0.0, 0.0, 0, nothing, samples, 0, nothing, sections, found.impacts[:0])
+    return Slice(
+        0.0, 0.0, 0, nothing, samples, 0, nothing, sections, found.impacts[:0], found.steps[:0]
+    )
 
 
 def joined(slices: list[Slice]) -> Slice:
@@ -106,6 +108,7 @@ def joined(slices: list[Slice]) -> Slice:
         np.concatenate([each.section_time for each in slices]),
         np.concatenate([each.sections for each in slices]),
         np.concatenate([each.impacts for each in slices]),
+        np.concatenate([each.steps for each in slices]),
     )
 
 

@@ -83,6 +83,8 @@ class ResultLayout:
         JSON document for the root group: the filled-in job, versions, the digest.
     partition
         How rows are cut into files.
+    steps
+        Columns of the accepted steps; none where they are not kept.
 
     Raises
     ------
@@ -97,6 +99,7 @@ class ResultLayout:
     joints: tuple[str, ...]
     attributes: dict[str, Any] = field(default_factory=dict)
     partition: Partition = field(default_factory=Partition)
+    steps: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         check_names(self.channels, "channel", STORED)
@@ -113,6 +116,7 @@ class ResultLayout:
             self.samples,
             self.sections,
             list(self.joints),
+            list(self.steps),
             astuple(self.partition),
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()

@@ -14,7 +14,7 @@ from jointplay.records.names import TIME
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.packed.running import PARTS
-from jointplay.storage.results import shards
+from jointplay.storage.results import shards, steps
 from jointplay.storage.results.layout import SCHEMA_VERSION
 from jointplay.storage.results.metadata import DOUBLE, FILE, Document, documents, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
@@ -115,7 +115,8 @@ def shape_of(array: Document) -> tuple[int, int]:
 def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     """Name the columns of each table that grows, by group, in the order of the journal."""
     sampled = (*attributes["channels"], TIME)
-    return {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
+    found = {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
+    return found | ({steps.GROUP: kept} if (kept := tuple(attributes.get("steps", ()))) else {})
 
 
 def root_of(files: Files) -> Document:
@@ -139,6 +140,8 @@ def root_of(files: Files) -> Document:
 
 def rows_in_shards(files: Running, root: Document, table: str) -> int:
     """Count the rows of a growing table whose shards are on the disk."""
+    if table == steps.GROUP:
+        return steps.rows_in_files(files)
     key = _any_key(root, table)
     array = root["consolidated_metadata"]["metadata"][key]
     shards_there = files.shards(f"{key}/c/{{}}")
@@ -147,6 +150,8 @@ def rows_in_shards(files: Running, root: Document, table: str) -> int:
 
 def _any_key(root: Document, table: str) -> str:
     """Return the path of one column of a growing table; all are cut alike."""
+    if table == steps.GROUP:
+        return f"{table}/{steps.ARRAY}"
     return f"{table}/{columns_of(root['attributes'])[table][-1]}".lstrip("/")
 
 
@@ -163,6 +168,7 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
     columns = columns_of(root["attributes"])
     sampled = [DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
+    dtypes += [[DOUBLE] * len(kept) for kept in [columns.get(steps.GROUP)] if kept]
     waiting = waiting_rows(files, samples, dtypes)
     in_shards = {table: rows_in_shards(files, root, table) for table in columns}
     if waiting is None:
@@ -182,8 +188,11 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
 
 def _lost(files: Running, root: Document, table: str, rows: int, samples: int) -> str:
     key = _any_key(root, table)
-    shard_rows, _ = shape_of(root["consolidated_metadata"]["metadata"][key])
-    following = files.file_of(f"{key}/c/{rows // shard_rows}")
+    if table == steps.GROUP:
+        following = files.file_of(f"{key}/c/{rows // steps.ROWS}/0")
+    else:
+        shard_rows, _ = shape_of(root["consolidated_metadata"]["metadata"][key])
+        following = files.file_of(f"{key}/c/{rows // shard_rows}")
     return (
         f"of {samples} samples that are committed, {rows} rows of {table or 'the history'} are in"
         f" the shards of {files.folder.name}: {following} is gone, or the journal in {PARTS} has"

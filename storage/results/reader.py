@@ -19,6 +19,8 @@ from jointplay.storage.results import certificate_group
 from jointplay.storage.results.envelope import Envelope
 from jointplay.storage.results.live import columns_of, committed, root_of, rows_in_shards
 from jointplay.storage.results.metadata import Document
+from jointplay.storage.results.steps import GROUP as STEPS
+from jointplay.storage.results.steps import StoredSteps, stored_steps
 from jointplay.storage.results.store_reader import StoreReader
 from jointplay.storage.results.waiting import Waiting
 
@@ -175,6 +177,11 @@ class ResultReader(StoreReader):
     def certificate(self) -> CertificateRecord | None:
         """Read what is known of the rows' errors; none before the store is sealed, or at all."""
         return certificate_group.read(self._root) if self.sealed else None
+
+    @cached_property
+    def steps(self) -> StoredSteps | None:
+        """Accepted steps, from which any window can be computed exactly; None: not kept."""
+        return stored_steps(self.files, self._waiting.get(STEPS))
 
     def _rows(self, group: str) -> int:
         """Rows of a table that are there: all once sealed, else those committed or in shards."""

@@ -73,6 +73,8 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
         "joints": list(layout.joints),
         "complete": False,
     }
+    if layout.steps:
+        about["steps"] = list(layout.steps)
     peaks = tuple(Column(name, DOUBLE, meaning) for name, meaning in PEAK.items())
     channels = {
         "channels": [channel.name for channel in layout.channels],

@@ -20,6 +20,7 @@ from jointplay.storage.results.growing_table import GrowingTable
 from jointplay.storage.results.journal import Journal
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.pyramid import Pyramid
+from jointplay.storage.results.steps import StepsTable
 from jointplay.storage.results.tables import documents, tables
 from jointplay.storage.results.waiting import Checkpoint
 
@@ -40,6 +41,7 @@ class ResultWriter:
         self._journal = Journal(self._files, layout.digest)
         self._tables = [GrowingTable(table, self._files) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
+        self._steps = StepsTable(layout, self._files) if layout.steps else None
         self._pyramid = Pyramid(layout, self._history, self._files)
         self._sealed = False
 
@@ -126,6 +128,11 @@ class ResultWriter:
         """Impacts appended so far."""
         return self._impacts.rows
 
+    @property
+    def keeps_steps(self) -> bool:
+        """Whether the layout has columns for accepted steps."""
+        return self._steps is not None
+
     def append(
         self,
         first_sample: int,
@@ -135,6 +142,7 @@ class ResultWriter:
         section_time: NDArray[np.float64],
         sections: NDArray[np.float64],
         impacts: NDArray[Any],
+        steps: NDArray[np.float64] | None = None,
     ) -> None:
         """Add rows; whole shards go to the disk, the rest waits in memory.
 
@@ -148,6 +156,8 @@ class ResultWriter:
             The same for m Poincare sections.
         impacts
             (j,) structured, with the fields of `IMPACT`.
+        steps
+            (s, columns) accepted steps, in the order of the layout's names.
 
         Raises
         ------
@@ -167,11 +177,15 @@ class ResultWriter:
         self._check_shape("sections", section_time, sections)
         if impacts.size and set(impacts.dtype.names or ()) != set(IMPACT.names or ()):
             raise InvalidAppend(f"impacts need the fields {IMPACT.names}")
+        if steps is not None and steps.shape[1] != len(self._layout.steps):
+            raise InvalidAppend(f"steps must have {len(self._layout.steps)} columns")
         self._history.check_capacity(len(sample_time))
         self._sections.check_capacity(len(section_time))
         self._pyramid.append([*samples.T, sample_time])
         self._history.append([*samples.T, sample_time])
         self._sections.append([*sections.T, section_time])
+        if self._steps is not None and steps is not None:
+            self._steps.append(list(steps.T))
         if impacts.size:
             durable = self._impacts.durable
             self._impacts.append([impacts[str(name)] for name in IMPACT.names or ()])
@@ -266,7 +280,7 @@ class ResultWriter:
                 yield from table.files()
             if certificate is not None:
                 yield from certificate_group.chunks(certificate)
-            for key, document in (self._pyramid.documents() | nodes).items():
+            for key, document in (self._internal() | nodes).items():
                 yield key, metadata.serialise(document)
 
         try:
@@ -277,7 +291,13 @@ class ResultWriter:
     @property
     def _growing(self) -> list[GrowingTable]:
         """Everything that is written shard by shard, in the order of the journal."""
-        return [*self._tables, *self._pyramid.levels]
+        steps = [] if self._steps is None else [self._steps]
+        return [*self._tables[:-1], *steps, self._peaks, *self._pyramid.levels]
+
+    def _internal(self) -> dict[str, metadata.Document]:
+        """Give the documents, by key, of arrays that clients are not shown."""
+        steps = {} if self._steps is None else dict([self._steps.document()])
+        return self._pyramid.documents() | steps
 
     def _show(self) -> None:
         """Let readers of the growing store see all samples to come and the impacts so far.
@@ -287,7 +307,7 @@ class ResultWriter:
         layout = self._layout
         shown = [layout.samples, layout.sections, self._impacts.durable, len(layout.channels)]
         groups = metadata.groups_among(documents(layout, shown, {}))
-        shown_now = (self._pyramid.documents() | groups).items()
+        shown_now = (self._internal() | groups).items()
         self._files.write_documents((key, metadata.serialise(one)) for key, one in shown_now)
 
     def _check_shape(self, what: str, time: NDArray[Any], rows: NDArray[Any]) -> None:

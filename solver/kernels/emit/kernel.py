@@ -15,7 +15,7 @@ from jointplay.solver.kernels.cache import load
 from jointplay.solver.kernels.emit import implicit, inside, scanning, stepping
 from jointplay.solver.kernels.emit.emit import HEADER, FixedNodes, Tape, lane_function
 from jointplay.solver.kernels.emit.functions import addresses_of
-from jointplay.solver.kernels.emit.places import DenseRow, places_of
+from jointplay.solver.kernels.emit.places import DenseRow, StepRow, places_of
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import (
     Equations,
@@ -39,6 +39,7 @@ class Kernel:
     module: ModuleType
     layout: Layout
     row: DenseRow
+    step_row: StepRow
     places: NDArray[np.void]
     """Record that compiled loops take as `at`; see `solver.kernels.emit.places`."""
     coordinates: tuple[str, ...]
@@ -131,6 +132,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         ]
     )
     row = DenseRow.of(clocks, states, pairs)
+    step_row = StepRow.of(len(equations.coordinates), states, pairs)
     counts = {
         "states": states,
         "ledger": ledger,
@@ -143,7 +145,8 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         load(source),
         layout,
         row,
-        places_of(layout, row, counts),
+        step_row,
+        places_of(layout, row, step_row, counts),
         equations.coordinates,
         equations.drivers,
         equations.clocks,

@@ -15,6 +15,8 @@ from jointplay.solver.kernels.layout import Layout
 
 PERIOD, TIME = 0, 1
 """Columns of a dense row: whole periods that have passed, and the time since then, s."""
+LENGTH = 2
+"""Column of a row of a step, s."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,36 @@ class DenseRow:
         return rows[..., self.state : self.mode]
 
 
+@dataclass(frozen=True)
+class StepRow:
+    """First column of each block of a row of an accepted step: all that making it again needs.
+
+    Period and time of its start come first, as in a dense row, then its length, s.
+    """
+
+    coordinates: int
+    """Number of coordinates, whose slopes are their speeds."""
+    state: int
+    slope: int
+    """Slopes at the start of all states but the coordinates.
+
+    Kept, for the step before evaluated them: before a contact began, or a period.
+    """
+    mode: int
+    impact_rate: int
+    width: int
+
+    @classmethod
+    def of(cls, coordinates: int, states: int, pairs: int) -> StepRow:
+        """Arrange the blocks one behind the other."""
+        ends = np.cumsum([LENGTH + 1, states, states - coordinates, pairs, pairs])
+        return cls(coordinates, *map(int, ends))
+
+    def begins(self, rows: Floats, period: float) -> Floats:
+        """Return the simulated times at which the steps of rows (..., width) begin, s."""
+        return rows[..., PERIOD] * period + rows[..., TIME]
+
+
 COUNTS = ("states", "ledger", "pairs", "clocks", "rows", "watched_closely")
 """Numbers of states, terms of the ledger, contact pairs, clocks, and scanned channels; whether
 steps of contacts are looked at inside."""
@@ -57,7 +89,7 @@ _SLOTS = """
 numbers time step tried arrival stage_time theta active accept flag next_step end next_due marked
 stage total gap gap_rate gap_start gap_rate_start mode impact_rate before_time phase wound
 eccentricity eccentricity_start before_step change inner slip_row
-penetration_row
+penetration_row y k1_ largest_step known_range
 clock_start clock_travel clock_turn channel previous highest lowest highest_time lowest_time
 impact_floor restart onset_time approach onset_total opened weight steps pace_at stored stored_start
 """
@@ -76,15 +108,20 @@ DERIVED = ("size", "impulse", "contact_row")
 that has a normal force again, for the peak of each contact."""
 
 ROW_DTYPE = np.dtype([(name, np.int64) for name in DenseRow.__annotations__])
+STEP_DTYPE = np.dtype([(name, np.int64) for name in StepRow.__annotations__])
 NAMES = (*COUNTS, *SLOTS, *OF_TANGENTS, *DERIVED)
-DTYPE = np.dtype([*((name, np.int64) for name in NAMES), ("row", ROW_DTYPE)])
+DTYPE = np.dtype(
+    [*((name, np.int64) for name in NAMES), ("row", ROW_DTYPE), ("step_row", STEP_DTYPE)]
+)
 Places = Any
 """Type of `at` in loops: a record of `DTYPE`, ``work[at.mode + j, lane]``."""
 PLACES = from_dtype(DTYPE)[::1]
 """Type of the record in kernels: an array of one, which costs Python least to pass."""
 
 
-def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArray[np.void]:
+def places_of(
+    layout: Layout, row: DenseRow, step_row: StepRow, counts: Mapping[str, int]
+) -> NDArray[np.void]:
     """Return the record of all offsets, (1,); `counts`: numbers of states, pairs and so on.
 
     Raises
@@ -99,5 +136,6 @@ def places_of(layout: Layout, row: DenseRow, counts: Mapping[str, int]) -> NDArr
     found["contact_row"] = counts["rows"] - counts["pairs"]
     for name in NAMES:
         places[name] = found[name]
-    places["row"] = tuple(getattr(row, name) for name in ROW_DTYPE.names or ())
+    for name, kind in (("row", row), ("step_row", step_row)):
+        places[name] = tuple(getattr(kind, column) for column in type(kind).__annotations__)
     return places

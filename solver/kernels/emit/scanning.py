@@ -32,7 +32,7 @@ def allocate(layout: Layout, rows: int, rest: int) -> None:
     """
     layout.add_block("marked", -(-rows // BYTES))
     layout.add_block("channel", rows + rest)
-    for block in (*BLOCKS[1:], "highest_time", "lowest_time"):
+    for block in (*BLOCKS[1:], "highest_time", "lowest_time", "known_range"):
         layout.add_block(block, rows)
 
 

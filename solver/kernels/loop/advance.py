@@ -20,6 +20,7 @@ from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, PASSING, REJ
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
 from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.contacts import (
     CAUTIOUS,
     begin_contact,
@@ -52,6 +53,9 @@ from jointplay.solver.kernels.loop.runs import (
 )
 from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
 from jointplay.solver.kernels.loop.unowned_view import unowned
+
+KEEPING = 0
+"""Lane whose accepted steps are kept, if any are."""
 
 
 @kernel()
@@ -153,6 +157,16 @@ def settle(
 
 
 @kernel()
+def keep_step(run: Run, at: Places, work: np.ndarray, steps: np.ndarray) -> bool:
+    """Write the step that the lane that keeps them takes; whether the buffer is full now."""
+    if len(steps) == 0 or not work[at.accept, KEEPING] > 0.0:
+        return False
+    write_step(steps[run.kept], KEEPING, run, at, work)
+    run.kept += 1
+    return run.kept == len(steps)
+
+
+@kernel()
 def count_active(at: Places, work: np.ndarray) -> int:
     """Return how many lanes run."""
     running = 0
@@ -239,7 +253,7 @@ def advance(
     call, at = functions_at(addresses[0]), places[0]
     work, spare, runs = unowned(work), unowned(spare), unowned(runs)
     table, marked = unowned(buffers.table), unowned(work.reshape(work.size).view(np.uint64))
-    rows = unowned(buffers.rows)
+    rows, steps = unowned(buffers.rows), unowned(buffers.steps)
     running = count_active(at, work)
     landing = still_landing(runs)
     crossing = any_crossing(runs)
@@ -276,10 +290,11 @@ def advance(
                         lane, runs[lane], at, work, spare, marked, table, call.channels_around
                     )
             call.remember(work)
+        full |= keep_step(runs[KEEPING], at, work, steps)
         if tangents and (quiet or any_accepted(at, work)):
             call.tangent_step(work)
         call.take(work)
-        if quiet:
+        if quiet and not full:
             continue
         for lane in range(LANES):
             flag, run = int(work[at.flag, lane]), runs[lane]

@@ -37,6 +37,8 @@ Floats = NDArray[np.float64]
 
 ROWS_AT_ONCE = 2048
 """Capacity of each row buffer: how many samples a lane hands out between returns to Python."""
+STEPS_AT_ONCE = 32_768
+"""The same of accepted steps: some 50 ms of computing."""
 ENERGIES = ("energy.kinetic", "energy.potential", "stored")
 
 
@@ -68,11 +70,13 @@ class Bundle:
         *,
         watch: bool = True,
         tangents: Tangents | None = None,
+        keep_steps: bool = False,
     ) -> None:
         """Load the problems.
 
         `watch` says whether extremes of channels are sought. With the kernel's `tangents` every
         lane carries a tangent vector, and `growth` tells how it grows; nothing else changes.
+        With `keep_steps`, accepted steps of the first lane are handed out; see `steps`.
         """
         if len(problems) > BUNDLE:
             raise ValueError(f"a bundle holds {BUNDLE} problems, not {len(problems)}")
@@ -95,6 +99,10 @@ class Bundle:
                     kernel.row.width,
                     kernel.rows.scanned,
                     tangents=tangents is not None,
+                    steps=(
+                        STEPS_AT_ONCE if keep_steps and first == 0 else 0,
+                        kernel.step_row.width,
+                    ),
                 ),
             )
             for first in range(0, BUNDLE, LANES)
@@ -198,7 +206,7 @@ class Bundle:
         addresses = self.kernel.addresses if tangents is None else tangents.addresses
         places = self.kernel.places if tangents is None else tangents.places
         crossing = np.any(self.runs["section_kind"] == SectionKind.CROSSING)
-        for name in ("filled", "impacts", "growths"):
+        for name in ("filled", "impacts", "growths", "kept"):
             self.runs[name] = 0
         goal = self.attempts + budget
         for group in self.groups:
@@ -227,6 +235,13 @@ class Bundle:
         """Return the contacts of a lane that ended in the last call, of dtype `IMPACT`."""
         group, index = divmod(i, LANES)
         return self.groups[group].buffers.impacts[index, : self.runs["impacts"][i]].copy()
+
+    def steps(self) -> Floats:
+        """Return the accepted steps of the first lane in the last call, (count, width).
+
+        Rows as `StepRow` arranges them; none unless they are kept.
+        """
+        return self.groups[0].buffers.steps[: self.runs["kept"][0]]
 
     def growth(self, i: int) -> Floats:
         """Return how a lane's tangent grew in the last call: (k, 2) ends of time, s, logarithms."""

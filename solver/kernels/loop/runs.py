@@ -57,6 +57,8 @@ class Run:
     """Rows of samples, and of sections, in the buffers."""
     impacts: int
     """Contacts in the buffer."""
+    kept: int
+    """Accepted steps in the buffer."""
     growths: int
     """Growths of the tangent in the buffer."""
     rejections: int
@@ -125,16 +127,28 @@ class Buffers(NamedTuple):
     """Contacts that ended, (lanes, capacity) of `IMPACT`."""
     growths: NDArray[np.void]
     """(lanes, capacity) of `GROWTH`; without capacity there are no tangents."""
+    steps: NDArray[np.float64]
+    """Accepted steps of the first lane, (capacity, width); without capacity none is kept."""
     table: NDArray[np.float64]
     """See `solver.kernels.loop.windows`."""
 
     @classmethod
-    def of(cls, lanes: int, capacity: int, width: int, channels: int, *, tangents: bool) -> Buffers:
-        """Return empty buffers."""
+    def of(
+        cls,
+        lanes: int,
+        capacity: int,
+        width: int,
+        channels: int,
+        *,
+        tangents: bool,
+        steps: tuple[int, int],
+    ) -> Buffers:
+        """Return empty buffers; `steps` : capacity and width of accepted steps."""
         return cls(
             np.zeros((2, lanes, capacity, width)),
             np.zeros((lanes, capacity), IMPACT),
             np.zeros((lanes, capacity if tangents else 0), GROWTH),
+            np.zeros(steps),
             np.zeros(size_of_table(channels)),
         )
 
@@ -144,6 +158,7 @@ BUFFERS = types.NamedTuple(
         float64[:, :, :, ::1],
         from_dtype(IMPACT)[:, ::1],
         from_dtype(GROWTH)[:, ::1],
+        float64[:, ::1],
         float64[::1],
     ],
     Buffers,

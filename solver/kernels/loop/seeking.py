@@ -130,9 +130,9 @@ def rests_at_end(w: int, table: np.ndarray) -> bool:
 
 @kernel()
 def spread(r: int, value: float, lane: int, at: Places, work: np.ndarray) -> float:
-    """Return a channel's range up to now, with a further value."""
+    """Return a channel's range up to now, with a further value, or the one known beforehand."""
     low = min(work[at.lowest + r, lane], value)
-    return float(max(work[at.highest + r, lane], value) - low)
+    return max(max(work[at.highest + r, lane], value) - low, work[at.known_range + r, lane])
 
 
 @kernel()

@@ -151,6 +151,7 @@ class IdealRun:
             section_times,
             sections,
             np.zeros(0, dtype=IMPACT),
+            np.empty((0, 0)),
         )
 
     def _extremes(self) -> dict[str, Peak]:

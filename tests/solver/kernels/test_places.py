@@ -19,6 +19,7 @@ from jointplay.solver.kernels.emit.places import (
     SLOTS,
     TIME,
     DenseRow,
+    StepRow,
     places_of,
 )
 from jointplay.solver.kernels.emit.tangents import compile_tangents
@@ -46,10 +47,10 @@ def layout_without(missing: str) -> Layout:
 
 @pytest.mark.parametrize("missing", SLOTS)
 def test_a_slot_that_the_layout_lacks_is_an_error(missing: str) -> None:
-    row = DenseRow.of(0, 6, 1)
-    places_of(layout_without(""), row, COUNTS)
+    rows = DenseRow.of(0, 6, 1), StepRow.of(3, 6, 1)
+    places_of(layout_without(""), *rows, COUNTS)
     with pytest.raises(KeyError, match=missing):
-        places_of(layout_without(missing), row, COUNTS)
+        places_of(layout_without(missing), *rows, COUNTS)
 
 
 def test_every_block_is_where_the_layout_has_it_even_if_it_is_empty() -> None:

@@ -1,0 +1,101 @@
+"""Makes stored steps again, and evaluates states inside them as the run would have."""
+
+import numpy as np
+from numba import float64, int64, void
+
+from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
+from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, PLACES, TIME
+from jointplay.solver.kernels.jit import deferred, kernel
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.accepted_steps import read_step
+from jointplay.solver.kernels.loop.dense_rows import write_row
+from jointplay.solver.kernels.loop.periods import product_difference
+from jointplay.solver.kernels.loop.runs import RUNS, Run
+from jointplay.solver.kernels.loop.unowned_view import unowned
+
+TABLE = float64[:, ::1]
+
+
+@kernel()
+def moment_of(i: int, moments: np.ndarray, row: np.ndarray, run: Run) -> float:
+    """Return an instant as local time of the period that a step is in, s."""
+    return product_difference(moments[i, 0], moments[i, 1], row[PERIOD], run.period)
+
+
+@deferred(void(RUNS, TABLE, TABLE, int64[::1]))
+def find_steps(runs: np.ndarray, steps: np.ndarray, moments: np.ndarray, found: np.ndarray) -> None:
+    """Find the step that each instant is in: the first that does not end before it.
+
+    Parameters
+    ----------
+    steps : (n, width)
+        Consecutive steps, as `write_step` wrote them.
+    moments : (m, 2)
+        Instants in ascending order, each the product of two numbers, s.
+    found : (m,)
+        Where the steps' indices are written; n for an instant behind them all.
+    """
+    k = 0
+    for i in range(len(moments)):
+        while k < len(steps):
+            row = steps[k]
+            if moment_of(i, moments, row, runs[0]) <= row[TIME] + row[LENGTH]:
+                break
+            k += 1
+        found[i] = k
+
+
+@deferred(void(ADDRESSES, PLACES, WORK, WORK, RUNS, TABLE, TABLE, int64[::1], TABLE))
+def states_in_steps(
+    addresses: np.ndarray,
+    places: np.ndarray,
+    work: np.ndarray,
+    spare: np.ndarray,
+    runs: np.ndarray,
+    steps: np.ndarray,
+    moments: np.ndarray,
+    found: np.ndarray,
+    rows: np.ndarray,
+) -> None:
+    """Write dense states at instants inside steps, bit for bit those that the run hands out.
+
+    Parameters
+    ----------
+    work : (slots, LANES)
+        Lanes that have the scene's numbers; the rest of them is overwritten.
+    runs : (LANES,)
+        Each with the run's period.
+    steps, moments, found
+        As `find_steps` takes them; steps without an instant are not made again.
+    rows : (m, width)
+        Where dense rows are written.
+    """
+    call, at = functions_at(addresses[0]), places[0]
+    work, spare, runs = unowned(work), unowned(spare), unowned(runs)
+    begins = np.empty(LANES + 1, np.int64)
+    done = 0
+    while done < len(found):
+        lanes, i = 0, done
+        while i < len(found) and lanes < LANES:
+            begins[lanes] = i
+            read_step(steps[found[i]], lanes, runs[lanes], at, work)
+            while i < len(found) and found[i] == found[begins[lanes]]:
+                i += 1
+            lanes += 1
+        begins[lanes] = i
+        for lane in range(lanes, LANES):
+            read_step(steps[found[done]], lane, runs[lane], at, work)
+        call.attempt(work)
+        for lane in range(lanes):
+            start, tried = work[at.time, lane], work[at.tried, lane]
+            for first in range(begins[lane], begins[lane + 1], INSTANTS):
+                count = min(INSTANTS, begins[lane + 1] - first)
+                for k in range(count):
+                    moment = moment_of(first + k, moments, steps[found[first]], runs[lane])
+                    theta = (moment - start) / tried if tried > 0.0 else 0.0
+                    spare[at.theta, k] = min(max(theta, 0.0), 1.0)
+                call.states_within(work, spare, lane)
+                for k in range(count):
+                    write_row(rows[first + k], k, lane, runs[lane], at, work, spare)
+        done = i

@@ -1,0 +1,1 @@
+"""Trajectories read at any time: accepted steps made again, and evaluated inside."""

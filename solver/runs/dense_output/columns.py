@@ -1,0 +1,59 @@
+"""Columns of a run's accepted steps, as stores name them."""
+
+from jointplay.solver.integrators import METHODS
+from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.tree import spanning_tree
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.references import inner_states
+
+METHOD = "method"
+"""Last column: number of the method that made the step; see `number_of`."""
+_NUMBERS = {name: number for number, name in enumerate(sorted(METHODS))}
+
+
+def number_of(method: str) -> float:
+    """Return the number that steps of a method have in their last column."""
+    return float(_NUMBERS[method])
+
+
+def method_of(number: float) -> str:
+    """Return the method whose steps have a number."""
+    return sorted(METHODS)[int(number)]
+
+
+def step_columns(admission: Admission) -> tuple[str, ...]:
+    """Return the columns of the steps that a run keeps; none if it keeps none.
+
+    In the order of `solver.kernels.emit.places.StepRow`, then the method. A run whose drivers leave
+    no freedom makes no steps.
+    """
+    scene = admission.scene
+    if not admission.steps_limit or assemble(scene).freedom_with_play == 0:
+        return ()
+    coordinates: tuple[str, ...]
+    if admission.job["formulation"] == "lagrange":
+        coordinates = tuple(f"{b}.{axis}" for b in scene.bodies for axis in ("x", "y", "theta"))
+    else:
+        coordinates = spanning_tree(scene).coordinates
+    speeds = [f"{name} rate" for name in coordinates]
+    inner = [
+        f"{name} inner {k}"
+        for name, states in inner_states(scene).items()
+        for k, _ in enumerate(states)
+    ]
+    pairs = list(contact_pairs(scene))
+    return (
+        *("period", "time", "length"),
+        *(*coordinates, *speeds, *inner),
+        *(f"{name} slope" for name in (*speeds, *inner)),
+        *(f"{name} contact" for name in pairs),
+        *(f"{name} impact rate" for name in pairs),
+        METHOD,
+    )
+
+
+def most_steps(admission: Admission) -> int:
+    """Return how many steps a run keeps at most, within its limit of bytes."""
+    columns = len(step_columns(admission))
+    return admission.steps_limit // (8 * columns) if columns else 0

@@ -1,0 +1,162 @@
+"""Stored steps of a run, made again: any channel at any time, bit for bit as it was sampled."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.kernels.loop.replay import find_steps, states_in_steps
+from jointplay.solver.kernels.loop.windows import size_of_table
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.dense_output.parts import cut
+
+LANE = 0
+
+
+class Replay:
+    """A job's equations with one method, ready to make its steps again.
+
+    Parameters
+    ----------
+    admission
+        Of the job that the steps are of.
+    method
+        Name of the method that made them.
+
+    Raises
+    ------
+    LimitExceeded, CompilationEnded
+        The equations cannot be compiled, or not so fast.
+    """
+
+    def __init__(self, admission: Admission, method: str) -> None:
+        job = admission.job
+        self.kernel = ready_kernel(admission.scene, job["formulation"], method)
+        problem = LaneProblem(
+            admission.scene,
+            job["duration"],
+            admission.tolerance,
+            job["duration"],
+            samples=0,
+            sections=0,
+            section_offset=0.0,
+            step=job["step"],
+        )
+        self._bundle = Bundle(self.kernel, [problem], watch=False)
+        self.runs = self._bundle.runs[:LANES]
+        self.runs[:] = self.runs[LANE]
+        self.period = float(self.runs["period"][LANE])
+
+    @property
+    def width(self) -> int:
+        """Numbers in a row of a step."""
+        return int(self.kernel.step_row.width)
+
+    def begins(self, steps: Floats) -> Floats:
+        """Return the times at which steps (n, width) begin, s."""
+        return self.kernel.step_row.begins(steps, self.period)
+
+    def ends(self, steps: Floats) -> Floats:
+        """Return the times at which steps (n, width) end, s."""
+        return self.begins(steps) + steps[:, LENGTH]
+
+    def find(self, steps: Floats, moments: Floats) -> NDArray[np.int64]:
+        """Return the index (m,) of the step that each instant is in; n for those behind all.
+
+        moments : (m, 2) ascending instants, each the product of two numbers, s.
+        """
+        found = np.empty(len(moments), np.int64)
+        find_steps(self.runs, steps, moments, found)
+        return found
+
+    def channels(self, names: Sequence[str], steps: Floats, moments: Floats) -> Floats:
+        """Return channels (m, names) at instants that are inside consecutive steps (n, width).
+
+        moments : (m, 2) ascending instants, each the product of two numbers, s: with the index of
+        a sample and the output step, values are those of that sample.
+
+        Raises
+        ------
+        ValueError
+            An instant is behind the last step.
+        """
+        found = self.find(steps, moments)
+        if len(found) and found[-1] == len(steps):
+            raise ValueError("the steps end before the last instant")
+        rows = np.empty((len(moments), self.kernel.row.width))
+        bundle = self._bundle
+        states_in_steps(
+            self.kernel.addresses,
+            self.kernel.places,
+            bundle.groups[0].work,
+            bundle.spare,
+            self.runs,
+            steps,
+            moments,
+            found,
+            rows,
+        )
+        columns = np.array([self.kernel.rows.index(name) for name in names], np.int64)
+        return bundle.observe(LANE, rows, columns)
+
+    def extremes(
+        self, names: Sequence[str], steps: Floats, edges: Floats, ranges: Floats
+    ) -> Floats:
+        """Return extremes (bins, names, 4) of channels: lowest, its time, highest, its time.
+
+        They are those of the trajectory between bins' edges, whatever a grid would show; NaN of a
+        bin outside the steps.
+
+        Parameters
+        ----------
+        steps : (n, width)
+            Consecutive steps.
+        edges : (bins + 1,)
+            Ascending times, s.
+        ranges : (names,)
+            Range of each channel in its run: extremes are sharp to 1e-6 of it.  0: not known, of
+            the range in each bin.
+        """
+        rows = self.kernel.rows
+        sources = [rows.multiples.get(name, (name, 1.0, 0.0)) for name in names]
+        wanted = list(dict.fromkeys(name for name, _, _ in sources))
+        known = np.zeros(len(wanted))
+        for (name, factor, _), spread in zip(sources, ranges, strict=True):
+            known[wanted.index(name)] = spread / (abs(factor) or 1.0)
+        records = np.full((len(edges) - 1, len(wanted), 4), np.nan)
+        parts, shares = cut(self.begins(steps), steps[:, LENGTH], edges)
+        if len(parts):
+            first, last = int(parts[0, 0]), int(parts[-1, 0]) + 1
+            parts[:, 0] -= first
+            extremes_in_steps(
+                self.kernel.addresses,
+                self.kernel.places,
+                self._bundle.groups[0].work,
+                self._bundle.spare,
+                self.runs,
+                np.zeros(size_of_table(rows.scanned)),
+                np.ascontiguousarray(steps[first:last]),
+                parts,
+                shares,
+                np.array([rows.index(name) for name in wanted], np.int64),
+                known,
+                records,
+            )
+        return scaled(records, wanted, sources)
+
+
+def scaled(records: Floats, wanted: list[str], sources: list[tuple[str, float, float]]) -> Floats:
+    """Return records of channels that are multiples of those that were looked at."""
+    found = np.stack([records[:, wanted.index(name)] for name, _, _ in sources], axis=1)
+    for c, (_, factor, offset) in enumerate(sources):
+        found[:, c, ::2] = factor * found[:, c, ::2] + offset
+        if factor < 0.0:
+            found[:, c] = found[:, c][:, [2, 3, 0, 1]]
+    return found
