@@ -17,6 +17,11 @@ from jointplay.figures.adjustment import drawn
 from jointplay.figures.bifurcation import BIFURCATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.contact_force import CONTACT_FORCE
+from jointplay.figures.energy import ENERGY
+from jointplay.figures.exponents import EXPONENTS
+from jointplay.figures.force_rose import FORCE_ROSE
+from jointplay.figures.histogram import HISTOGRAM
+from jointplay.figures.impact_loop import IMPACT_LOOP
 from jointplay.figures.kind import (
     FigureError,
     FigureKind,
@@ -37,6 +42,7 @@ from jointplay.figures.spectrum import SPECTRUM
 from jointplay.figures.sweep import SWEEP
 from jointplay.figures.time_history import OUTPUTS, TIME_HISTORY
 from jointplay.figures.work_precision import WORK_PRECISION
+from jointplay.figures.xy import XY
 from jointplay.records.channel import by_name
 from jointplay.records.figure_form import FORMS, Form
 from jointplay.records.run import Source
@@ -75,12 +81,17 @@ ROSTER: Final[dict[str, RunFigure]] = {
         SPECTRUM,
         MECHANISM,
         TIME_HISTORY,
+        XY,
+        FORCE_ROSE,
+        IMPACT_LOOP,
+        ENERGY,
+        HISTOGRAM,
         CERTIFICATE,
     )
 }
 """Figures of one run, in the order of lists."""
 STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
-    figure.name: figure for figure in (BIFURCATION, SWEEP, SECTION, WORK_PRECISION)
+    figure.name: figure for figure in (BIFURCATION, EXPONENTS, SWEEP, SECTION, WORK_PRECISION)
 }
 """Figures of a study."""
 

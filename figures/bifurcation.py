@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jointplay.figures import colours, marks, page, study_facts
+from jointplay.figures import marks, page, study_facts
+from jointplay.figures.exponents import draw_exponents
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
 from jointplay.figures.quantity import scale
@@ -60,7 +61,8 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for axes, name in zip(panels, names, strict=False):
         _sections(axes, diagram, name)
     if has_exponent:
-        _exponents(panels[len(names)], diagram)
+        shown = diagram.axis.shown
+        draw_exponents(panels[len(names)], source, points, shown, diagram.groups)
     if has_strip:
         _verdicts(panels[-1], diagram, directions, verdicts)
     for axes in panels:
@@ -80,27 +82,6 @@ def _sections(axes: page.Axes, diagram: _Diagram, name: str) -> None:
         across = np.repeat(diagram.axis.shown[members], rows.shape[1])
         marks.draw_cloud(axes, across, rows[members].ravel() / shown.factor, group.colour, size)
     axes.set_ylabel(page.in_two_lines(shown.label(name)))
-
-
-def _exponents(axes: page.Axes, diagram: _Diagram) -> None:
-    """Draw the largest Lyapunov exponent with its uncertainty."""
-    exponents = diagram.source.indicators["lyapunov"][diagram.points]
-    errors = diagram.source.indicators.get("lyapunov_error")
-    reach = np.zeros_like(exponents) if errors is None else errors[diagram.points]
-    axes.axhline(0.0, color=colours.GEOMETRY, linewidth=0.4, zorder=1.0)
-    for group in diagram.groups:
-        members = group.members[diagram.points] & np.isfinite(exponents)
-        axes.errorbar(
-            diagram.axis.shown[members],
-            exponents[members],
-            yerr=np.nan_to_num(reach[members]),
-            fmt="o",
-            color=group.colour,
-            markersize=1.2,
-            markeredgewidth=0.0,
-            elinewidth=0.4,
-        )
-    axes.set_ylabel("exponent [1/s]")
 
 
 def _verdicts(

@@ -43,11 +43,11 @@ class NotDrawable(FigureError):
         self.cause = cause
 
 
-def at_most(most: int, names: Sequence[str]) -> tuple[str, ...]:
-    """Return the channels of a figure's panels; `NotDrawable` if there are too many."""
+def at_most(most: int, names: Sequence[str], kind: str = "channels") -> tuple[str, ...]:
+    """Return the channels, or joints, of a figure's panels; `NotDrawable` if too many."""
     if len(names) > most:
-        sentence = f"One figure shows at most {most} channels, not {len(names)}; choose fewer."
-        raise NotDrawable(sentence, "channels")
+        sentence = f"One figure shows at most {most} {kind}, not {len(names)}; choose fewer."
+        raise NotDrawable(sentence, kind)
     return tuple(names)
 
 

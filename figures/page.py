@@ -78,17 +78,25 @@ def panels(
     share_x: bool | Literal["col"] = False,
     share_y: bool | Literal["row"] = False,
     row_heights: Sequence[float] | None = None,
+    projection: Literal["polar"] | None = None,
 ) -> tuple[Figure, Panels]:
     """Make a figure of column width and this height [mm].
 
-    `share_x` and `share_y` are matplotlib's; `row_heights` are relative, by default all the same.
+    `share_x`, `share_y` and `projection` are matplotlib's; `row_heights` are relative, by default
+    all the same.
     """
     from matplotlib.figure import Figure as NewFigure
 
     size = (COLUMN_WIDTH / _MILLIMETRES_AN_INCH, height / _MILLIMETRES_AN_INCH)
     figure = NewFigure(figsize=size, layout="constrained")
     grid = figure.subplots(
-        rows, columns, sharex=share_x, sharey=share_y, squeeze=False, height_ratios=row_heights
+        rows,
+        columns,
+        sharex=share_x,
+        sharey=share_y,
+        squeeze=False,
+        height_ratios=row_heights,
+        subplot_kw={"projection": projection},
     )
     return figure, [list(row) for row in grid]
 

@@ -58,6 +58,19 @@ def joined(source: Source, names: Sequence[str], first: int, last: int) -> Colum
     return time, {name: np.concatenate([columns[name] for _, columns in parts]) for name in names}
 
 
+def interpolated(moments: Floats, time: Floats, values: Floats, rates: Floats | None) -> Floats:
+    """Give (m,) values at moments [s] within the samples: of their cubic, or straight between."""
+    if rates is None or len(time) < 2:
+        return np.interp(moments, time, values)
+    at = np.clip(np.searchsorted(time, moments, side="right") - 1, 0, len(time) - 2)
+    step = time[at + 1] - time[at]
+    part = (moments - time[at]) / step
+    rise = values[at + 1] - values[at]
+    begin, end = rates[at] * step, rates[at + 1] * step
+    cubic = (3.0 * rise - 2.0 * begin - end) * part**2 + (begin + end - 2.0 * rise) * part**3
+    return np.asarray(values[at] + begin * part + cubic)
+
+
 def beginning(source: Source, time: Floats, selection: Selection) -> str:
     """Say from when on a curve in a plane is drawn, if not from the beginning of the window."""
     first, _ = window(source, selection)

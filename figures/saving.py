@@ -53,6 +53,8 @@ def _spread_numbers(figure: page.Figure) -> None:
     engine.execute(figure)
     gap = _GAP * figure.dpi / 72.0
     for axes in figure.axes:
+        if axes.name == "polar":  # its directions are in a circle
+            continue
         while len(places := _crowded(axes.xaxis, gap)) > 1:
             axes.xaxis.set_major_locator(FixedLocator(places[::2]))
             engine.execute(figure)

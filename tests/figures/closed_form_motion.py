@@ -99,6 +99,10 @@ def closed_form_motion(samples=2001, duration=2.0, periods=40):
             add(f"{joint}.eccentricity_{axis}", "m", eccentricity)
             add(f"{joint}.eccentricity_rate_{axis}", "m/s", rate(eccentricity))
         add(f"{joint}.normal_force", "N", lambda t: np.maximum(0.0, 60.0 * np.sin(9.0 * t)))
+        add(f"{joint}.penetration", "m", lambda t: 2e-6 * np.sin(9.0 * t - 0.2))
+    add("motor.power", "W", lambda t: 3.0 + 0.0 * t)
+    add("energy.kinetic", "J", lambda t: 1.0 + np.sin(np.pi * t))
+    add("energy.potential", "J", lambda t: 5.0 * t)
     return Dataset(
         attributes={"scene": SCENE},
         channels=channels,
@@ -135,9 +139,13 @@ def _certified(duration, channels):
 
 
 def _impacts(duration):
-    impacts = np.zeros(60, IMPACT)
-    impacts["joint"] = np.arange(60) % 2
-    impacts["onset"] = duration * (np.arange(60) / 60.0) ** 2
+    """Sixty that samples step over, and at each joint one that lasts, which is the strongest."""
+    impacts = np.zeros(62, IMPACT)
+    impacts["joint"] = np.arange(62) % 2
+    impacts["onset"] = duration * (np.arange(62) / 62.0) ** 2
     impacts["release"] = impacts["onset"] + 2e-5
-    impacts["peak_force"] = 400.0 * np.exp(-np.arange(60) / 20.0)
+    impacts["peak_force"] = 400.0 * np.exp(-np.arange(62) / 20.0)
+    impacts["impulse"] = 1e-5 * impacts["peak_force"]
+    impacts["onset"][60:], impacts["release"][60:] = 0.0, np.pi / 9.0
+    impacts["peak_force"][60:] = 500.0
     return impacts

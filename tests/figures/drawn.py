@@ -34,6 +34,8 @@ def visible_texts(figure):
 def stand_apart(figure):
     """Hold the numbers along each axis to a distance."""
     for axes in figure.axes:
+        if axes.name == "polar":
+            continue
         labels = [label for label in axes.get_xticklabels() if label in visible_texts(figure)]
         boxes = sorted((label.get_window_extent() for label in labels), key=lambda box: box.x0)
         for left, right in pairwise(boxes):

@@ -15,9 +15,12 @@ from jointplay import figures
 from jointplay.figures import FORMS, Selection, saving
 
 MILLIMETRES_AN_INCH = 25.4
-UNITS = {"", "s", "Hz", "m", "mm", "m/s", "mm/s", "N", "kN", "1/s", "m²/Hz", "(m/s)²/Hz"}
+UNITS = {"", "s", "Hz", "m", "mm", "µm", "m/s", "mm/s", "N", "kN", "J", "1/s", "m²/Hz"}
+UNITS |= {"(m/s)²/Hz", "1/m", "1/(m/s)"}
 MOTION = closed_form_motion()
-CHOICES = {"time-history": Selection(channels=("block.x", "left.normal_force"))}
+CHOICES = {
+    name: Selection(channels=("block.x", "left.normal_force")) for name in ("time-history", "xy")
+}
 CASES = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER} | {
     "bifurcation": (bifurcation(points=60), "bifurcation", None),
     "with verdicts": (
@@ -25,6 +28,7 @@ CASES = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER} | {
         "bifurcation",
         None,
     ),
+    "exponents": (bifurcation(points=60, judged=True), "exponents", None),
     "in both directions": (bifurcation(points=40, judged=True, both=True), "bifurcation", None),
     "over decades": (
         bifurcation(points=60, logarithmic=True, low=1e-6),
@@ -86,6 +90,9 @@ def test_it_is_as_wide_as_a_journal_column(pictures):
 def test_its_axes_say_quantity_and_unit(case, figure):
     for axes in figure.axes:
         place = axes.get_subplotspec()
+        if axes.name == "polar":
+            assert axes.get_title("left").endswith("force [N]")
+            continue
         if case[0] is MOTION:
             assert axes.get_xlabel() or not place.is_last_row()
             assert axes.get_ylabel() or not place.is_first_col()

@@ -233,7 +233,7 @@ def test_what_cannot_be_shown_is_said(source, name, selection, says, cause):
 
 
 def test_an_unknown_figure_is_refused_with_those_there_are():
-    with pytest.raises(UnknownFigure, match="bifurcation, sweep, section"):
+    with pytest.raises(UnknownFigure, match="bifurcation, exponents, sweep"):
         figures.draw(sweep(), "orbit")
 
 
@@ -272,3 +272,18 @@ def test_long_numbers_of_a_map_stand_apart():
         saving.save(figure, "png")
         figure.draw_without_rendering()
         stand_apart(figure)
+
+
+def test_exponents_alone_are_drawn_with_their_verdicts():
+    source = bifurcation(points=60, judged=True)
+    (axes,) = drawn_with(source, "exponents", None).axes
+    shown = marks_of(axes)
+    for verdict, colour in ((1, colours.PERIODIC), (3, colours.CHAOTIC)):
+        chosen = source.verdicts == verdict
+        np.testing.assert_array_equal(
+            shown[colour.upper()][:, 1], source.indicators["lyapunov"][chosen]
+        )
+    with pytest.raises(NotDrawable, match="no exponents"):
+        figures.draw(bifurcation(points=3), "exponents")
+    with pytest.raises(NotDrawable, match="over one parameter"):
+        figures.draw(one_point(), "exponents")
