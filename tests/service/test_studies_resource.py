@@ -243,7 +243,7 @@ def test_a_simulation_has_no_sections_by_number(http, finished_job):
 
 def test_figures_of_a_study_are_listed_and_drawn(http, finished_study, finished_sweep):
     figures = get(http, f"/v1/jobs/{finished_study}/figures")["figures"]
-    assert [figure["name"] for figure in figures] == ["bifurcation"]
+    assert [figure["name"] for figure in figures] == ["bifurcation", "exponents"]
     assert http.get(figures[0]["png"]).content.startswith(b"\x89PNG")
     assert b"<svg" in http.get(figures[0]["svg"]).content
     one = http.get(f"/v1/jobs/{finished_study}/figures/section.png", params={"start": 4, "stop": 5})
