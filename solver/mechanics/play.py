@@ -71,6 +71,8 @@ class Contact:
     inner: Mapping[str, Scalar]
     """Inner states of the friction law, by name."""
     inner_rates: Sequence[Scalar]
+    film_loss: Scalar | None = None
+    """Power lost in the oil between journal and bearing, W, if there is any."""
 
     @property
     def contact_power(self) -> Scalar:
@@ -79,8 +81,9 @@ class Contact:
 
     @property
     def friction_loss(self) -> Scalar:
-        """Power lost to friction, W."""
-        return -(self.friction_force * self.slip_velocity)
+        """Power lost to friction, and in oil, W."""
+        rubbed = -(self.friction_force * self.slip_velocity)
+        return rubbed if self.film_loss is None else rubbed + self.film_loss
 
 
 def rub(
@@ -139,6 +142,12 @@ def contact(
     # eqs (13)-(17), on the journal: -(F_n n) + F_t t
     fx = -(normal_force * nx) - friction * ny
     fy = friction * nx - normal_force * ny
+    on_bearing, on_journal = -(bearing_radius * friction), journal_radius * friction
+    film = law.film(clearance, between.gap, between.rate, spins)
+    if film is not None:
+        fx, fy = fx + film.force[0], fy + film.force[1]
+        on_bearing = on_bearing + film.moment_on_bearing
+        on_journal = on_journal + film.moment_on_journal
     return Contact(
         name,
         "circle",
@@ -155,9 +164,10 @@ def contact(
             joint.bearing,
             joint.journal,
             (fx, fy),
-            moment_on_second=journal_radius * friction,
-            moment_on_first=-(bearing_radius * friction),
+            moment_on_second=on_journal,
+            moment_on_first=on_bearing,
         ),
         rubbing.inner,
         rubbing.inner_rates,
+        None if film is None else film.loss,
     )

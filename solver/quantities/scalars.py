@@ -45,7 +45,8 @@ def direction_angle(x: Scalar, y: Scalar) -> Scalar:
         return math.atan2(y, x)
     if isinstance(x, type_of_array) or isinstance(y, type_of_array):
         return np.arctan2(y, x)
-    tangent = y / (sqrt(x * x + y * y) + absolute(x) + SLIGHT)
+    reach = maximum(sqrt(x * x + y * y), absolute(y))  # squares may vanish
+    tangent = y / (reach + absolute(x) + SLIGHT)
     for _ in range(2):
         tangent = tangent / (1.0 + sqrt(1.0 + tangent * tangent))
     square = tangent * tangent

@@ -4,6 +4,7 @@ import math
 from abc import abstractmethod
 from typing import ClassVar
 
+from jointplay.solver.laws.contact.film import Film, Pair
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import Rule, Strict
@@ -30,6 +31,14 @@ class ContactLaw(Strict):
     @abstractmethod
     def elastic_energy(self, fit: Fit, depth: Scalar) -> Scalar:
         """Return the energy stored at a depth, J: what the force at rest gives back."""
+
+    def film(self, fit: Fit, eccentricity: Pair, rate: Pair, spins: Pair) -> Film | None:
+        """Return what oil between journal and bearing exerts, touching or apart, if there is any.
+
+        `eccentricity` (m) and its `rate` (m/s) in the world's axes, `spins` of bearing and journal
+        (rad/s).
+        """
+        return None
 
     def deepest(self, fit: Fit) -> Scalar:
         """Return the depth up to which the law is what its source says, m."""

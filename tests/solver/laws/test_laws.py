@@ -1,6 +1,7 @@
 """Every law in the rosters: the specification of its family, and what it alone promises."""
 
 import math
+from typing import ClassVar
 
 import pytest
 from hypothesis import assume, given
@@ -10,6 +11,7 @@ from scipy.integrate import quad
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
+from jointplay.solver.laws.contact.short_bearing_film import ShortBearingFilm
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
 from jointplay.solver.laws.friction.bengisu_akay import BengisuAkay
@@ -58,6 +60,18 @@ class TestStiffnessAndDissipation(ContactSpecification):
             StiffnessAndDissipation.model_validate({"stiffness": s, "dissipation": d})
             for s, d in PAIRS
         ]
+    )
+
+
+class TestShortBearingFilm(ContactSpecification):
+    """Its dry contact, which alone depends on a depth; the oil is tried beside it."""
+
+    model = ShortBearingFilm
+    oil: ClassVar[dict[str, float]] = {"viscosity": 0.1, "boundary_layer": 1e-5}
+    laws = st.just(
+        ShortBearingFilm.model_validate(
+            oil | {"stiffness": PAIRS[0][0], "dissipation": PAIRS[0][1]}
+        )
     )
 
 
@@ -126,6 +140,7 @@ def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> 
         TestLankaraniNikravesh.model,
         TestStiffnessAndDissipation.model,
         TestAdamsImpact.model,
+        TestShortBearingFilm.model,
         TestModifiedCoulomb.model,
         TestThrelfall.model,
         TestBengisuAkay.model,
