@@ -16,6 +16,7 @@ ALL = (
     "extremes",
     "lies",
     "platform",
+    "catalogue",
     "submission",
     "latency",
     "memory",

@@ -29,7 +29,9 @@ class Settings(BaseSettings):
         Path(".jointplay"), description="Folder of the catalogue, the results, the logs."
     )
     catalogue_url: str = Field(
-        "", description="SQLAlchemy URL of the catalogue; empty: SQLite inside the data folder."
+        "",
+        description="SQLAlchemy URL of the catalogue, sqlite:///FILE or postgresql://USER@HOST/NAME;"
+        " empty: SQLite inside the data folder.",
     )
     results_url: str = Field(
         "",
@@ -89,6 +91,16 @@ class Settings(BaseSettings):
         url = values.get("catalogue_url") or f"sqlite:///{data / 'catalogue.sqlite'}"
         results = values.get("results_url") or f"file:{data / 'results'}"
         return values | {"data": data, "catalogue_url": url, "results_url": results}
+
+    @field_validator("catalogue_url")
+    @classmethod
+    def _names_a_database(cls, url: str) -> str:
+        if not url.startswith(("sqlite:///", "postgresql://", "postgresql+psycopg://")):
+            raise ValueError(
+                "give an address such as sqlite:////srv/catalogue.sqlite or"
+                " postgresql://user@host/jointplay"
+            )
+        return url
 
     @field_validator("results_url")
     @classmethod

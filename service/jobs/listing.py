@@ -4,7 +4,7 @@ import re
 from datetime import UTC, datetime
 from typing import Annotated, Any
 
-from pydantic import AwareDatetime, BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, AwareDatetime, BaseModel, BeforeValidator, ConfigDict, Field
 
 from jointplay.records.job import is_job_id
 from jointplay.service.problems import RequestRefused
@@ -20,6 +20,19 @@ def _written(moment: object) -> object:
 
 _DATE = re.compile(r"\d{4}-\d{2}-\d{2}[Tt ]", re.ASCII)  # and no number of seconds
 Moment = Annotated[AwareDatetime, BeforeValidator(_written)]
+
+
+def _without_zero(name: str) -> str:
+    if "\0" in name:  # which PostgreSQL cannot be asked for
+        raise ValueError("No name has the character U+0000: leave it out")
+    return name
+
+
+Name = Annotated[
+    str,
+    Field(max_length=200, json_schema_extra={"pattern": r"^[^\u0000]*$"}),
+    AfterValidator(_without_zero),
+]
 
 
 class PageQuery(BaseModel):
@@ -50,11 +63,9 @@ class JobQuery(PageQuery):
         description="Only jobs of this kind.",
         json_schema_extra=lambda schema: schema.update(enum=[*KINDS]),
     )
-    label: str | None = Field(
-        default=None, max_length=200, description="Only jobs with exactly this label."
-    )
-    scene: str | None = Field(
-        default=None, max_length=200, description="Only jobs of this preset, or scene's name."
+    label: Name | None = Field(default=None, description="Only jobs with exactly this label.")
+    scene: Name | None = Field(
+        default=None, description="Only jobs of this preset, or scene's name."
     )
     since: Moment | None = Field(
         default=None, description="Only jobs submitted from this moment on, RFC 3339 with offset."

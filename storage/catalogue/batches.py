@@ -7,8 +7,10 @@ from sqlalchemy import func, insert, literal, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import (
+    TERMINAL,
     Batch,
     JobState,
     NewJob,
@@ -40,6 +42,7 @@ def submit_batch(
 ) -> SubmittedBatch:
     """Store a batch and all its jobs, or find the one an earlier request made."""
     if key is not None:
+        take_turns(unit.connection, key.number)
         earlier = earlier_answer(unit, key)
         if earlier is not None and earlier.batch is not None:
             found = select(_job.c.id).where(_job.c.batch == earlier.batch).order_by(_job.c.id)
@@ -82,6 +85,11 @@ def cancel_batch(unit: Unit, batch_id: str) -> Batch:
     """Cancel every job that has not ended, as `request_cancel` does; or BatchNotFound."""
     find_batch(unit, batch_id)
     queued = (_job.c.batch == batch_id) & (_job.c.state == JobState.queued)
+    if unit.shared:  # in the order that all others have
+        live = (_job.c.batch == batch_id) & _job.c.state.not_in(TERMINAL)
+        unit.execute(
+            select(_job.c.id).where(live).order_by(_job.c.id).with_for_update(key_share=True)
+        ).all()
     waiting = select(_job.c.id).where(queued)
     drop_blocks(unit, tables.block.c.job.in_(waiting), untouched=False)
     event = tables.event

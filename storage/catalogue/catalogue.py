@@ -3,7 +3,6 @@
 It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
-import time
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import AbstractContextManager
 from functools import update_wrapper
@@ -25,7 +24,7 @@ from jointplay.storage.catalogue import (
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
-from jointplay.storage.catalogue.errors import KeyReused, Unavailable
+from jointplay.storage.catalogue.errors import Interrupted, KeyReused, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.records import (
@@ -47,8 +46,11 @@ def _in_unit(
     begin: Callable[["Catalogue"], AbstractContextManager[Connection]],
 ) -> _Method[Given, Answer]:
     def method(catalogue: "Catalogue", /, *given: Given.args, **named: Given.kwargs) -> Answer:
-        with begin(catalogue) as connection:
-            return function(Unit(connection, catalogue.clock()), *given, **named)
+        def unit() -> Answer:
+            with begin(catalogue) as connection:
+                return function(Unit(connection, catalogue.clock()), *given, **named)
+
+        return catalogue.connections.repeated(unit)
 
     update_wrapper(method, function)
     return method
@@ -69,6 +71,11 @@ def _durably(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
     return _in_unit(function, lambda catalogue: catalogue.connections.writing(durable=True))
 
 
+def _claiming(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
+    """Make a method of a function that writes in one unit, which lasts as long as its caller."""
+    return _in_unit(function, lambda catalogue: catalogue.connections.claiming())
+
+
 class Catalogue:
     """One process's access to the catalogue; safe to share between threads, not across a fork.
 
@@ -79,23 +86,22 @@ class Catalogue:
     Parameters
     ----------
     url
-        SQLAlchemy URL, `sqlite:///file` or `postgresql+…`.
+        SQLAlchemy URL, `sqlite:///file` or `postgresql://user@host/database`.
     clock
-        Returns the present time.
+        Returns the present time; by default the database's, which all processes have.
     """
 
-    def __init__(self, url: str, *, clock: Callable[[], float] = time.time) -> None:
+    def __init__(self, url: str, *, clock: Callable[[], float] | None = None) -> None:
         self.connections = Connections(url)
-        self.clock = clock
+        self.clock = clock or self.connections.now
         self._identifiers = Identifiers()
         self._submissions = GroupCommit(self._submit, common=Unavailable)
 
     def migrate(self) -> None:
         """Create the tables or bring them up to date; several processes may do it at once."""
-        self.connections.make_file()
-        with self.connections.reading() as connection:
-            if schema.present_revision(connection) == schema.REVISION:
-                return
+        self.connections.make_database()
+        if self.connections.repeated(self._revision) == schema.REVISION:
+            return
         with self.connections.migrating() as connection:
             schema.upgrade(connection)
 
@@ -105,12 +111,20 @@ class Catalogue:
 
     def ping(self) -> None:
         """Raise if the database does not answer or its schema is not the present one."""
-        with self.connections.reading() as connection:
-            found = connection.execute(text("SELECT version_num FROM alembic_version")).scalar()
+        found = self.connections.repeated(self._named_revision)
         if found != schema.REVISION:
             raise RuntimeError(
                 f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
             )
+
+    def _revision(self) -> str | None:
+        with self.connections.reading() as connection:
+            return schema.present_revision(connection)
+
+    def _named_revision(self) -> str | None:
+        with self.connections.reading() as connection:
+            named = text("SELECT version_num FROM alembic_version")
+            return connection.execute(named).scalar_one_or_none()
 
     def flaws(self) -> tuple[str, ...]:
         """Return sentences on why nothing else can be asked of the database; none if it is sound.
@@ -122,6 +136,8 @@ class Catalogue:
                 return schema.flaws(connection)
         except DBAPIError as error:
             return (f"cannot be read: {error.orig}",)
+        except Interrupted:
+            return ("does not answer",)
 
     # What users ask for
 
@@ -145,6 +161,9 @@ class Catalogue:
         return answer
 
     def _submit(self, requests: Sequence[submission.Request]) -> list[Submitted | KeyReused]:
+        return self.connections.repeated(lambda: self._submit_once(requests))
+
+    def _submit_once(self, requests: Sequence[submission.Request]) -> list[Submitted | KeyReused]:
         now = self.clock()
         with self.connections.writing(durable=True) as connection:
             unit = Unit(connection, now)
@@ -171,11 +190,15 @@ class Catalogue:
         """
         if not 1 <= len(jobs) <= batches.LARGEST_BATCH:
             raise ValueError(f"a batch has 1 to {batches.LARGEST_BATCH} jobs, not {len(jobs)}")
-        now = self.clock()
-        identifier, *members = [self._identifiers.next(now) for _ in range(len(jobs) + 1)]
-        with self.connections.writing(durable=True) as connection:
-            unit = Unit(connection, now)
-            return batches.submit_batch(unit, identifier, members, jobs, label, key)
+
+        def submit() -> SubmittedBatch:
+            now = self.clock()
+            identifier, *members = [self._identifiers.next(now) for _ in range(len(jobs) + 1)]
+            with self.connections.writing(durable=True) as connection:
+                unit = Unit(connection, now)
+                return batches.submit_batch(unit, identifier, members, jobs, label, key)
+
+        return self.connections.repeated(submit)
 
     get = _reading(rows.find_job)
     batch = _reading(batches.find_batch)
@@ -206,7 +229,7 @@ class Catalogue:
 
     # What workers do
 
-    claim_block = _writing(holding.claim)
+    claim_block = _claiming(holding.claim)
     verdict = _reading(holding.verdict)
     heartbeat = _writing(holding.heartbeat)
     record_progress = _writing(holding.record_progress)

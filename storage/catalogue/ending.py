@@ -10,7 +10,7 @@ from sqlalchemy import func, insert, select, update
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.holding import change_held, sum_progress
+from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 from jointplay.storage.catalogue.submission import drop_blocks
@@ -58,15 +58,15 @@ def finish(
         fraction = 1.0
     if fraction is not None:
         changes["progress_fraction"] = fraction
-    job_id = change_held(unit, block_id, attempt, **changes)
-    job = lock_job(unit, job_id)
+    job = lock_held(unit, block_id, attempt)
+    change_held(unit, block_id, attempt, **changes)
     if (outcome is BlockState.failed) != (error is not None):
         raise ValueError("a failed block, and no other, has an error")
     if outcome is BlockState.cancelled and job.state is JobState.running:
-        raise ValueError(f"job {job_id} was not asked to be cancelled")
+        raise ValueError(f"job {job.id} was not asked to be cancelled")
     _end_attempt(unit, block_id, attempt, outcome.value)
-    sum_progress(unit, job_id)
-    return settle(unit, job_id, error)
+    sum_progress(unit, job.id)
+    return settle(unit, job.id, error)
 
 
 def settle(unit: Unit, job_id: str, error: JobError | None) -> JobState:
@@ -159,11 +159,11 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
 def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:
     """End an attempt without a result and return its job; Fenced if it does not hold the block."""
     free = {"state": BlockState.queued, "lease_until": None, "worker": None}
-    job_id = change_held(unit, block_id, attempt, **free, **changes)
-    job = lock_job(unit, job_id)
+    job = lock_held(unit, block_id, attempt)
+    change_held(unit, block_id, attempt, **free, **changes)
     _end_attempt(unit, block_id, attempt, outcome)
-    sum_progress(unit, job_id)
-    record_event(unit, job_id, outcome, {"block": block_id, "attempt": attempt})
+    sum_progress(unit, job.id)
+    record_event(unit, job.id, outcome, {"block": block_id, "attempt": attempt})
     return job
 
 

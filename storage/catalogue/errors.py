@@ -1,5 +1,10 @@
 """Errors of requests to the catalogue, independent of HTTP."""
 
+from typing import Final
+
+BUSY: Final = "is held by another program"
+SILENT: Final = "does not answer"
+
 
 class CatalogueError(Exception):
     """Base of the catalogue's own errors."""
@@ -14,6 +19,10 @@ class Unavailable(CatalogueError):
     def __init__(self, reason: str, *, full: bool = False) -> None:
         super().__init__(f"the catalogue {reason}")
         self.full = full
+
+
+class Interrupted(Unavailable):
+    """A unit was broken off, and may be begun anew at once: nothing it did is left."""
 
 
 class JobNotFound(CatalogueError):

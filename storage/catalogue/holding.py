@@ -8,10 +8,17 @@ from typing import Any
 
 from sqlalchemy import ColumnElement, and_, case, delete, func, insert, select, update
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import functions, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import Block, BlockState, Claim, JobState, Verdict
+from jointplay.storage.catalogue.records import (
+    Block,
+    BlockState,
+    Claim,
+    Job,
+    JobState,
+    Verdict,
+)
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 
 _block = tables.block
@@ -19,6 +26,8 @@ _block = tables.block
 
 def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
     """Take a queued block for `lease` seconds; none if there is nothing (left) to do."""
+    if unit.shared:
+        return functions.claim(unit, block_id, worker, lease)
     job_id = unit.execute(select(_block.c.job).where(_block.c.id == block_id)).scalar_one_or_none()
     if job_id is None:
         return None
@@ -73,6 +82,16 @@ def change_held(unit: Unit, block_id: str, attempt: int, **values: Any) -> str:
     return str(job_id)
 
 
+def lock_held(unit: Unit, block_id: str, attempt: int) -> Job:
+    """Lock and return the job of a block; Fenced if there is no such block."""
+    of_block = select(tables.job).join(_block, _block.c.job == tables.job.c.id)
+    locked = of_block.where(_block.c.id == block_id).with_for_update(of=tables.job, key_share=True)
+    row = unit.execute(locked).one_or_none()
+    if row is None:
+        raise Fenced(block_id, attempt)
+    return Job(**row._mapping)
+
+
 def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     """Return whether this attempt should go on, reading only; Fenced if it lost the block."""
     state = unit.execute(
@@ -105,6 +124,10 @@ def record_progress(
 
     Coming further than any attempt before ends a row of losses.
     """
+    if unit.shared:
+        return functions.record_progress(
+            unit, block_id, attempt, lease, time=time, fraction=fraction, steps=steps
+        )
     job_id = change_held(
         unit,
         block_id,

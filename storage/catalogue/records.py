@@ -3,9 +3,16 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from hashlib import blake2b
 from typing import Any
 
 from jointplay.records.job import JobError
+
+
+def number_of(kind: str, name: str) -> int:
+    """Return a number of 64 bits with a sign for a name."""
+    digest = blake2b(f"{kind} {name}".encode("utf-8", "surrogatepass"), digest_size=8)
+    return int.from_bytes(digest.digest(), signed=True)
 
 
 class JobState(StrEnum):
@@ -85,6 +92,11 @@ class NewJob(JobRequest):
     blocks: tuple[tuple[int, int], ...] = ((0, 1),)
     seal: bool = False
 
+    @property
+    def number(self) -> int:
+        """Sixty-four bits of what is computed, by which units that look for it take turns."""
+        return number_of("computes", self.digest)
+
 
 @dataclass(frozen=True)
 class SubmissionKey:
@@ -93,6 +105,11 @@ class SubmissionKey:
     key: str
     fingerprint: str
     seconds: float = 86_400.0  # how long the key is remembered
+
+    @property
+    def number(self) -> int:
+        """Sixty-four bits of the key, by which units that look for it take turns."""
+        return number_of("key", self.key)
 
 
 @dataclass(frozen=True, kw_only=True)

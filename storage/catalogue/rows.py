@@ -18,14 +18,18 @@ job_table = tables.job
 def find_job(unit: Unit, job: str, *, locked: bool = False) -> Job:
     """Return a job; JobNotFound if there is none."""
     found = select(job_table).where(job_table.c.id == job)
-    row = unit.execute(found.with_for_update() if locked else found).one_or_none()
+    row = unit.execute(found.with_for_update(key_share=True) if locked else found).one_or_none()
     if row is None:
         raise JobNotFound(job)
     return Job(**row._mapping)
 
 
 def lock_job(unit: Unit, job: str) -> Job:
-    """Return a job and keep others from changing it until the unit ends (SQLite: they wait)."""
+    """Return a job and keep others from changing it until the unit ends (SQLite: they wait).
+
+    Comes before every change of its blocks: two units that lock both in one order never wait for
+    each other.
+    """
     return find_job(unit, job, locked=True)
 
 

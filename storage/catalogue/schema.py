@@ -2,9 +2,9 @@
 
 from sqlalchemy import Connection, inspect, text
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import functions, tables
 
-REVISION = "0001"  # the newest migration; a test compares it with the folder storage/migrations
+REVISION = "0002"  # the newest migration; a test compares it with the folder storage/migrations
 
 
 def present_revision(connection: Connection) -> str | None:
@@ -31,6 +31,7 @@ def upgrade(connection: Connection) -> None:
     configuration.attributes["connection"] = connection
     if present_revision(connection) is None:
         tables.metadata.create_all(connection)
+        functions.make(connection)
         command.stamp(configuration, "head")
     else:
         command.upgrade(configuration, "head")

@@ -18,6 +18,7 @@ from sqlalchemy import (
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import KeyReused
 from jointplay.storage.catalogue.records import (
     Block,
@@ -65,6 +66,9 @@ def submit(
 
     The requests are answered as if one came after the other; new jobs are stored together.
     """
+    looked_for = [one.new.number for one in requests if one.reuse]
+    looked_for += [one.key.number for one in requests if one.key is not None]
+    take_turns(unit.connection, *looked_for)
     answers: list[Submitted | KeyReused] = []
     fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()

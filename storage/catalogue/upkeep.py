@@ -5,6 +5,7 @@ were.
 """
 
 from collections.abc import Sequence
+from operator import attrgetter
 
 from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
 
@@ -101,15 +102,19 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
     """
     block = tables.block
     lost = (block.c.lease_until < unit.now) | block.c.worker.in_(ended)
-    expired = unit.execute(
+    found = unit.execute(
         select(block.c.id, block.c.attempt, block.c.job)
         .where(block.c.state == BlockState.running, lost)
         .order_by(block.c.lease_until, block.c.id)
         .limit(_REAP_AT_ONCE)
-        .with_for_update(skip_locked=True)
     ).all()
     requeued, ended = [], []
-    for row in expired:
+    for row in sorted(found, key=attrgetter("job")):  # locked in the order that all others have
+        lock_job(unit, row.job)
+        same = (block.c.id == row.id) & (block.c.attempt == row.attempt)
+        still = select(block.c.id).where(same, block.c.state == BlockState.running, lost)
+        if unit.execute(still.with_for_update()).one_or_none() is None:
+            continue  # its worker was heard of meanwhile
         outcome = lose(unit, row.id, row.attempt, max_attempts)
         if outcome is BlockState.queued:
             requeued.append(row.id)

@@ -70,6 +70,8 @@ def test_pages_hold_every_job_once_newest_first_while_jobs_arrive(fresh_service)
         {"state": "asleep"},
         {"kind": "simulation"},
         {"label": "x" * 201},
+        {"label": "a\0b"},
+        {"scene": "\0"},
         {"since": "yesterday"},
         {"since": "2026-01-01T00:00:00"},  # of which time zone?
         {"before": "2026-01-01T00:00:00Z", "since": "2026-01-02T00:00:00Z"},

@@ -34,6 +34,7 @@ def test_a_relative_folder_means_the_same_in_every_process(
         ("JOINTPLAY_REDIS_URL", "localhost:6379", "redis://host:6379/0"),
         ("JOINTPLAY_REDIS_URL", "", "redis://host:6379/0"),
         ("JOINTPLAY_MAX_ATTEMPTS", "many", "integer"),
+        ("JOINTPLAY_CATALOGUE_URL", "mysql://localhost/jobs", "postgresql://user@host/jointplay"),
     ],
 )
 def test_impossible_settings_are_refused(

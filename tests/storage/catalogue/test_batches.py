@@ -1,4 +1,5 @@
 import sqlite3
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -131,9 +132,12 @@ def test_an_unknown_batch_is_named(catalogue: Catalogue) -> None:
         catalogue.cancel_batch("nothing")
 
 
-def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index(catalogue: Catalogue) -> None:
+def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index_in_sqlite(
+    new_file: Callable[[], str],
+) -> None:
     """However many wait: a scan or a sort of 100 000 rows twice a second would be felt."""
     statements: list[str] = []
+    catalogue = Catalogue(new_file())
     connection = catalogue.connections
     batch = catalogue.submit_batch([NEW] * 3).batch.id
     with connection.reading() as reading:
@@ -148,3 +152,4 @@ def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index(catalogue: Ca
     plans = [row[-1] for s in selects for row in raw.execute(f"EXPLAIN QUERY PLAN {s}")]
     assert not any("SCAN" in plan or "TEMP B-TREE" in plan for plan in plans), plans
     assert sum("USING COVERING INDEX" in plan for plan in plans) >= 4, plans
+    catalogue.close()

@@ -278,8 +278,10 @@ def test_ids_sort_by_time_also_within_a_millisecond_and_when_the_clock_steps_bac
     assert {len(identifier) for identifier in ids} == {26}
 
 
-def test_what_was_accepted_is_durable_and_progress_is_cheap(new_url: Callable[[], str]) -> None:
-    catalogue = Catalogue(new_url())
+def test_what_was_accepted_is_durable_and_progress_is_cheap_in_sqlite(
+    new_file: Callable[[], str],
+) -> None:
+    catalogue = Catalogue(new_file())
     modes = {}
     for durable in (True, False):
         with catalogue.connections.writing(durable=durable) as connection:
@@ -299,8 +301,8 @@ def test_a_reader_is_not_held_up_by_a_writer(catalogue: Catalogue) -> None:
         assert catalogue.get(job).id == job
 
 
-def test_a_busy_database_is_waited_for(new_url: Callable[[], str], clock: Clock) -> None:
-    url = new_url()
+def test_a_busy_file_is_waited_for_in_sqlite(new_file: Callable[[], str], clock: Clock) -> None:
+    url = new_file()
     catalogue = Catalogue(url, clock=clock)
     other = sqlite3.connect(Path(url.removeprefix("sqlite:///")), isolation_level=None)
     other.execute("BEGIN IMMEDIATE")

@@ -1,13 +1,10 @@
 """The catalogue against a plain model of it: any sequence of requests, faults and late workers."""
 
 import itertools
-import shutil
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import hypothesis.strategies as st
 import pytest
@@ -19,6 +16,7 @@ from hypothesis.stateful import (
     multiple,
     precondition,
     rule,
+    run_state_machine_as_test,
 )
 
 from jointplay.records.job import JobError
@@ -32,6 +30,7 @@ from jointplay.storage.catalogue.records import (
     SubmissionKey,
     Verdict,
 )
+from tests.postgresql_server import Server
 
 LEASE = 30.0
 MAX_ATTEMPTS = 3
@@ -57,32 +56,24 @@ class ModelJob:
     error_class: str | None = None
 
 
-@cache
-def template() -> Path:
-    path = Path(tempfile.mkdtemp()) / "empty.sqlite"
-    catalogue = Catalogue(f"sqlite:///{path}")
-    catalogue.migrate()
-    catalogue.close()
-    return path
-
-
 class CatalogueModel(RuleBasedStateMachine):
+    """Of the database of which `made` makes a catalogue, and `drop` removes it."""
+
     blocks = Bundle("blocks")
+    made: ClassVar[Callable[[], str]]
+    drop: ClassVar[Callable[[str], None]]
 
     def __init__(self) -> None:
         super().__init__()
-        self.folder = Path(tempfile.mkdtemp())
-        shutil.copyfile(template(), self.folder / "catalogue.sqlite")
+        self.url = type(self).made()
         self.now = 1_800_000_000.0
-        self.catalogue = Catalogue(
-            f"sqlite:///{self.folder / 'catalogue.sqlite'}", clock=lambda: self.now
-        )
+        self.catalogue = Catalogue(self.url, clock=lambda: self.now)
         self.model: dict[str, ModelJob] = {}
         self.keys: dict[str, tuple[str, str, float]] = {}
 
     def teardown(self) -> None:
         self.catalogue.close()
-        shutil.rmtree(self.folder)
+        type(self).drop(self.url)
 
     def find(self, block: tuple[str, int]) -> tuple[ModelJob, ModelBlock, str]:
         job = self.model[block[0]]
@@ -349,12 +340,28 @@ class CatalogueModel(RuleBasedStateMachine):
             assert len(open_attempts) == len(running)
 
 
-TestCatalogueModel = CatalogueModel.TestCase
-TestCatalogueModel.settings = settings(
-    max_examples=60,
-    stateful_step_count=30,
-    deadline=None,
-    derandomize=True,
-    phases=(Phase.explicit, Phase.generate),  # shrinking takes minutes: do it by hand
-    suppress_health_check=[HealthCheck.too_slow],
-)
+def tried(examples: int, made: Callable[[], str], drop: Callable[[str], None]) -> None:
+    """Compare catalogue and model over some sequences."""
+
+    class OfThisDatabase(CatalogueModel):
+        pass
+
+    OfThisDatabase.made, OfThisDatabase.drop = staticmethod(made), staticmethod(drop)
+    chosen = settings(
+        max_examples=examples,
+        stateful_step_count=30,
+        deadline=None,
+        derandomize=True,
+        phases=(Phase.explicit, Phase.generate),  # shrinking takes minutes: do it by hand
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+    run_state_machine_as_test(OfThisDatabase, settings=chosen)  # type: ignore[no-untyped-call]
+
+
+def test_the_catalogue_is_as_its_model_in_sqlite(new_file: Callable[[], str]) -> None:
+    tried(60, new_file, lambda url: Path(url.removeprefix("sqlite:///")).unlink())
+
+
+@pytest.mark.parametrize("examples", [4, pytest.param(60, marks=pytest.mark.long)])
+def test_the_catalogue_is_as_its_model_in_postgresql(postgresql: Server, examples: int) -> None:
+    tried(examples, postgresql.new, postgresql.drop)

@@ -1,4 +1,5 @@
 import multiprocessing
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,17 @@ from alembic.util import CommandError
 from jointplay.storage.catalogue import schema, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import NewJob
+from tests.postgresql_server import Server
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def nothing(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """Name a database without tables."""
+    if request.param == "sqlite":
+        return f"sqlite:///{tmp_path / 'new' / 'catalogue.sqlite'}"
+    server: Server = request.getfixturevalue("postgresql")
+    return server.new("template0")
 
 
 def migrate(url: str) -> None:
@@ -20,8 +32,8 @@ def migrate(url: str) -> None:
     catalogue.close()
 
 
-def test_migrations_build_exactly_the_tables_of_the_code(empty_catalogue: Path) -> None:
-    catalogue = Catalogue(f"sqlite:///{empty_catalogue}")
+def test_migrations_build_exactly_the_tables_of_the_code(new_url: Callable[[], str]) -> None:
+    catalogue = Catalogue(new_url())
     with catalogue.connections.reading() as connection:
         context = MigrationContext.configure(connection, opts={"compare_type": True})
         assert compare_metadata(context, tables.metadata) == []
@@ -34,10 +46,8 @@ def test_the_code_knows_the_newest_revision() -> None:
     assert ScriptDirectory.from_config(configuration).get_current_head() == schema.REVISION
 
 
-def test_a_catalogue_of_another_revision_is_left_alone(tmp_path: Path) -> None:
-    url = f"sqlite:///{tmp_path / 'old.sqlite'}"
-    migrate(url)
-    catalogue = Catalogue(url)
+def test_a_catalogue_of_another_revision_is_left_alone(new_url: Callable[[], str]) -> None:
+    catalogue = Catalogue(new_url())
     with catalogue.connections.writing() as connection:
         connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
     with pytest.raises(CommandError, match="9999"):
@@ -47,8 +57,22 @@ def test_a_catalogue_of_another_revision_is_left_alone(tmp_path: Path) -> None:
     catalogue.close()
 
 
-def test_several_processes_may_migrate_at_once(tmp_path: Path) -> None:
-    url = f"sqlite:///{tmp_path / 'new' / 'catalogue.sqlite'}"
+def test_the_first_revision_is_brought_to_the_newest(new_url: Callable[[], str]) -> None:
+    catalogue = Catalogue(new_url())
+    with catalogue.connections.writing() as connection:
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '0001'")
+        if connection.dialect.name == "postgresql":
+            connection.exec_driver_sql("DROP FUNCTION claim_block, record_progress")
+    catalogue.migrate()
+    catalogue.ping()
+    job = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job.id
+    assert catalogue.claim_block(f"{job}-0", "worker", 30)
+    catalogue.record_progress(f"{job}-0", 1, 30, time=1.0, fraction=0.5)
+    catalogue.close()
+
+
+def test_several_processes_may_migrate_at_once(nothing: str) -> None:
+    url = nothing
     context = multiprocessing.get_context("spawn")
     processes = [context.Process(target=migrate, args=(url,)) for _ in range(3)]
     for process in processes:
@@ -58,15 +82,15 @@ def test_several_processes_may_migrate_at_once(tmp_path: Path) -> None:
     assert [process.exitcode for process in processes] == [0, 0, 0]
 
 
-def test_an_empty_database_is_not_ready(tmp_path: Path) -> None:
-    (tmp_path / "catalogue.sqlite").touch()
-    catalogue = Catalogue(f"sqlite:///{tmp_path / 'catalogue.sqlite'}")
+def test_an_empty_database_is_not_ready(nothing: str) -> None:
+    catalogue = Catalogue(nothing)
+    catalogue.connections.make_database()
     with pytest.raises(Exception, match="alembic_version"):
         catalogue.ping()
     catalogue.close()
 
 
-def test_a_database_that_is_gone_is_missed_and_not_made_anew(tmp_path: Path) -> None:
+def test_a_file_that_is_gone_is_missed_and_not_made_anew_in_sqlite(tmp_path: Path) -> None:
     file = tmp_path / "catalogue.sqlite"
     catalogue = Catalogue(f"sqlite:///{file}")
     catalogue.migrate()

@@ -1,4 +1,8 @@
-"""Submissions at the same time share a transaction, and nothing else."""
+"""Submissions at the same time share a transaction, and nothing else: in SQLite.
+
+There a writer holds up all others, by which these tests have submissions gather; of PostgreSQL see
+`test_shared_database.py`.
+"""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -48,8 +52,8 @@ def at_the_same_time(
     return found, len(begun)
 
 
-def test_many_jobs_are_stored_in_few_transactions(new_url: Callable[[], str]) -> None:
-    url = new_url()
+def test_many_jobs_are_stored_in_few_transactions(new_file: Callable[[], str]) -> None:
+    url = new_file()
     catalogue = Catalogue(url)
     news = [replace(NEW, digest=f"{index:064}") for index in range(MANY)]
     found, transactions = at_the_same_time(
@@ -66,8 +70,8 @@ def test_many_jobs_are_stored_in_few_transactions(new_url: Callable[[], str]) ->
     catalogue.close()
 
 
-def test_of_equal_jobs_one_is_made(new_url: Callable[[], str]) -> None:
-    url = new_url()
+def test_of_equal_jobs_one_is_made(new_file: Callable[[], str]) -> None:
+    url = new_file()
     catalogue = Catalogue(url)
     found, _ = at_the_same_time(catalogue, url, [lambda: catalogue.submit(NEW, reuse=True)] * MANY)
     assert len({answer.job.id for answer in found}) == 1
@@ -75,8 +79,8 @@ def test_of_equal_jobs_one_is_made(new_url: Callable[[], str]) -> None:
     catalogue.close()
 
 
-def test_whoever_is_refused_spoils_nothing(new_url: Callable[[], str]) -> None:
-    url = new_url()
+def test_whoever_is_refused_spoils_nothing(new_file: Callable[[], str]) -> None:
+    url = new_file()
     catalogue = Catalogue(url)
     catalogue.submit(NEW, SubmissionKey("known", "a"))
     unstorable = replace(NEW, label="\ud800")  # not a text that has UTF-8

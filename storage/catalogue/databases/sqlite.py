@@ -1,0 +1,131 @@
+"""SQLite: a file on a disk that all processes share.
+
+One write-ahead log, every writing unit starts with BEGIN IMMEDIATE. A deferred BEGIN that reads
+first and writes later fails at once under contention, whatever the busy timeout.
+"""
+
+import sqlite3
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+from urllib.parse import quote
+
+from sqlalchemy import URL, Connection, Engine, create_engine, event
+from sqlalchemy.exc import DBAPIError, InterfaceError, OperationalError
+
+from jointplay.storage.catalogue.errors import BUSY, SILENT, Unavailable
+
+_NEW_DATABASE_PATIENCE = 30.0
+_CANNOT = ("SQLITE_IOERR", "SQLITE_CANTOPEN", "SQLITE_PROTOCOL", "SQLITE_READONLY")
+
+
+class SQLite:
+    """See `storage.catalogue.databases.Database`. Writing units of one process take turns.
+
+    Parameters
+    ----------
+    url
+        Of a file, which `make` makes.
+    patience
+        Seconds that a unit waits for others.
+    """
+
+    apart = False
+
+    def __init__(self, url: URL, patience: float) -> None:
+        if not url.database or url.database == ":memory:":
+            raise ValueError(f"the catalogue needs a file, such as sqlite:///jobs.sqlite: {url}")
+        self._file = Path(url.database)
+        # not made by a connection: an empty file would stand in for one that is gone
+        existing = {"mode": "rw", "uri": "true"}
+        url = url.set(database=f"file:{quote(url.database)}", query=existing)
+        self._patience = patience
+        self._readers = self._engine(url, "NORMAL", "BEGIN")
+        self._writer = self._engine(url, "NORMAL", "BEGIN IMMEDIATE")
+        # what a submission answers with 202 must survive a power cut; progress need not
+        self._durable_writer = self._engine(url, "FULL", "BEGIN IMMEDIATE")
+        self._turn = threading.Lock()  # without the database's lock, for which others only poll
+
+    def _engine(
+        self, url: URL, synchronous: Literal["NORMAL", "FULL"], begin_statement: str
+    ) -> Engine:
+        engine = create_engine(url)
+
+        @event.listens_for(engine, "connect")
+        def _configure(dbapi_connection: Any, _record: object) -> None:
+            dbapi_connection.isolation_level = None  # no implicit BEGIN: ours comes below
+            cursor = dbapi_connection.cursor()
+            cursor.execute(f"PRAGMA busy_timeout={self._patience * 1000:.0f}")
+            _write_ahead(cursor)
+            cursor.execute(f"PRAGMA synchronous={synchronous}")
+            cursor.execute("PRAGMA foreign_keys=ON")
+            cursor.close()
+
+        @event.listens_for(engine, "begin")
+        def _begin(connection: Connection) -> None:
+            connection.exec_driver_sql(begin_statement)
+
+        return engine
+
+    def make(self) -> None:
+        """Make the file and its folder, where there are none yet."""
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        self._file.touch()
+
+    @contextmanager
+    def reading(self) -> Iterator[Connection]:
+        """Open a view of the database as it is; writers go on."""
+        with self._readers.begin() as connection:
+            yield connection
+
+    @contextmanager
+    def writing(self, *, durable: bool) -> Iterator[Connection]:
+        """Begin a unit that no other process can enter; `durable` waits for the disk."""
+        engine = self._durable_writer if durable else self._writer
+        if not self._turn.acquire(timeout=self._patience):
+            raise Unavailable(BUSY)
+        try:
+            with engine.begin() as connection:
+                yield connection
+        finally:
+            self._turn.release()
+
+    def now(self) -> float:
+        """Return the time of this machine, which is everybody's."""
+        return time.time()
+
+    def fault(self, error: DBAPIError) -> Unavailable | None:
+        """Recognise a full disk, a database that others hold, and a file out of reach."""
+        name = getattr(error.orig, "sqlite_errorname", "")
+        if name == "SQLITE_FULL":
+            return Unavailable("has no room left on its disk", full=True)
+        if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
+            return Unavailable(BUSY)
+        lost = isinstance(error, (OperationalError, InterfaceError)) or error.connection_invalidated
+        if name.startswith(_CANNOT) or (lost and not name):
+            return Unavailable(SILENT)
+        return None
+
+    def close(self) -> None:
+        """Close every connection."""
+        for engine in (self._readers, self._writer, self._durable_writer):
+            engine.dispose()
+
+
+def _write_ahead(cursor: sqlite3.Cursor) -> None:
+    """Have the database keep a write-ahead log.
+
+    A database that is new to it is locked for a moment, for which SQLite does not wait by itself.
+    """
+    give_up = time.monotonic() + _NEW_DATABASE_PATIENCE
+    while True:
+        try:
+            cursor.execute("PRAGMA journal_mode=WAL")
+            return
+        except sqlite3.OperationalError:
+            if time.monotonic() > give_up:
+                raise
+            time.sleep(0.01)

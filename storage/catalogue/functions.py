@@ -1,0 +1,143 @@
+"""Operations that PostgreSQL carries out by itself, each in one exchange with it.
+
+They do what the statements of `holding` do one by one, as which SQLite, that is asked without a
+network between, carries them out; the specifications of the catalogue are those of both. The job is
+locked first: every later statement of a function sees what others committed before that.
+"""
+
+from typing import Final
+
+from sqlalchemy import Connection, text
+
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.errors import Fenced
+from jointplay.storage.catalogue.records import Block, Claim, Job, JobState, Verdict
+
+FUNCTIONS: Final = (
+    """
+CREATE OR REPLACE FUNCTION claim_block(wanted text, claimant text, moment float8, lease float8)
+RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
+#variable_conflict use_column
+DECLARE
+  last integer;
+BEGIN
+  SELECT * INTO of_job FROM job
+    WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
+  IF NOT FOUND OR of_job.state IN ('succeeded', 'failed', 'cancelled') THEN
+    RETURN;
+  END IF;
+  UPDATE block
+    SET state = 'running', attempt = attempt + 1, lease_until = moment + lease, worker = claimant
+    WHERE id = wanted AND state = 'queued' RETURNING * INTO held;
+  IF NOT FOUND THEN
+    RETURN;
+  END IF;
+  DELETE FROM outbox WHERE block = wanted;
+  INSERT INTO attempt (block, number, worker, started)
+    VALUES (wanted, held.attempt, claimant, moment);
+  SELECT coalesce(max(seq), 0) INTO last FROM event WHERE job = of_job.id;
+  IF of_job.state = 'queued' THEN
+    last := last + 1;
+    INSERT INTO event (job, seq, time, type, data)
+      VALUES (of_job.id, last, moment, 'running', '{}');
+  END IF;
+  INSERT INTO event (job, seq, time, type, data)
+    VALUES (of_job.id, last + 1, moment, 'claimed',
+      json_build_object('block', wanted, 'attempt', held.attempt, 'worker', claimant));
+  UPDATE job
+    SET attempt = greatest(attempt, held.attempt), started = coalesce(started, moment),
+      state = CASE state WHEN 'queued' THEN 'running' ELSE state END
+    WHERE id = of_job.id RETURNING * INTO of_job;
+  RETURN NEXT;
+END $$
+""",
+    """
+CREATE OR REPLACE FUNCTION record_progress(wanted text, number integer, until float8,
+  reached float8, fraction float8, done bigint)
+RETURNS text LANGUAGE plpgsql AS $$
+#variable_conflict use_column
+DECLARE
+  of_job text;
+  answer text;
+BEGIN
+  SELECT id, state INTO of_job, answer FROM job
+    WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
+  UPDATE block
+    SET lease_until = until, progress_time = reached, progress_fraction = fraction,
+      losses = CASE WHEN progress_fraction < fraction THEN 0 ELSE losses END,
+      progress_steps = coalesce(done, progress_steps)
+    WHERE id = wanted AND attempt = number AND state = 'running';
+  IF NOT FOUND THEN
+    RETURN NULL;
+  END IF;
+  UPDATE job
+    SET progress_fraction = of_all.fraction, progress_time = of_all.reached, steps = of_all.steps,
+      activity = NULL
+    FROM (
+      SELECT sum(count * progress_fraction) / sum(count) AS fraction,
+        max(progress_time) AS reached, sum(progress_steps) AS steps
+      FROM block WHERE job = of_job) AS of_all
+    WHERE id = of_job;
+  RETURN answer;
+END $$
+""",
+)
+"""A migration that changes one of them calls `make` again."""
+
+
+def make(connection: Connection) -> None:
+    """Make the functions, or replace them by those of this version, where there can be any."""
+    if connection.dialect.name == "postgresql":
+        for function in FUNCTIONS:
+            connection.exec_driver_sql(function)
+
+
+def _columns(record: str, names: list[str]) -> str:
+    return ", ".join(f'({record})."{name}"' for name in names)
+
+
+_BLOCK, _JOB = ([column.name for column in table.c] for table in (tables.block, tables.job))
+_CLAIM = text(
+    f"SELECT {_columns('held', _BLOCK)}, {_columns('of_job', _JOB)}"  # noqa: S608 - our own names
+    " FROM claim_block(:wanted, :claimant, :moment, :lease)"
+).columns(*tables.block.c, *tables.job.c)
+_PROGRESS = text(
+    "SELECT record_progress(:wanted, :number, :until, :reached, :fraction, CAST(:done AS bigint))"
+)
+
+
+def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
+    """See `holding.claim`."""
+    asked = {"wanted": block_id, "claimant": worker, "moment": unit.now, "lease": lease}
+    row = unit.execute(_CLAIM, asked).one_or_none()
+    if row is None:
+        return None
+    held = dict(zip(_BLOCK, row, strict=False))
+    of_job = dict(zip(_JOB, row[len(_BLOCK) :], strict=True))
+    return Claim(Block(**held), Job(**of_job))
+
+
+def record_progress(
+    unit: Unit,
+    block_id: str,
+    attempt: int,
+    lease: float,
+    *,
+    time: float,
+    fraction: float,
+    steps: int | None = None,
+) -> Verdict:
+    """See `holding.record_progress`."""
+    asked = {
+        "wanted": block_id,
+        "number": attempt,
+        "until": unit.now + lease,
+        "reached": time,
+        "fraction": fraction,
+        "done": steps,
+    }
+    state = unit.execute(_PROGRESS, asked).scalar_one()
+    if state is None:
+        raise Fenced(block_id, attempt)
+    return Verdict.go_on if state == JobState.running else Verdict.cancel
