@@ -1,10 +1,12 @@
 import signal
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
 from jointplay.command_line.application import run
+from jointplay.service.processes import running_service
 from tests.service_in_thread import (
     application,
     catalogue,
@@ -67,3 +69,17 @@ def jointplay(capsys: pytest.CaptureFixture[str]) -> Jointplay:
         return Ended(code, out, err)
 
     return call
+
+
+class Service(NamedTuple):
+    """Broker, API, relay and two workers, as `jointplay serve` runs them."""
+
+    url: str
+    data: Path
+
+
+@pytest.fixture(scope="session")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    data = tmp_path_factory.mktemp("service") / "data"
+    with running_service(data, workers=2) as url:
+        yield Service(url, data)

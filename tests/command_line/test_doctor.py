@@ -1,13 +1,13 @@
 """`jointplay doctor`: what it prints, its exit codes, and that it disturbs no worker."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
 
 from jointplay.client import Client
 from jointplay.command_line.application import run
-from jointplay.service.processes import running_service
 from tests.storage.reconciliation.installation import Installed, installed
 
 __all__ = ["installed"]
@@ -50,11 +50,11 @@ def test_what_is_wrong_is_told_in_a_table_mended_and_left(jointplay, installed: 
     assert jointplay("doctor", data).code == 0
 
 
-def test_beside_workers_it_finds_nothing_and_changes_nothing(jointplay, tmp_path: Path) -> None:
+def test_beside_workers_it_finds_nothing_and_changes_nothing(jointplay, service) -> None:
     """Jobs come, are computed and end while it looks, again and again."""
-    data = tmp_path / "data"
+    url, data = service
     looks = 0
-    with running_service(data, workers=2) as url, Client(url) as client:
+    with Client(url) as client:
         jobs = [client.simulate("pendulum", duration=1.0 + n) for n in range(6)]
         jobs += [client.sweep("pendulum", {"angle": [0.1, 0.3 + n]}, duration=1) for n in range(3)]
         while not all(job.refresh().is_finished for job in jobs) or looks < 2:
@@ -66,11 +66,16 @@ def test_beside_workers_it_finds_nothing_and_changes_nothing(jointplay, tmp_path
     assert jointplay("doctor", data).code == 0
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    folder = tmp_path / "OUT"
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("ran") / "OUT"
     assert run(["run", "pendulum", "--duration", "0.1", "-o", str(folder)]) == 0
     return folder
+
+
+@pytest.fixture
+def folder(ran: Path, tmp_path: Path) -> Path:
+    return shutil.copytree(ran, tmp_path / "OUT")
 
 
 def test_nothing_is_wrong_with_what_a_run_left(jointplay, folder: Path) -> None:

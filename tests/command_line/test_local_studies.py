@@ -140,7 +140,7 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
     tmp_path, processes
 ):
     output = tmp_path / "OUT"
-    long = ["--bifurcation", "clearance=1e-4:5e-4:400", "--settle", "0", "--record", "2000"]
+    long = ["--bifurcation", "clearance=1e-4:5e-4:400", "--settle", "0", "--record", "500"]
     with subprocess.Popen(
         [sys.executable, "-m", "jointplay", *CRANK, *long, "--processes", processes, "-o", output],
         stderr=subprocess.PIPE,

@@ -1,7 +1,7 @@
 """`jointplay verify`: a repetition gives the same bits, and one changed value is found."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from jointplay.client import Client
-from jointplay.service.processes import running_service
 from jointplay.solver.kinds import admit
 from jointplay.storage.packed import Packed, files_at, pack
 from jointplay.storage.results import manifest, shards
@@ -183,28 +182,22 @@ def test_a_job_that_was_cancelled_has_no_end_to_compare(jointplay, swing: Path) 
     assert "is cancelled; only what ended by itself ends alike" in ended.err
 
 
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path]]:
-    data = tmp_path_factory.mktemp("service") / "data"
-    with running_service(data) as url:
-        yield url, data
-
-
 @pytest.mark.parametrize("name", ["crank", "bifurcation", "accuracy-study"])
 def test_jobs_of_a_service_are_verified_over_http(jointplay, service, name: str) -> None:
     url, data = service
     with Client(url) as client:
         job = client.submit(JOBS[name]).wait()
-    ended = jointplay("verify", job.id, "--processes", "1", "--url", url)
-    assert ended.code == 0, ended
-    assert "arrays are equal bit for bit" in ended.out
-    (path,) = (data / "results").glob(f"*/{job.id}-*")
-    content = bytearray(path.read_bytes())
-    content[-3] ^= 1
-    path.write_bytes(content)
-    ended = jointplay("verify", job.id, "--processes", "1", "--url", url)
-    assert ended.code == 1
-    assert path.name in ended.err
+        ended = jointplay("verify", job.id, "--processes", "1", "--url", url)
+        assert ended.code == 0, ended
+        assert "arrays are equal bit for bit" in ended.out
+        (path,) = (data / "results").glob(f"*/{job.id}-*")
+        content = bytearray(path.read_bytes())
+        content[-3] ^= 1
+        path.write_bytes(content)
+        ended = jointplay("verify", job.id, "--processes", "1", "--url", url)
+        assert ended.code == 1
+        assert path.name in ended.err
+        job.delete()
 
 
 def test_a_job_that_has_not_ended_is_refused(jointplay, service) -> None:

@@ -1,7 +1,6 @@
 """Broker, API, relay and worker as `jointplay serve` runs them, used by commands and client."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,17 +11,15 @@ import xarray as xr
 from jointplay import load
 from jointplay.client import Client, JobCancelled
 from jointplay.records.point import PointStatus
-from jointplay.service.processes import running_service
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
 PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
 
 
-@pytest.fixture(scope="module")
-def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    with running_service(tmp_path_factory.mktemp("service") / "data") as url:
-        yield url
+@pytest.fixture
+def url(service) -> str:
+    return service.url
 
 
 def test_a_job_gives_the_same_bits_over_http_as_locally(jointplay, url, tmp_path):

@@ -70,12 +70,17 @@ def wheel(folder: Path) -> Path:
     return next(folder.glob("*.whl"))
 
 
-def installed_wheel(folder: Path) -> Installation:
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return wheel(tmp_path_factory.mktemp("wheel"))
+
+
+def installed(wheel: Path) -> Installation:
     """Install a wheel into an environment that borrows its dependencies from this one."""
     place = BUILD / "installed"  # always the same, so that Numba finds what it has compiled
     venv.create(place, clear=True)
     command = [sys.executable, "-m", "pip", "--python", str(place), "install", "--quiet"]
-    command += ["--no-deps", "--no-index", str(wheel(folder))]
+    command += ["--no-deps", "--no-index", str(wheel)]
     subprocess.run(command, check=True)
     own = next(place.glob("lib/python*/site-packages"))
     borrowed = Path(typer.__file__).parents[1]
@@ -84,13 +89,11 @@ def installed_wheel(folder: Path) -> Installation:
 
 
 @pytest.fixture(scope="module", params=[pytest.param("editable", marks=pytest.mark.long), "wheel"])
-def installation(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Installation:
+def installation(request: pytest.FixtureRequest) -> Installation:
     if request.param == "editable":
         program = Path(sys.executable).with_name("jointplay")
         return Installation(program, Path(sys.executable))
-    return installed_wheel(tmp_path_factory.mktemp("wheel"))
+    return installed(request.getfixturevalue("built"))
 
 
 @pytest.fixture(scope="module")
@@ -165,6 +168,19 @@ ASKING = [
     "cancel JOB",
     "delete JOB",
 ]
+SPREAD = ALONE[1]
+SAMPLED = {
+    "run pendulum --duration 0.2 -o alone",
+    "verify alone",
+    "openapi",
+    "laws",
+    "scene draw pendulum -o pendulum.png",
+    "batch jobs.json --wait",
+    "export JOB --channels angle",
+    "plot JOB -o .",
+}
+"""In the short suite: those that draw, export, fetch and read what the package holds; the study
+runs in a folder of rooms."""
 ELSEWHERE = {"demo", "reproduce", "chaos"}
 """Start what the others start too, services and processes, but for minutes: see their own tests."""
 
@@ -176,19 +192,29 @@ def test_every_command_is_tried_here() -> None:
     assert words | ELSEWHERE | {"serve"} == set(commands)
 
 
-@pytest.mark.parametrize("line", ALONE)
+@pytest.mark.parametrize(
+    "line",
+    [line if line in SAMPLED else pytest.param(line, marks=pytest.mark.long) for line in ALONE],
+)
 def test_a_command_runs_here(installation: Installation, folder: Path, line: str) -> None:
     installation.jointplay(*line.split(), folder=folder)
 
 
+@pytest.mark.parametrize(
+    "lines",
+    [
+        pytest.param([line for line in ASKING if line in SAMPLED], id="a sample"),
+        pytest.param(ASKING, id="all", marks=pytest.mark.long),
+    ],
+)
 def test_commands_that_need_a_service_run_against_one_started_here(
-    installation: Installation, folder: Path, url: str
+    installation: Installation, folder: Path, url: str, lines: list[str]
 ) -> None:
     job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.2}
     (folder / "jobs.json").write_text(json.dumps([job]))
     submitted = ["submit", "pendulum", "--duration", "0.1", "--wait", "--url", url]
     job_id = installation.jointplay(*submitted, folder=folder).strip()
-    for line in ASKING:
+    for line in lines:
         arguments = [job_id if word == "JOB" else word for word in line.split()]
         installation.jointplay(*arguments, "--url", url, folder=folder)
 
@@ -201,15 +227,15 @@ def test_a_folder_called_like_a_room_does_no_harm_to_python_m(
         (tmp_path / name).mkdir()
         (tmp_path / name / "__init__.py").write_text(TRAP)
     ended = installation.call(
-        installation.python, "-m", "jointplay", *ALONE[1].split(), folder=tmp_path
+        installation.python, "-m", "jointplay", *SPREAD.split(), folder=tmp_path
     )
     assert ended.returncode == 0, ended.stderr
 
 
-def test_a_wheel_holds_one_package_with_everything_that_is_read(tmp_path: Path) -> None:
+def test_a_wheel_holds_one_package_with_everything_that_is_read(built: Path) -> None:
     from zipfile import ZipFile
 
-    names = set(ZipFile(wheel(tmp_path)).namelist())
+    names = set(ZipFile(built).namelist())
     held = {name for name in names if ".dist-info/" not in name}
     assert {name.partition("/")[0] for name in held} == {"jointplay"}
     tracked = subprocess.run(

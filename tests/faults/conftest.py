@@ -1,10 +1,21 @@
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from jobs import IMPATIENT, Service
 
+from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
+
+
+@contextmanager
+def catalogue_of(settings: Settings) -> Iterator[Catalogue]:
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    yield catalogue
+    catalogue.close()
 
 
 @pytest.fixture
@@ -14,7 +25,15 @@ def settings(tmp_path: Path) -> Settings:
 
 @pytest.fixture
 def catalogue(settings: Settings) -> Iterator[Catalogue]:
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    yield catalogue
-    catalogue.close()
+    with catalogue_of(settings) as catalogue:
+        yield catalogue
+
+
+@pytest.fixture(scope="session")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    settings = Settings(data=tmp_path_factory.mktemp("service") / "data")
+    with (
+        catalogue_of(settings) as catalogue,
+        running_service(settings.data, workers=2, environment=IMPATIENT),
+    ):
+        yield Service(settings, catalogue)

@@ -1,9 +1,12 @@
 """Jobs put straight into the catalogue, and what tests of faults wait for."""
 
+from typing import NamedTuple
+
 from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Block, Job, NewJob
+from jointplay.storage.settings import Settings
 from tests.waiting import until
 
 IMPATIENT = {
@@ -14,6 +17,13 @@ IMPATIENT = {
     "JOINTPLAY_REPUBLISH_AFTER": "1",
     "JOINTPLAY_MAX_ATTEMPTS": "10",
 }
+
+
+class Service(NamedTuple):
+    """An impatient service with two workers, which several tests harm one after the other."""
+
+    settings: Settings
+    catalogue: Catalogue
 
 
 def submit(catalogue: Catalogue, admission: Admission) -> str:

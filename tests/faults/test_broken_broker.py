@@ -4,13 +4,11 @@ import os
 import signal
 from pathlib import Path
 
-from jobs import IMPATIENT, ended, in_mid_job, submit
+from jobs import Service, ended, in_mid_job, submit
 from redis import Redis
 
-from jointplay.service.processes import running_service
 from jointplay.service.processes.broker import answers
 from jointplay.solver.kinds import admit
-from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import JobState
 from jointplay.storage.settings import Settings
 from tests.waiting import until
@@ -28,20 +26,21 @@ def broker_pid(settings: Settings) -> int:
         return int(redis.info("server")["process_id"])
 
 
-def test_jobs_outlive_a_wiped_and_a_killed_broker(settings: Settings, catalogue: Catalogue) -> None:
+def test_jobs_outlive_a_wiped_and_a_killed_broker(service: Service) -> None:
+    settings, catalogue = service
     long, short = admit(LONG), admit(SHORT)
-    with running_service(settings.data, environment=IMPATIENT):
-        running = submit(catalogue, long)
-        in_mid_job(catalogue, running)
-        waiting = [submit(catalogue, short) for _ in range(3)]
-        with Redis.from_url(broker_url(settings)) as redis:
-            until(lambda: redis.llen("jointplay:jobs") >= 3)
-            redis.flushall()
-        os.kill(broker_pid(settings), signal.SIGKILL)
-        waiting.append(submit(catalogue, short))
-        until(lambda: answers(broker_url(settings)))
-        waiting.append(submit(catalogue, short))
-        jobs = [ended(catalogue, job) for job in [running, *waiting]]
+    running = [submit(catalogue, long) for _ in range(2)]  # one for each worker
+    for job in running:
+        in_mid_job(catalogue, job)
+    waiting = [submit(catalogue, short) for _ in range(3)]
+    with Redis.from_url(broker_url(settings)) as redis:
+        until(lambda: redis.llen("jointplay:jobs") >= 3)
+        redis.flushall()
+    os.kill(broker_pid(settings), signal.SIGKILL)
+    waiting.append(submit(catalogue, short))
+    until(lambda: answers(broker_url(settings)))
+    waiting.append(submit(catalogue, short))
+    jobs = [ended(catalogue, job) for job in [*running, *waiting]]
     assert {job.state for job in jobs} == {JobState.succeeded}
     assert [job.attempt for job in jobs] == [1] * len(jobs)
     log = Path(settings.data / "logs" / "serve.log").read_text()

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from jobs import IMPATIENT, ended, pid_of, standing
+from jobs import IMPATIENT, Service, ended, pid_of, standing
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
@@ -82,18 +82,18 @@ def assert_same_bytes(settings: Settings, job: Job, undisturbed: dict[str, bytes
 
 
 def test_blocks_go_on_where_their_killed_workers_left_them(
-    settings: Settings, catalogue: Catalogue, study: Study, undisturbed: dict[str, bytes]
+    service: Service, study: Study, undisturbed: dict[str, bytes]
 ) -> None:
-    with running_service(settings.data, workers=2, environment=IMPATIENT):
-        job = submit(catalogue, study)
-        for index in (0, 1):  # one after the other, while both are computed
-            os.kill(pid_of(in_mid_block(catalogue, job, index)), signal.SIGKILL)
-        reached = catalogue.blocks(job)[0].progress_fraction
-        again = in_mid_block(catalogue, job, 0, after=reached)
-        # what was recorded came with a restart point: it goes on from there, not from zero
-        assert again.attempt == 2
-        os.kill(pid_of(again), signal.SIGKILL)
-        finished = ended(catalogue, job)
+    settings, catalogue = service
+    job = submit(catalogue, study)
+    for index in (0, 1):  # one after the other, while both are computed
+        os.kill(pid_of(in_mid_block(catalogue, job, index)), signal.SIGKILL)
+    reached = catalogue.blocks(job)[0].progress_fraction
+    again = in_mid_block(catalogue, job, 0, after=reached)
+    # what was recorded came with a restart point: it goes on from there, not from zero
+    assert again.attempt == 2
+    os.kill(pid_of(again), signal.SIGKILL)
+    finished = ended(catalogue, job)
     outcomes = [attempt.outcome for attempt in catalogue.attempts(job)]
     assert outcomes.count("lost") == 3
     assert outcomes.count("done") == 3  # two blocks, and the one that seals
@@ -166,14 +166,14 @@ def test_a_worker_that_comes_back_late_changes_no_byte(
 
 
 def test_a_cancelled_study_ends_soon_and_keeps_what_it_computed(
-    settings: Settings, catalogue: Catalogue, study: Study
+    service: Service, study: Study
 ) -> None:
-    with running_service(settings.data, workers=2, environment=IMPATIENT):
-        job = submit(catalogue, study)
-        in_mid_block(catalogue, job, 0, after=0.3)
-        assert catalogue.request_cancel(job).state is JobState.cancelling
-        reached = catalogue.blocks(job)[0].progress_fraction
-        finished = ended(catalogue, job)
+    settings, catalogue = service
+    job = submit(catalogue, study)
+    in_mid_block(catalogue, job, 0, after=0.3)
+    assert catalogue.request_cancel(job).state is JobState.cancelling
+    reached = catalogue.blocks(job)[0].progress_fraction
+    finished = ended(catalogue, job)
     assert finished.state is JobState.cancelled
     # it goes on for a slice of a quarter second and a restart point, of some two seconds in all
     assert catalogue.blocks(job)[0].progress_fraction < reached + 0.5

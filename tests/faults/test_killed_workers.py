@@ -5,7 +5,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from jobs import IMPATIENT, ended, in_mid_job, pid_of, submit
+from jobs import IMPATIENT, Service, ended, in_mid_job, pid_of, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
@@ -60,20 +60,20 @@ def assert_same_bits(settings: Settings, job: Job, undisturbed: Path) -> None:
 
 
 def test_a_block_goes_on_where_its_killed_worker_left_it(
-    settings: Settings, catalogue: Catalogue, admission: Admission, undisturbed: Path
+    service: Service, admission: Admission, undisturbed: Path
 ) -> None:
-    with running_service(settings.data, environment=IMPATIENT):
-        job = submit(catalogue, admission)
-        fraction = 0.0
-        for _ in range(2):
-            held = in_mid_job(catalogue, job, after=fraction)
-            os.kill(pid_of(held), signal.SIGKILL)
-            fraction = catalogue.blocks(job)[0].progress_fraction
-            until(lambda: catalogue.get(job).attempt > held.attempt)  # noqa: B023
-            until(lambda: catalogue.get(job).progress_fraction != fraction)  # noqa: B023
-            # what was recorded came with a restart point: it goes on from there, not from zero
-            assert catalogue.get(job).progress_fraction > fraction
-        finished = ended(catalogue, job)
+    settings, catalogue = service
+    job = submit(catalogue, admission)
+    fraction = 0.0
+    for _ in range(2):
+        held = in_mid_job(catalogue, job, after=fraction)
+        os.kill(pid_of(held), signal.SIGKILL)
+        fraction = catalogue.blocks(job)[0].progress_fraction
+        until(lambda: catalogue.get(job).attempt > held.attempt)  # noqa: B023
+        until(lambda: catalogue.get(job).progress_fraction != fraction)  # noqa: B023
+        # what was recorded came with a restart point: it goes on from there, not from zero
+        assert catalogue.get(job).progress_fraction > fraction
+    finished = ended(catalogue, job)
     assert finished.state is JobState.succeeded
     outcomes = [attempt.outcome for attempt in catalogue.attempts(job)]
     assert outcomes[:2] == ["lost", "lost"]
@@ -115,15 +115,13 @@ def test_a_service_that_is_stopped_goes_on_when_it_is_started_again(
     assert_same_bits(settings, finished, undisturbed)
 
 
-def test_a_cancelled_job_keeps_what_it_computed(
-    settings: Settings, catalogue: Catalogue, admission: Admission
-) -> None:
-    with running_service(settings.data, environment=IMPATIENT):
-        job = submit(catalogue, admission)
-        in_mid_job(catalogue, job)
-        assert catalogue.request_cancel(job).state is JobState.cancelling
-        reached = catalogue.get(job).progress_fraction
-        finished = ended(catalogue, job)
+def test_a_cancelled_job_keeps_what_it_computed(service: Service, admission: Admission) -> None:
+    settings, catalogue = service
+    job = submit(catalogue, admission)
+    in_mid_job(catalogue, job)
+    assert catalogue.request_cancel(job).state is JobState.cancelling
+    reached = catalogue.get(job).progress_fraction
+    finished = ended(catalogue, job)
     assert finished.state is JobState.cancelled
     # it goes on for a slice of a quarter second, of some three seconds in all
     assert finished.progress_fraction < reached + 0.5

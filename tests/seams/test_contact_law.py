@@ -111,7 +111,9 @@ def test_schemas_describe_it() -> None:
 
 
 @pytest.mark.usefixtures("hertz")
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+@pytest.mark.parametrize(
+    "formulation", ["reduced", pytest.param("lagrange", marks=pytest.mark.long)]
+)
 def test_a_journal_bounces_elastically_by_it(platform: Platform, formulation: str) -> None:
     contact = {"law": "hertz", "hardness": HARDNESS}
     job = platform.computed(thrown(contact) | {"formulation": formulation})

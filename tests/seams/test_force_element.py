@@ -113,7 +113,9 @@ def test_what_is_wrong_with_it_is_said_at_its_fields(
 
 
 @pytest.mark.usefixtures("winch")
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+@pytest.mark.parametrize(
+    "formulation", [pytest.param("reduced", marks=pytest.mark.long), "lagrange"]
+)
 def test_a_sledge_is_hauled_by_it(platform: Platform, formulation: str) -> None:
     job = platform.computed(hauled() | {"formulation": formulation})
     assert job.state == "succeeded"

@@ -128,8 +128,15 @@ def test_a_law_that_is_in_no_roster_is_refused_at_its_tag(platform: Platform) ->
 
 
 @pytest.mark.usefixtures("bristles")
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
-@pytest.mark.parametrize("method", ["tsitouras", "rodas"])
+@pytest.mark.parametrize(
+    ("method", "formulation"),
+    [
+        ("tsitouras", "lagrange"),
+        ("rodas", "reduced"),
+        pytest.param("tsitouras", "reduced", marks=pytest.mark.long),
+        pytest.param("rodas", "lagrange", marks=pytest.mark.long),
+    ],
+)
 def test_bristles_bend_until_they_slide(platform: Platform, formulation: str, method: str) -> None:
     document = SIMULATE | {"scene": thrown(), "formulation": formulation, "method": method}
     job = platform.computed(document)

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -45,16 +46,34 @@ def served(data: Path, *, as_json: bool = False) -> Iterator[tuple[subprocess.Po
             process.kill()
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_it_ends_cleanly_when_asked(tmp_path: Path, number: signal.Signals) -> None:
-    with served(tmp_path / "data", as_json=number == signal.SIGINT) as (process, url):
+def end_cleanly(process: subprocess.Popen[str], data: Path, number: signal.Signals) -> None:
+    started = descendants(process.pid)
+    assert len(started) >= 4  # broker, API, relay, worker
+    process.send_signal(number)
+    assert process.wait() == 0
+    assert not [pid for pid in started if is_alive(pid)]
+    assert not list((data / "broker").glob("*.sock"))
+
+
+class Service(NamedTuple):
+    process: subprocess.Popen[str]
+    url: str
+    data: Path
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """One service of several tests, which ends cleanly."""
+    data = tmp_path_factory.mktemp("service") / "data"
+    with served(data) as (process, url):
+        yield Service(process, url, data)
+        end_cleanly(process, data, signal.SIGTERM)
+
+
+def test_it_ends_cleanly_by_ctrl_c(tmp_path: Path) -> None:
+    with served(tmp_path / "data", as_json=True) as (process, url):
         assert healthy(url)
-        started = descendants(process.pid)
-        assert len(started) >= 4  # broker, API, relay, worker
-        process.send_signal(number)
-        assert process.wait() == 0
-        assert not [pid for pid in started if is_alive(pid)]
-    assert not list((tmp_path / "data" / "broker").glob("*.sock"))
+        end_cleanly(process, tmp_path / "data", signal.SIGINT)
 
 
 def test_nothing_outlives_a_killed_supervisor(tmp_path: Path) -> None:
@@ -64,33 +83,28 @@ def test_nothing_outlives_a_killed_supervisor(tmp_path: Path) -> None:
         until(lambda: not any(is_alive(pid) for pid in started))
 
 
-def test_a_killed_process_is_started_again(tmp_path: Path) -> None:
-    with served(tmp_path / "data") as (process, url):
+def test_a_killed_process_is_started_again(service: Service) -> None:
+    def find(words: str) -> int | None:
+        started = descendants(service.process.pid)
+        return min((pid for pid, command in started.items() if words in command), default=None)
 
-        def find(words: str) -> int | None:
-            found = [pid for pid, command in descendants(process.pid).items() if words in command]
-            return min(found, default=None)
+    def find_new(words: str, before: int) -> bool:
+        return find(words) not in (None, before)
 
-        def find_new(words: str, before: int) -> bool:
-            return find(words) not in (None, before)
-
-        for words in ("processes.api", "jointplay.worker.relay", "broker/redis.sock"):
-            before = find(words)
-            assert before is not None
-            os.kill(before, signal.SIGKILL)
-            until(partial(find_new, words, before))
-        until(lambda: healthy(url))
-        process.terminate()
-        assert process.wait() == 0
+    for words in ("processes.api", "jointplay.worker.relay", "broker/redis.sock"):
+        before = find(words)
+        assert before is not None
+        os.kill(before, signal.SIGKILL)
+        until(partial(find_new, words, before))
+    until(lambda: healthy(service.url))
 
 
-def test_a_folder_has_one_service(tmp_path: Path) -> None:
-    with running_service(tmp_path / "data") as url:
-        assert healthy(url)
-        with pytest.raises(WrongSetting, match="--data") as caught:
-            serve("127.0.0.1", 0, tmp_path / "data", 1)
-        assert url in str(caught.value)
-    assert not healthy(url)
+def test_a_folder_has_one_service(service: Service) -> None:
+    until(lambda: healthy(service.url))
+    with pytest.raises(WrongSetting, match="--data") as caught:
+        serve("127.0.0.1", 0, service.data, 1)
+    assert service.url in str(caught.value)
+    assert healthy(service.url)
 
 
 def test_a_background_service_ends_with_its_parent(tmp_path: Path) -> None:

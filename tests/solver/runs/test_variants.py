@@ -42,7 +42,9 @@ def assert_sound(found: Run) -> None:
     [
         {"speed": -math.pi},
         {"speed": 10.0, "speed_crank4": 10.0},
-        {"static_velocity": 1e-3, "dynamic_velocity": 1e-3},
+        # friction that jumps: before the first impact it chatters, in 800 000 steps
+        pytest.param({"static_velocity": 1e-3, "dynamic_velocity": 1e-3}, marks=pytest.mark.long),
+        {"static_velocity": 0.1, "dynamic_velocity": 0.1},
         {"static_velocity": 0.0, "dynamic_velocity": 1e-2},
         {"gravity_x": 0.0},
         {"gravity_x": -9.81},

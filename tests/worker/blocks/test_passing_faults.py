@@ -55,13 +55,12 @@ def held_by_another_program(settings: Settings, _: Catalogue) -> Iterator[None]:
 @contextmanager
 def out_of_reach(settings: Settings, catalogue: Catalogue) -> Iterator[None]:
     """Lose the connections to the database, which cannot be made anew while the block runs."""
-    file = settings.data / "catalogue.sqlite"
+    file, elsewhere = settings.data / "catalogue.sqlite", settings.data / "elsewhere.sqlite"
     catalogue.close()
-    shutil.move(file, settings.data / "elsewhere.sqlite")
-    file.mkdir()
+    file.rename(elsewhere)
+    file.symlink_to(settings.data)  # a folder
     yield
-    file.rmdir()
-    shutil.move(settings.data / "elsewhere.sqlite", file)
+    elsewhere.replace(file)  # at once: in between, a new database would be made
 
 
 def test_results_that_cannot_be_written_are_tried_again(

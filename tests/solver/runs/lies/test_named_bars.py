@@ -6,8 +6,14 @@ from benchmarks.lies.named import companions, friction
 from benchmarks.lies.named.lie import Lie
 
 BARS = (*friction.BARS, *companions.LIES)
-AT_LENGTH = ("press as a draft, its bars", "press, an unlucky step")
-"""They compile the press in more ways, or compare it at length."""
+AT_LENGTH = (
+    "press as a draft, its bars",
+    "press, an unlucky step",
+    "pendulum at the longest step",
+    "slider-crank, friction full at 1e-05 m/s",
+    "slider-crank, friction full at 3e-05 m/s",
+)
+"""They compile the press in more ways, compare at length, or are steeper cases of another."""
 
 
 @pytest.mark.parametrize(
