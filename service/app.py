@@ -29,6 +29,7 @@ from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import INVALID_REQUEST
 from jointplay.service.results.damage import answer_damage
+from jointplay.service.windows import WindowProcess
 from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
@@ -79,11 +80,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.in_flight = {}
         app.state.prober = prober = Prober()
         app.state.checker = checker = Checker(settings)
+        app.state.windows = windows = WindowProcess()
         try:
             yield
         finally:
             prober.close()
             checker.close()
+            windows.close()
             catalogue.close()
 
     app = FastAPI(

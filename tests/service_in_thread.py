@@ -30,6 +30,7 @@ from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.block import StudyBlock
 from jointplay.storage.studies.store import create, seal
+from jointplay.worker.execute import Answer, Progress, execute
 from jointplay.worker.study_block import layout_of
 
 LEDGER = (
@@ -202,6 +203,27 @@ class Worker:
         )
         folder = self._settings.running_run(*attempt).folder
         return admission, ResultWriter.create(folder, layout), self._settings.sealed_run(*attempt)
+
+    def run(self, claim: Claim, *, reports: int | None = None) -> None:
+        """Compute a simulation as a worker does; with `reports`, only so far, and commit it."""
+        admission = admit(claim.job.spec)
+        assert isinstance(admission, Admission)
+        attempt = claim.job.id, claim.block.attempt
+        folder = self._settings.running_run(*attempt).folder
+        heard = 0
+
+        def report(progress: Progress) -> Answer:
+            nonlocal heard
+            heard += 1
+            if reports is None or heard < reports:
+                return Answer.go_on
+            name, watermark = progress.keep()
+            self._catalogue.record_checkpoint(
+                claim.block.id, claim.block.attempt, watermark=watermark, checkpoint=name
+            )
+            return Answer.leave
+
+        execute(admission, folder, self._settings.sealed_run(*attempt), report=report)
 
     def compute(
         self,

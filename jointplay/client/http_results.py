@@ -47,20 +47,28 @@ class HttpResults:
         except NotFound as error:
             raise FileNotFoundError(str(error)) from error
 
-    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
+    def window(
+        self,
+        channels: Names,
+        start: Seconds,
+        stop: Seconds,
+        points: int | None,
+        step: Seconds = None,
+    ) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
-        if points is None:
+        if points is None and step is None:
             return self._window("history", channels, start, stop)
-        query = {"channels": channels, "start": start, "stop": stop, "points": points}
+        window = {"channels": channels, "start": start, "stop": stop}
+        query = window | {"points": points, "step": step}
         return Window.from_document(self._get("history", **query))
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
         return self._window("poincare", channels)
 
-    def peaks(self) -> Mapping[str, Peak]:
+    def peaks(self, start: Seconds = None, stop: Seconds = None) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel."""
-        found = self._get("peaks")["peaks"]
+        found = self._get("peaks", start=start, stop=stop)["peaks"]
         return {
             channel: Peak(**{name: _number(peak[name]) for name in PEAK}, unit=peak["unit"])
             for channel, peak in found.items()

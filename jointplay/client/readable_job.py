@@ -26,8 +26,9 @@ class ReadableJob(TabledJob):
         stop: float | None = None,
         *,
         points: int | None = None,
+        step: float | None = None,
     ) -> Window:
-        """Return channels in a window of time; with ``points``, at the resolution of a screen.
+        """Return channels in a window of time: samples, extremes for a screen, or any instants.
 
         Parameters
         ----------
@@ -36,9 +37,11 @@ class ReadableJob(TabledJob):
         start, stop
             Both included, s; None is unbounded.
         points
-            Most pairs of smallest and largest values; see `Window`.
+            Pairs of smallest and largest values, each of an equal span; see `Window`.
+        step
+            Time between instants, s; values there are computed from the steps of the run.
         """
-        return self.results.window(_listed(channels), start, stop, points)
+        return self.results.window(_listed(channels), start, stop, points, step)
 
     @property
     def statistics(self) -> dict[str, Any]:

@@ -65,14 +65,21 @@ class Results(Protocol):
     def content(self, key: str) -> bytes:
         """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
 
-    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
-        """Return channels from ``start`` to ``stop``."""
+    def window(
+        self,
+        channels: Names,
+        start: Seconds,
+        stop: Seconds,
+        points: int | None,
+        step: Seconds = None,
+    ) -> Window:
+        """Return channels from ``start`` to ``stop``, as samples, extremes or every ``step``."""
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections of a simulation."""
 
-    def peaks(self) -> Mapping[str, Peak]:
-        """Return the signed extremes of every channel of a simulation."""
+    def peaks(self, start: Seconds = None, stop: Seconds = None) -> Mapping[str, Peak]:
+        """Return the signed extremes of every channel of a simulation, or of a window of it."""
 
     def impacts(self) -> Impacts:
         """Return the contacts of the clearance joints of a simulation."""

@@ -32,12 +32,14 @@ class Window:
     complete
         The run reached its end.
     exact
-        These are all samples of the window.  If there were more than the points asked for, each
-        group of consecutive samples became two entries: its smallest value at the time of its
-        first sample, its largest at that of its last.  A line through them shows every peak;
-        ``values.reshape(-1, 2)`` has minimum and maximum side by side.
+        These are values: samples, or those of the instants asked for.  Otherwise each span of time
+        became two entries: its smallest value at its beginning, its largest at its end.  A line
+        through them shows every peak; ``values.reshape(-1, 2)`` has minimum and maximum side by
+        side.
+    between_samples
+        Extremes are those of the trajectory, between its samples too.
     note
-        Of sections: why there are none, else empty.
+        What is to be known of the numbers, such as why they are of samples only; else empty.
     """
 
     time: Floats
@@ -45,6 +47,7 @@ class Window:
     complete: bool
     exact: bool = True
     note: str = ""
+    between_samples: bool = False
 
     def __getitem__(self, channel: str) -> Floats:
         """Return the values of ``channel``, (n,)."""
@@ -68,7 +71,8 @@ class Window:
             )
             for name, one in columns.items()
         }
-        return cls(time, channels, document["complete"], exact, document.get("note", ""))
+        note, between = document.get("note", ""), document.get("exact", False)
+        return cls(time, channels, document["complete"], exact, note, between)
 
     def dataset(self) -> Dataset:
         """Return the window as exports take it."""

@@ -5,18 +5,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
-from jointplay.client.window import ChannelSeries, Window
+from jointplay.client.window import Window
 from jointplay.figures import Options
+from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
-from jointplay.records.run import Floats
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
@@ -43,7 +41,14 @@ class FolderResults:
         """Return a file of the store, such as ``zarr.json``; FileNotFoundError if there is none."""
         return self._reader.files.read(key)
 
-    def window(self, channels: Names, start: Seconds, stop: Seconds, points: int | None) -> Window:
+    def window(
+        self,
+        channels: Names,
+        start: Seconds,
+        stop: Seconds,
+        points: int | None,
+        step: Seconds = None,
+    ) -> Window:
         """Return channels from ``start`` to ``stop``, in s."""
         run = self._run("history")
         names = _chosen(channels, run)
@@ -51,26 +56,39 @@ class FolderResults:
             raise _refused("stop", f"stop ({stop:g} s) is before start ({start:g} s); swap them.")
         if points is not None and points < 1:
             raise _refused("points", f"points is {points}; it is at least 1.")
+        note = ""
+        if step is not None or points is not None:
+            found = exact_window(run, names, start, stop, points, step)
+            if isinstance(found, Window):
+                return found
+            if step is not None:
+                raise _refused("step", found)
+            note = found
         first, last = run.between(start, stop)
         if points is None or last - first <= points:
-            return _window(run, *run.history(names, first, last))
-        time, found = run.extremes(names, first, last, points)
-        columns = {name: pair.ravel() for name, pair in found.items()}
-        return _window(run, time.ravel(), columns, exact=False)
+            return window_of(run, *run.history(names, first, last), note=note)
+        time, extremes = run.extremes(names, first, last, points)
+        columns = {name: pair.ravel() for name, pair in extremes.items()}
+        return window_of(run, time.ravel(), columns, exact=False, note=note)
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections."""
         run = self._run("sections in time")
-        return _window(
+        return window_of(
             run,
             *run.sections(_chosen(channels, run)),
             note=str(run.attributes.get("section_note", "")),
         )
 
-    def peaks(self) -> Mapping[str, Peak]:
+    def peaks(self, start: Seconds = None, stop: Seconds = None) -> Mapping[str, Peak]:
         """Return the signed extremes of every channel."""
         run = self._run("peaks")
         found = run.peaks()
+        if (start, stop) != (None, None):
+            looked = exact_peaks(run, start, stop)
+            if isinstance(looked, str):
+                raise _refused("start", looked)
+            found = looked
         return {
             one.name: Peak(**vars(found[one.name]), unit=one.unit) for one in run.channels if found
         }
@@ -138,15 +156,6 @@ class FolderResults:
         if isinstance(self._reader, ResultReader):
             return self._reader
         raise NotFound(f"{self._store} is of a study; it has points and no {what}.")
-
-
-def _window(run: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any) -> Window:
-    described = {channel.name: channel for channel in run.channels}
-    series = {
-        name: ChannelSeries(described[name].unit, described[name].long_name, values)
-        for name, values in columns.items()
-    }
-    return Window(np.asarray(time, np.float64), series, run.complete, **more)
 
 
 def _chosen(channels: Names, run: ResultReader) -> list[str]:

@@ -4,7 +4,6 @@ from typing import Annotated
 
 import numpy as np
 from fastapi import APIRouter, Query, Response
-from numpy.typing import NDArray
 
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel import TIME, by_name
@@ -25,6 +24,7 @@ from jointplay.service.results.queries import (
 )
 from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
+from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, series
 from jointplay.storage.results.reader import ResultReader
 
 router = APIRouter(
@@ -41,21 +41,35 @@ router = APIRouter(
 )
 def show_history(
     results: ResultsOfThePath,
-    run: RunOfThePath,
+    exact: ExactRunOfThePath,
     query: Annotated[HistoryQuery, Query()],
     form: Form,
 ) -> Response:
     """Return channels on the output grid, in a window of time; of a running job as far as it is.
 
-    With `points`, smallest and largest values of that many groups of samples, so that no peak is
-    lost.  Accept chooses JSON, CSV, NPZ or a MATLAB file.
+    With `points`, smallest and largest values of that many equal spans, so that no peak is lost;
+    with `step`, values at any distance.  Both are computed from the steps of the run, where it
+    keeps them, and know what is between samples; where it does not, `points` groups samples.
+    Accept chooses JSON, CSV, NPZ or a MATLAB file.
     """
     file = f"{results.job.id}-history"
+    run = exact.run
     start, stop = query.checked()
     names = chosen_channels(query.channels, run.channels)
+    note = ""
+    if query.step is not None:
+        if query.points is not None:
+            raise RequestRefused.of_parameter("step", "Give step or points, not both.")
+        return _shown_as(form, file, exact.values(names, start, stop, query.step))
+    if query.points is not None:
+        found = exact.overview(names, start, stop, query.points)
+        if isinstance(found, schemas.Overview):
+            return _shown_as(form, file, found)
+        note = found
     first, last = run.between(start, stop)
     if query.points is not None and last - first > query.points:
-        return _shown_as(form, file, _overview(run, names, first, last, query.points))
+        overview = _overview(run, names, first, last, query.points, note)
+        return _shown_as(form, file, overview)
     if last > first:
         begin, end = (run.history([], at, at + 1)[0][0] for at in (first, last - 1))
         check_size(last - first, len(names) + 1, "samples", float(end - begin))
@@ -63,7 +77,8 @@ def show_history(
     history = schemas.History.model_construct(
         complete=run.complete,
         time=schemas.Series.of(TIME, values=time),
-        channels=_series(run, columns),
+        channels=series(run, columns),
+        note=note,
     )
     return _shown_as(form, file, history)
 
@@ -79,19 +94,26 @@ def show_sections(job_id: str, run: ResultReader, selection: Selection, form: st
     sections = schemas.Poincare.model_construct(
         complete=run.complete,
         time=schemas.Series.of(TIME, values=time[shown]),
-        channels=_series(run, {name: column[shown] for name, column in columns.items()}),
+        channels=series(run, {name: column[shown] for name, column in columns.items()}),
         note=str(run.attributes.get("section_note", "")),
     )
     return _shown_as(form, f"{job_id}-poincare", sections)
 
 
-@router.get("/peaks", response_model=schemas.Peaks, dependencies=[NO_PARAMETERS])
-def show_peaks(run: RunOfThePath) -> Response:
-    """Return each channel's signed minimum and maximum, with their times."""
+@router.get("/peaks", response_model=schemas.Peaks)
+def show_peaks(exact: ExactRunOfThePath, window: Annotated[Window, Query()]) -> Response:
+    """Return each channel's signed minimum and maximum, with their times.
+
+    Of a window, and of a running job as far as it is, they are computed from the steps of the run.
+    """
+    run, (start, stop) = exact.run, window.checked()
     described = by_name(run.channels)
+    peaks = run.peaks()
+    if (start, stop) != (None, None) or (not run.sealed and run.samples):
+        peaks = exact.peaks(start, stop)
     found = {
         name: schemas.Peak.model_construct(unit=described[name].unit, **vars(peak))
-        for name, peak in run.peaks().items()
+        for name, peak in peaks.items()
     }
     return as_json(schemas.Peaks.model_construct(complete=run.complete, peaks=found))
 
@@ -140,30 +162,19 @@ def show_impacts(run: RunOfThePath, window: Annotated[Window, Query()]) -> Respo
 
 
 def _overview(
-    run: ResultReader, names: list[str], first: int, last: int, points: int
+    run: ResultReader, names: list[str], first: int, last: int, points: int, note: str
 ) -> schemas.Overview:
     check_points(points, len(names))
     time, found = run.extremes(names, first, last, points)
-    described = by_name(run.channels)
-    extremes = {
-        name: schemas.Extremes.of(described[name], minimum=pairs[:, 0], maximum=pairs[:, 1])
-        for name, pairs in found.items()
-    }
-    bins = schemas.Bins.model_construct(
-        unit="s", first=time[:, 0].tolist(), last=time[:, 1].tolist()
-    )
+    columns = np.stack([found[name] for name in names], axis=1)
     return schemas.Overview.model_construct(
-        complete=run.complete, samples=last - first, bins=bins, extremes=extremes
+        complete=run.complete,
+        samples=last - first,
+        bins=bins(time),
+        extremes=extremes(run, names, columns),
+        exact=False,
+        note=note,
     )
-
-
-def _series(
-    run: ResultReader, columns: dict[str, NDArray[np.float64]]
-) -> dict[str, schemas.Series]:
-    described = by_name(run.channels)
-    return {
-        name: schemas.Series.of(described[name], values=column) for name, column in columns.items()
-    }
 
 
 def _shown_as(form: str, name: str, answer: schemas.History | schemas.Overview) -> Response:

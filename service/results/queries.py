@@ -67,8 +67,12 @@ class HistoryQuery(Selection):
         default=None,
         ge=1,
         le=MOST_POINTS,
-        description="Most pairs of smallest and largest values to show, such as pixels of "
-        "a screen; a window of no more samples is shown exactly. Default: every sample.",
+        description="Pairs of smallest and largest values to show, such as pixels of a screen; "
+        "where a job keeps no steps, a window of no more samples shows these. Default: every "
+        "sample.",
+    )
+    step: float | None = in_unit(
+        "s", "Time between instants to compute channels at, however close.", default=None, gt=0.0
     )
 
 
@@ -88,7 +92,7 @@ def unknown_channels(error: NoSuchChannel, parameter: str = "channels") -> Reque
     return RequestRefused(kinds.UNKNOWN_CHANNEL, errors[0].detail, errors)
 
 
-def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
+def check_size(rows: float, columns: int, what: str, seconds: float) -> None:
     """Refuse an answer of more than `MOST_VALUES` values, and say how to narrow the question.
 
     Parameters
@@ -104,7 +108,8 @@ def check_size(rows: int, columns: int, what: str, seconds: float) -> None:
         return
     rows_allowed = MOST_VALUES // columns
     sentence = (
-        f"{rows} {what} of {columns - 1} channels and the time are {rows * columns} values; one "
+        f"{rows:.0f} {what} of {columns - 1} channels and the time are {rows * columns:.0f}"
+        " values; one "
         f"answer carries at most {MOST_VALUES}. Ask for fewer channels with `channels`, or for "
         f"windows of {rows_allowed} {what} (about {seconds * rows_allowed / rows:.3g} s) with "
         "`start` and `stop`."

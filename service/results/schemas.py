@@ -44,11 +44,15 @@ class Series(Described):
     values: Values
 
 
+_NOTE = Field(default="", description="What is to be known of these numbers; mostly empty.")
+
+
 class History(Partial):
-    """Channels on the output grid."""
+    """Channels on the output grid, or every so many seconds."""
 
     time: Series
     channels: dict[str, Series]
+    note: str = _NOTE
 
 
 class Bins(BaseModel):
@@ -72,6 +76,11 @@ class Overview(Partial):
     samples: int = Field(description="Samples in the window.")
     bins: Bins
     extremes: dict[str, Extremes]
+    exact: bool = Field(
+        default=False,
+        description="Whether these are extremes of the trajectory, and not only of samples.",
+    )
+    note: str = _NOTE
 
 
 class Poincare(History):

@@ -85,6 +85,8 @@ class ResultLayout:
         How rows are cut into files.
     steps
         Columns of the accepted steps; none where they are not kept.
+    steps_period
+        What their whole periods are of, s.
 
     Raises
     ------
@@ -100,6 +102,7 @@ class ResultLayout:
     attributes: dict[str, Any] = field(default_factory=dict)
     partition: Partition = field(default_factory=Partition)
     steps: tuple[str, ...] = ()
+    steps_period: float = 0.0
 
     def __post_init__(self) -> None:
         check_names(self.channels, "channel", STORED)

@@ -6,6 +6,7 @@ steps. What a row means is the solver's business. It is no part of what clients 
 
 import json
 from collections.abc import Iterator
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -23,8 +24,8 @@ GROUP: Final = "steps"
 ARRAY: Final = "rows"
 ROWS: Final = 8192
 """Steps of a file: what reading a short window decodes."""
-PERIOD, TIME = 0, 1
-"""Columns that say when a step begins: whole periods, and the time since then, s."""
+PERIOD, TIME, LENGTH = 0, 1, 2
+"""Columns that say when a step is: whole periods, the time since then and its length, s."""
 
 
 class StepsTable(GrowingTable):
@@ -39,6 +40,7 @@ class StepsTable(GrowingTable):
     """
 
     def __init__(self, layout: ResultLayout, files: Running) -> None:
+        self._period = layout.steps_period
         columns = tuple(Column(name, DOUBLE, {}) for name in layout.steps)
         super().__init__(Table(GROUP, "step", columns, None, ROWS, ROWS, {}), files)
 
@@ -54,7 +56,7 @@ class StepsTable(GrowingTable):
             [ROWS, 1],
             DOUBLE,
             ["step", "column"],
-            {"long_name": "accepted steps of the run", "columns": names},
+            {"long_name": "accepted steps", "columns": names, "period": self._period},
             shard=[ROWS, len(names)],
         )
 
@@ -76,12 +78,17 @@ class StoredSteps:
         Of the store.
     columns
         Names of the columns.
+    period
+        Of the run, s: what whole periods are of.
     waiting
         Rows in shards, and those that wait for theirs.
     """
 
-    def __init__(self, files: Files, columns: tuple[str, ...], waiting: Waiting) -> None:
+    def __init__(
+        self, files: Files, columns: tuple[str, ...], period: float, waiting: Waiting
+    ) -> None:
         self.columns = columns
+        self.period = period
         self._files = files
         self._waiting = waiting
         self._indices: dict[int, list[tuple[int, int]]] = {}
@@ -98,24 +105,37 @@ class StoredSteps:
             self._fill(rows[:, column], column, first)
         return rows
 
-    def first_behind(self, time: float, period: float) -> int:
-        """Find the first step that begins after a time, s; `period` : of the run, s."""
+    @cached_property
+    def end(self) -> float:
+        """Time that the steps reach, s."""
+        if not self.count:
+            return 0.0
+        (last,) = self.read(self.count - 1, self.count)
+        return float(last[PERIOD] * self.period + last[TIME] + last[LENGTH])
+
+    def around(self, start: float, stop: float) -> tuple[int, int]:
+        """Find the steps [first, last) that a window needs; `stop` must be within the steps."""
+        first = max(self._first_behind(start) - 2, 0)  # the step that ends there, too
+        return first, max(self._first_behind(stop), first + 1)
+
+    def _first_behind(self, time: float) -> int:
+        """Find the first step that begins after a time, s."""
         low, high = 0, -(-self.count // ROWS)  # files
         while low < high:
             middle = (low + high) // 2
-            if self._begins(min((middle + 1) * ROWS, self.count) - 1, 1, period)[0] <= time:
+            if self._begins(min((middle + 1) * ROWS, self.count) - 1, 1)[0] <= time:
                 low = middle + 1
             else:
                 high = middle
         first = min(low * ROWS, self.count)
-        begins = self._begins(first, min(ROWS, self.count - first), period)
+        begins = self._begins(first, min(ROWS, self.count - first))
         return first + int(np.searchsorted(begins, time, side="right"))
 
-    def _begins(self, first: int, count: int, period: float) -> Floats:
+    def _begins(self, first: int, count: int) -> Floats:
         columns = np.empty((2, count))
         for row, column in zip(columns, (PERIOD, TIME), strict=True):
             self._fill(row, column, first)
-        return np.asarray(columns[0] * period + columns[1])
+        return np.asarray(columns[0] * self.period + columns[1])
 
     def _fill(self, target: Floats, column: int, first: int) -> None:
         """Read rows of one column, from `first` on, into (k,)."""
@@ -151,10 +171,11 @@ def stored_steps(files: Files, waiting: Waiting | None) -> StoredSteps | None:
         document = json.loads(files.read(key))
     except FileNotFoundError:
         return None
-    columns = tuple(document["attributes"]["columns"])
+    columns, period = (document["attributes"][name] for name in ("columns", "period"))
     if not isinstance(files, Running):
         waiting = Waiting(int(document["shape"][0]), ())
-    return StoredSteps(files, columns, waiting or Waiting(rows_in_files(files), ()))
+    known = waiting or Waiting(rows_in_files(files), ())
+    return StoredSteps(files, tuple(columns), period, known)
 
 
 def rows_in_files(files: Files) -> int:

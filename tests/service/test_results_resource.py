@@ -83,7 +83,7 @@ def test_a_wrong_parameter_is_named(http, finished_job, query, parameter):
     assert [error["parameter"] for error in problem["errors"]] == [parameter]
 
 
-@pytest.mark.parametrize("resource", ["", "/peaks", "/statistics", "/figures"])
+@pytest.mark.parametrize("resource", ["", "/statistics", "/figures"])
 def test_a_parameter_where_there_are_none_is_refused(http, finished_job, resource):
     problem = get(http, f"/v1/jobs/{finished_job}{resource}", 422, start=1.0)
     assert problem["errors"] == [{"parameter": "start", "detail": "There is no such parameter."}]

@@ -99,3 +99,25 @@ def states_in_steps(
                 for k in range(count):
                     write_row(rows[first + k], k, lane, runs[lane], at, work, spare)
         done = i
+
+
+@deferred(void(ADDRESSES, PLACES, WORK, RUNS, TABLE, TABLE))
+def step_ends(
+    addresses: np.ndarray,
+    places: np.ndarray,
+    work: np.ndarray,
+    runs: np.ndarray,
+    steps: np.ndarray,
+    ends: np.ndarray,
+) -> None:
+    """Write the states (n, states) that steps (n, width) end with; else as `states_in_steps`."""
+    call, at = functions_at(addresses[0]), places[0]
+    work, runs = unowned(work), unowned(runs)
+    for first in range(0, len(steps), LANES):
+        count = min(LANES, len(steps) - first)
+        for lane in range(LANES):
+            read_step(steps[first + min(lane, count - 1)], lane, runs[lane], at, work)
+        call.attempt(work)
+        for lane in range(count):
+            for k in range(at.states):
+                ends[first + lane, k] = work[at.stage + k, lane]

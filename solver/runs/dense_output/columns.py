@@ -1,10 +1,11 @@
 """Columns of a run's accepted steps, as stores name them."""
 
 from jointplay.solver.integrators import METHODS
-from jointplay.solver.mechanics.assembly import assemble
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.pairs import contact_pairs
+from jointplay.solver.scene.periods import characteristic_time
 from jointplay.solver.scene.references import inner_states
 
 METHOD = "method"
@@ -22,6 +23,11 @@ def method_of(number: float) -> str:
     return sorted(METHODS)[int(number)]
 
 
+def needs_no_steps(admission: Admission) -> bool:
+    """Whether drivers leave no freedom, so that the motion is known at any time as it is."""
+    return assemble(admission.scene).freedom_with_play == 0
+
+
 def step_columns(admission: Admission) -> tuple[str, ...]:
     """Return the columns of the steps that a run keeps; none if it keeps none.
 
@@ -29,7 +35,7 @@ def step_columns(admission: Admission) -> tuple[str, ...]:
     no freedom makes no steps.
     """
     scene = admission.scene
-    if not admission.steps_limit or assemble(scene).freedom_with_play == 0:
+    if not admission.steps_limit or needs_no_steps(admission):
         return ()
     coordinates: tuple[str, ...]
     if admission.job["formulation"] == "lagrange":
@@ -51,6 +57,12 @@ def step_columns(admission: Admission) -> tuple[str, ...]:
         *(f"{name} impact rate" for name in pairs),
         METHOD,
     )
+
+
+def period_of_steps(admission: Admission) -> float:
+    """Return what a step's whole periods are of, s: of the drivers, or the scene's time scale."""
+    scene = admission.scene
+    return admission.period or characteristic_time(scene, shortest_link(scene))
 
 
 def most_steps(admission: Admission) -> int:

@@ -12,12 +12,14 @@ from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.replay import find_steps, states_in_steps
+from jointplay.solver.kernels.loop.replay import find_steps, states_in_steps, step_ends
 from jointplay.solver.kernels.loop.windows import size_of_table
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 
 LANE = 0
+LOOKED_AT = 8
+"""Steps whose ends are compared with what follows."""
 
 
 class Replay:
@@ -105,6 +107,31 @@ class Replay:
         )
         columns = np.array([self.kernel.rows.index(name) for name in names], np.int64)
         return bundle.observe(LANE, rows, columns)
+
+    def mismatch(self, steps: Floats) -> float:
+        """Return how far steps, made again, end from where the next one starts, in its scales.
+
+        0: bit for bit, as on the processor and with the solver that made them. Only a few are
+        looked at; a step with one of another method, or of another scene, is far off.
+        """
+        chosen = np.unique(np.linspace(0, len(steps) - 2, LOOKED_AT).astype(np.int64))
+        chosen = chosen[chosen >= 0]
+        if not len(chosen):
+            return 0.0
+        columns = self.kernel.step_row
+        states = slice(columns.state, columns.slope)
+        ends = np.empty((len(chosen), columns.slope - columns.state))
+        step_ends(
+            self.kernel.addresses,
+            self.kernel.places,
+            self._bundle.groups[0].work,
+            self.runs,
+            np.ascontiguousarray(steps[chosen]),
+            ends,
+        )
+        following = steps[chosen + 1, states]
+        scale = np.abs(steps[:, states]).max(axis=0) + 1e-300
+        return float((np.abs(ends - following) / scale).max())
 
     def extremes(
         self, names: Sequence[str], steps: Floats, edges: Floats, ranges: Floats

@@ -1,0 +1,87 @@
+"""Windows of a run in a folder, computed from its steps in this process."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from jointplay.client.window import ChannelSeries, Window
+from jointplay.records.peak import Peak
+from jointplay.records.run import Floats
+from jointplay.storage.results.reader import ResultReader
+from jointplay.worker.windows.trajectory import Trajectory
+
+MOST_VALUES = 50_000_000
+"""Numbers of one window: 400 MB."""
+
+
+def trajectory_of(run: ResultReader) -> Trajectory:
+    """Return a run's trajectory; the solver is loaded by the first question."""
+
+    def ask(question: Any) -> Any:
+        from jointplay.worker.windows.evaluate import answer
+
+        return answer(question)
+
+    return Trajectory(run, ask)
+
+
+def exact_window(
+    run: ResultReader,
+    names: Sequence[str],
+    start: float | None,
+    stop: float | None,
+    points: int | None,
+    step: float | None,
+) -> Window | str:
+    """Return values every `step` s, or extremes of `points` spans; or why there are none."""
+    trajectory = trajectory_of(run)
+    first, last = _ends(trajectory, start, stop)
+    if step is not None:
+        if points is not None or not step > 0.0 or not np.isfinite(step):
+            return "Give either a positive step in s, or points."
+        count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
+        if count * (len(names) + 1) > MOST_VALUES:
+            return f"{count:.3g} instants are too many at once; ask for a shorter window."
+        times = np.minimum(first + step * np.arange(int(count)), last)
+        found = trajectory.values(names, times)
+        if found.values is None:
+            return found.refused
+        return window_of(run, times, dict(zip(names, found.values.T, strict=True)))
+    edges = np.linspace(first, last, points + 1) if points and last > first else [first, last]
+    found = trajectory.extremes(names, np.array(edges))
+    if found.values is None:
+        return found.refused
+    time = np.column_stack([edges[:-1], edges[1:]]).ravel()
+    columns = {name: found.values[:, c, ::2].ravel() for c, name in enumerate(names)}
+    return window_of(run, time, columns, exact=False, between_samples=True)
+
+
+def exact_peaks(
+    run: ResultReader, start: float | None, stop: float | None
+) -> dict[str, Peak] | str:
+    """Return the extremes of all channels in a window; or why there are none."""
+    trajectory = trajectory_of(run)
+    names = [channel.name for channel in run.channels]
+    found = trajectory.extremes(names, np.array(_ends(trajectory, start, stop)))
+    if found.values is None:
+        return found.refused
+    rows = found.values[0].tolist()
+    return {name: Peak(*row) for name, row in zip(names, rows, strict=True)}
+
+
+def window_of(
+    run: ResultReader, time: Floats, columns: Mapping[str, Floats], **more: Any
+) -> Window:
+    """Return columns over times as a window, with what the run says of its channels."""
+    described = {channel.name: channel for channel in run.channels}
+    series = {
+        name: ChannelSeries(described[name].unit, described[name].long_name, values)
+        for name, values in columns.items()
+    }
+    return Window(np.asarray(time, np.float64), series, run.complete, **more)
+
+
+def _ends(trajectory: Trajectory, start: float | None, stop: float | None) -> tuple[float, float]:
+    last = trajectory.reached if stop is None else min(stop, trajectory.reached)
+    return 0.0 if start is None else max(start, 0.0), last

@@ -1,0 +1,124 @@
+"""Windows of a run at any resolution: computed from its steps, or else from its samples."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from fastapi import Depends
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.records.channel import TIME, by_name
+from jointplay.records.peak import Peak
+from jointplay.service.dependencies import of_the_application
+from jointplay.service.problems import RequestRefused
+from jointplay.service.results import schemas
+from jointplay.service.results.queries import check_points, check_size
+from jointplay.service.results.stores import RunOfThePath
+from jointplay.service.windows import WindowProcess
+from jointplay.storage.results.reader import ResultReader
+from jointplay.worker.windows.trajectory import Trajectory
+
+_ROUNDED = (
+    "Computed on another processor, or by another version of the solver, than the run: values may"
+    " differ from its own by rounding."
+)
+
+
+@dataclass(frozen=True)
+class ExactRun:
+    """A run, and its trajectory between samples."""
+
+    run: ResultReader
+    trajectory: Trajectory
+
+    def values(
+        self, names: list[str], start: float | None, stop: float | None, step: float
+    ) -> schemas.History:
+        """Return channels every `step` s, or refuse."""
+        first, last = self._window(start, stop)
+        count = max(np.floor((last - first) / step * (1.0 + 1e-12)), 0.0) + 1.0
+        check_size(count, len(names) + 1, "instants", last - first)
+        times = np.minimum(first + step * np.arange(int(count)), last)
+        found = self.trajectory.values(names, times)
+        if found.values is None:
+            raise RequestRefused.of_parameter("step", found.refused)
+        columns = dict(zip(names, found.values.T, strict=True))
+        return schemas.History.model_construct(
+            complete=self.run.complete,
+            time=schemas.Series.of(TIME, values=times),
+            channels=series(self.run, columns),
+            note=_ROUNDED if found.rounded else "",
+        )
+
+    def overview(
+        self, names: list[str], start: float | None, stop: float | None, points: int
+    ) -> schemas.Overview | str:
+        """Return extremes of equal spans of time, or a sentence: why they are not known exactly."""
+        check_points(points, len(names))
+        first, last = self._window(start, stop)
+        edges = np.linspace(first, last, points + 1) if last > first else np.array([first, last])
+        try:
+            found = self.trajectory.extremes(names, edges)
+        except RequestRefused as busy:
+            return str(busy)
+        if found.values is None:
+            return found.refused
+        return schemas.Overview.model_construct(
+            complete=self.run.complete,
+            samples=int(np.subtract(*self.run.between(start, stop)[::-1])),
+            bins=bins(np.column_stack([edges[:-1], edges[1:]])),
+            extremes=extremes(self.run, names, found.values[:, :, ::2]),
+            exact=True,
+            note=_ROUNDED if found.rounded else "",
+        )
+
+    def peaks(self, start: float | None, stop: float | None) -> dict[str, Peak]:
+        """Return extremes of a window by channel, or refuse; of no window those so far, if any."""
+        names = [channel.name for channel in self.run.channels]
+        first, last = self._window(start, stop)
+        found = self.trajectory.extremes(names, np.array([first, last]))
+        if found.values is None:
+            if start is None and stop is None:
+                return {}
+            raise RequestRefused.of_parameter("start", found.refused)
+        rows = found.values[0].tolist()
+        return {name: Peak(*row) for name, row in zip(names, rows, strict=True)}
+
+    def _window(self, start: float | None, stop: float | None) -> tuple[float, float]:
+        reached = self.trajectory.reached
+        first = 0.0 if start is None else max(start, 0.0)
+        return first, reached if stop is None else min(stop, reached)
+
+
+def bins(times: Floats) -> schemas.Bins:
+    """Return the spans (k, 2) of time of groups."""
+    return schemas.Bins.model_construct(
+        unit="s", first=times[:, 0].tolist(), last=times[:, 1].tolist()
+    )
+
+
+def extremes(run: ResultReader, names: list[str], found: Floats) -> dict[str, schemas.Extremes]:
+    """Return minima and maxima (k, names, 2) by channel."""
+    described = by_name(run.channels)
+    return {
+        name: schemas.Extremes.of(described[name], minimum=found[:, c, 0], maximum=found[:, c, 1])
+        for c, name in enumerate(names)
+    }
+
+
+def series(run: ResultReader, columns: dict[str, NDArray[np.float64]]) -> dict[str, schemas.Series]:
+    """Return columns with their units."""
+    described = by_name(run.channels)
+    return {
+        name: schemas.Series.of(described[name], values=column) for name, column in columns.items()
+    }
+
+
+async def _exact_run(
+    run: RunOfThePath, windows: Annotated[WindowProcess, of_the_application("windows")]
+) -> ExactRun:
+    return ExactRun(run, windows.of(run))
+
+
+ExactRunOfThePath = Annotated[ExactRun, Depends(_exact_run)]

@@ -1,0 +1,39 @@
+"""The process that computes windows of trajectories, kept warm: `jointplay.worker.windows`."""
+
+from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.problems import unavailable
+from jointplay.storage.results.reader import ResultReader
+from jointplay.worker.windows.question import Answer, Question
+from jointplay.worker.windows.trajectory import Trajectory
+
+_PATIENCE = 60.0  # s; equations that were compiled elsewhere take some 20 of them
+
+
+class WindowProcess:
+    """Asks the process for values and extremes between samples."""
+
+    def __init__(self) -> None:
+        self._process = AnsweringProcess("jointplay.worker.windows", _PATIENCE)
+
+    def of(self, reader: ResultReader) -> Trajectory:
+        """Return a run's trajectory, which asks this process."""
+        return Trajectory(reader, self._answer)
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.close()
+
+    def _answer(self, question: Question) -> Answer:
+        try:
+            found = self._process.answer(question)
+        except Busy:
+            raise unavailable(
+                "Many windows are being computed; ask again in a moment.", 2
+            ) from None
+        except TooSlow:
+            sentence = "The window took too long to compute; a shorter one is faster."
+            raise unavailable(sentence, 30) from None
+        except NoAnswer:
+            raise unavailable("The window could not be computed.", 5) from None
+        assert isinstance(found, Answer)  # noqa: S101  (the process is our own)
+        return found

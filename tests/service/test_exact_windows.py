@@ -1,0 +1,122 @@
+"""Windows over HTTP of a run that a worker computed: what is between its samples is in them."""
+
+import numpy as np
+import pytest
+
+from jointplay.client import Client
+from jointplay.records.job import JobError
+from jointplay.service.results import schemas
+from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.packed import Packed
+from jointplay.storage.results.reader import ResultReader
+
+DURATION, STEP = 0.06, 0.004
+FORCE = "A.normal_force"
+
+
+@pytest.fixture(scope="module")
+def job(worker):
+    """A press whose samples step over nearly every impact."""
+    claim = worker.start(worker.submit(duration=DURATION, output_step=STEP, label="exact"))
+    worker.run(claim)
+    worker.finish(claim, BlockState.done)
+    return claim.job.id
+
+
+def ask(http, job, what="history", status=200, **query):
+    answer = http.get(f"/v1/jobs/{job}/{what}", params=query)
+    assert answer.status_code == status, answer.text
+    return answer.json()
+
+
+def test_every_peak_is_in_a_window_of_any_resolution(http, job):
+    peak = ask(http, job, "peaks")["peaks"][FORCE]
+    samples = ask(http, job, channels=FORCE)["channels"][FORCE]["values"]
+    assert max(samples) < 0.7 * peak["maximum"]
+    for points in (1, 7, 2000):
+        shown = schemas.Overview.model_validate(ask(http, job, channels=FORCE, points=points))
+        assert shown.exact
+        assert shown.note == ""
+        assert len(shown.bins.first) == points
+        highest = shown.extremes[FORCE].maximum
+        assert max(highest) == pytest.approx(peak["maximum"], rel=1e-6)
+        place = int(np.argmax(highest))
+        assert shown.bins.first[place] <= peak["maximum_time"] <= shown.bins.last[place]
+
+
+def test_values_at_any_instants_are_those_that_samples_have(http, job):
+    samples = ask(http, job)
+    again = ask(http, job, step=STEP)
+    assert again["time"]["values"] == pytest.approx(samples["time"]["values"], abs=1e-15)
+    for name, one in samples["channels"].items():
+        close = np.array(again["channels"][name]["values"])
+        scale = np.abs(close).max() + 1e-9
+        assert np.allclose(close, one["values"], rtol=0.0, atol=1e-9 * scale)
+
+
+def test_one_impact_shows_its_loop_of_force_over_penetration(http, job):
+    (impact, *_) = [
+        one
+        for one in ask(http, job, "impacts")["impacts"]
+        if one["peak_force"] > 200.0 and one["release"]
+    ]
+    names = ("A.penetration", FORCE)
+    window = {"start": impact["onset"], "stop": impact["release"]}
+    shown = ask(http, job, channels=",".join(names), step=1e-6, **window)["channels"]
+    depth, force = (np.array(shown[name]["values"]) for name in names)
+    assert len(force) > 50
+    assert force.max() == pytest.approx(impact["peak_force"], rel=1e-4)
+    assert depth[0] == pytest.approx(0.0, abs=1e-9)
+    into = np.trapezoid(force, depth)  # the loop's area is what the impact lost
+    assert into > 0.0
+
+
+def test_peaks_of_a_window_are_reached_in_it(http, job):
+    window = {"start": 0.02, "stop": 0.03}
+    found = ask(http, job, "peaks", **window)["peaks"]
+    for name, one in found.items():
+        assert window["start"] <= one["minimum_time"] <= window["stop"]
+        assert window["start"] <= one["maximum_time"] <= window["stop"]
+        shown = ask(http, job, channels=name, points=1, **window) if name == FORCE else None
+        if shown:
+            assert shown["extremes"][name]["maximum"] == [one["maximum"]]
+
+
+def test_what_cannot_be_computed_is_refused_or_said(http, job, worker):
+    assert "not both" in ask(http, job, points=3, step=1e-3, status=422)["detail"]
+    assert "most" in ask(http, job, step=1e-9, status=422)["detail"]
+    by_hand = worker.finished(label="without steps")
+    assert "keeps no steps" in ask(http, by_hand, step=1e-3, status=422)["detail"]
+    assert "keeps no steps" in ask(http, by_hand, "peaks", start=0.5, status=422)["detail"]
+    shown = ask(http, by_hand, points=3)
+    assert not shown["exact"]
+    assert "keeps no steps" in shown["note"]
+
+
+def test_a_running_job_has_windows_and_peaks_of_what_is_committed(http, worker):
+    fields = {"duration": 0.5, "output_step": 0.01, "label": "running"}
+    claim = worker.start(worker.submit(**fields))
+    worker.run(claim, reports=2)
+    reached = ask(http, claim.job.id)["time"]["values"][-1]
+    assert 0.0 < reached <= 0.5
+    shown = ask(http, claim.job.id, channels=FORCE, points=500)
+    assert shown["exact"]
+    assert shown["bins"]["last"][-1] == pytest.approx(reached)
+    peak = ask(http, claim.job.id, "peaks")["peaks"][FORCE]
+    assert max(shown["extremes"][FORCE]["maximum"]) == pytest.approx(peak["maximum"], rel=1e-5)
+    error = JobError("solver", "step-size-underflow", "No step.")
+    worker.finish(claim, BlockState.failed, error)
+
+
+def test_the_client_reads_what_the_service_says(service_url, settings, job):
+    with Client(service_url) as client:
+        found = client.job(job)
+        window = found.window(FORCE, points=300)
+        assert window.between_samples
+        assert not window.exact
+        peak = ResultReader(Packed(settings.sealed_run(job, 1))).peaks()[FORCE]
+        assert window[FORCE].max() == pytest.approx(peak.maximum, rel=1e-6)
+        fine = found.window(FORCE, 0.02, 0.03, step=1e-6)
+        assert fine.exact
+        assert len(fine.time) == 10_001
+        assert found.results.peaks(0.02, 0.03)[FORCE].maximum >= fine[FORCE].max() * (1 - 1e-9)
