@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jointplay.client import Client, Job
-    from jointplay.local import load, run
+    from jointplay.local import load, resume, run
 
-__all__ = ["Client", "Job", "load", "run"]
+__all__ = ["Client", "Job", "load", "resume", "run"]
 
 
 def __getattr__(name: str) -> Any:
@@ -20,7 +20,7 @@ def __getattr__(name: str) -> Any:
 
     if name in ("Client", "Job"):
         return getattr(import_module("jointplay.client"), name)
-    if name in ("load", "run"):
+    if name in ("load", "resume", "run"):
         return getattr(import_module("jointplay.local"), name)
     if name in ("client", "figures", "jobs"):
         return import_module(f"jointplay.{name}")

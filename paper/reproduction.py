@@ -1,5 +1,6 @@
 """The whole reproduction: compute each job into a store of its own, draw, write."""
 
+import json
 import shutil
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,14 +13,21 @@ from jointplay.paper.variants import Size
 from jointplay.solver.kinds import Admission, Study, admit, parse
 from jointplay.solver.runs.processes import Advance, Call, Processes, cores, processes
 from jointplay.solver.runs.study.run import StudyRun
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.errors import CorruptStore, NotAStore
+from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.storage.studies.store import create, seal
-from jointplay.worker.execute import execute
+from jointplay.storage.results.metadata import FILE
+from jointplay.storage.studies.store import seal
+from jointplay.worker.execute import Answer, execute
 from jointplay.worker.local.computing import Report
 from jointplay.worker.local.folder import RUNNING
 from jointplay.worker.local.interruption import interruption
-from jointplay.worker.study_block import layout_of, run_block
+from jointplay.worker.local.keeping import Keeping
+from jointplay.worker.local.study import Try, compute_block, open_store, tries_in
+from jointplay.worker.local.tries import next_try
+from jointplay.worker.study_block import layout_of
 
 RUNS = "runs"
 PAGE = "report.html"
@@ -36,10 +44,12 @@ class RunFailed(Exception):
 def reproduce(folder: Path, size: Size, count: int | None, progress: Report) -> Path:
     """Compute everything into a folder, on `count` processes, and return the report's path.
 
+    What an earlier call left of the same reproduction is not computed again: it goes on.
+
     Raises
     ------
     Interrupted
-        By Ctrl-C.
+        By Ctrl-C, SIGTERM or SIGHUP.
     RunFailed
         A simulation failed.
     OSError
@@ -85,16 +95,22 @@ def _compute(
     for run in chosen:
         running = folder / RUNNING / run.name
         target = StoredObject(Folder(str(folder)), run.name)
-        if run.job["kind"] == "simulate":
+        admitted = admit(run.job)
+        if _is_there(target, admitted):
+            continue
+        if isinstance(admitted, Admission):
+            running.mkdir(parents=True, exist_ok=True)
             calls.append(Call(_simulate, (run, running, target), run.weight, note=run.name))
             continue
-        study = cast("Study", admit(run.job))
+        study = admitted
         run = replace(run, job=study.job)
-        create(running, layout_of(study))
+        open_store(running, layout_of(study))
+        tries = tries_in(running)
         seals.append(Call(_seal, (run, running, target)))
         for block, (_, count) in enumerate(study.blocks):
             weight = run.weight * count / study.points
-            calls.append(Call(_block, (run, block, running), weight, note=run.name))
+            arguments = (run, block, running, tries.get(block, Try()))
+            calls.append(Call(_block, arguments, weight, note=run.name))
     pool.make(
         calls,
         lambda done, ended, note: tell(_SEALS_FROM * done, f"{ended} of {len(calls)}: {note}"),
@@ -105,7 +121,20 @@ def _compute(
             _SEALS_FROM + (1.0 - _SEALS_FROM) * done, "making the results durable"
         ),
     )
-    shutil.rmtree(folder / RUNNING)
+    shutil.rmtree(folder / RUNNING, ignore_errors=True)
+
+
+def _is_there(target: StoredObject, admitted: Admission | Study) -> bool:
+    """Return whether the results are there already; what is not theirs is removed."""
+    try:
+        root = json.loads(Packed(target).read(FILE))["attributes"]
+    except (NotAStore, CorruptStore, KeyError, ValueError):
+        root = {}
+    wanted = {"job": admitted.job, "solver_version": SOLVER_VERSION, "complete": True}
+    if wanted.items() <= root.items():
+        return True
+    target.place.remove(target.key)
+    return False
 
 
 def _prepare(run: Run, advance: Advance) -> None:
@@ -117,23 +146,16 @@ def _prepare(run: Run, advance: Advance) -> None:
 
 def _simulate(run: Run, running: Path, target: StoredObject, advance: Advance) -> None:
     admission = cast("Admission", admit(run.job))
-    outcome = execute(
-        admission,
-        running,
-        target,
-        report=lambda done: "continue" if advance(done.fraction) else "cancel",
-    )
+    keeping = Keeping(lambda done: advance(done.fraction), Answer.leave)
+    folder, restart = next_try(running)
+    outcome = execute(admission, folder, target, report=keeping, resume_from=restart)
     if outcome.error is not None:
         raise RunFailed(f"{run.name}: {outcome.error.detail}")
 
 
-def _block(run: Run, block: int, running: Path, advance: Advance) -> None:
-    run_block(
-        cast("Study", parse(run.job)),
-        block,
-        running,
-        report=lambda done: "continue" if advance(done.fraction) else "cancel",
-    )
+def _block(run: Run, block: int, running: Path, begin: Try, advance: Advance) -> None:
+    study = cast("Study", parse(run.job))
+    compute_block(study, block, running, begin, lambda done: advance(done.fraction))
 
 
 def _seal(run: Run, running: Path, target: StoredObject, advance: Advance) -> None:

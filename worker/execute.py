@@ -165,7 +165,7 @@ def _advance(
     time, fraction = begin
 
     def keep() -> tuple[str, int]:
-        path = folder.with_name(f"block0-{folder.name}")
+        path = folder.with_name(restart_name(folder.name))
         checkpoint = simulation.checkpoint(), writer.checkpoint()
         RestartPoint(*checkpoint, folder, writer.samples, time, fraction).store(path)
         return path.name, writer.samples
@@ -200,6 +200,11 @@ def _advance(
             piece.steps if writer.keeps_steps else None,
         )
         time, fraction = piece.time, piece.fraction
+
+
+def restart_name(store: str) -> str:
+    """Name the restart point of the try whose store's folder has a name; it lies beside that."""
+    return f"block0-{store}"
 
 
 def uncompiled(ended: CompilationEnded, time: float, fraction: float) -> Outcome:

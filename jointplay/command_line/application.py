@@ -1,5 +1,6 @@
 """The command's parts put together, and its failures turned into one line and an exit code."""
 
+import errno
 import gc
 import sys
 from importlib import import_module
@@ -114,6 +115,8 @@ def _exit_of(error: Exception) -> Exit | None:
 def _line_of(error: Exception) -> str | None:
     """Return what is said of a failure; nothing where the system failed without naming a file."""
     if isinstance(error, OSError):
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            return f"{error.filename or 'a disk'} is full; make room and try again."
         return None if error.filename is None else f"{error.filename}: {error.strerror}."
     problems = getattr(error, "problems", ()) or getattr(error, "flaws", ())
     listed = [f"{place}: {detail}" if place else detail for place, detail in problems]

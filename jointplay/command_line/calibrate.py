@@ -1,8 +1,9 @@
 """``jointplay calibrate``: parameters of a scene that give measured numbers."""
 
 import re
+import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -18,12 +19,12 @@ if TYPE_CHECKING:
 
 def calibrate(
     source: Annotated[
-        str,
+        str | None,
         typer.Argument(
             metavar="FILE.json|SCENE.json|PRESET",
             help="A calibration, or what one left (it is repeated); a scene with options.",
         ),
-    ],
+    ] = None,
     settings: SET = None,
     fit: Annotated[
         list[str] | None,
@@ -59,6 +60,10 @@ def calibrate(
         Path | None,
         typer.Option(metavar="FILE", help="Write the scene with what was found as defaults."),
     ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Go on with a calibration -o FILE that was cut short."),
+    ] = None,
 ) -> None:
     """Fit parameters of a scene to peaks, times and ranges that are known of it.
 
@@ -73,8 +78,14 @@ def calibrate(
     from jointplay.command_line.calibration_table import calibration_lines
     from jointplay.solver.calibration.problem import admit_calibration
 
-    calibration = admit_calibration(
-        calibration_document(
+    if resume is not None:
+        if source is not None or output is not None:
+            raise Stopped("--resume FILE goes on as it was begun; give no other calibration or -o.")
+        given, output = _begun(resume), resume
+    elif source is None:
+        raise Stopped("Missing argument 'FILE.json|SCENE.json|PRESET': name what to calibrate.")
+    else:
+        given = calibration_document(
             source,
             settings=settings or (),
             fits=fit or (),
@@ -84,11 +95,11 @@ def calibrate(
             spread={"factor": factor},
             tolerance=tolerance,
         )
-    )
-    outcome = computed(calibration, processes)
+    outcome = computed(admit_calibration(given), processes, output)
     document = compact_json(outcome.document())
     if output is not None:
         output.write_text(document + "\n")
+        _measured_beside(output).unlink(missing_ok=True)
     if preset_out is not None:
         from jointplay.solver.calibration.fitted_scene import fitted_scene
 
@@ -98,21 +109,44 @@ def calibrate(
         typer.echo(line)
 
 
-def computed(calibration: "Calibration", processes: int | None) -> "Outcome":
-    """Carry out a calibration with a bar on stderr; Stopped if nothing fits."""
+def _begun(output: Path) -> dict[str, Any]:
+    """Return the calibration that was begun for a file of results."""
+    from jointplay.worker.local.measured import document_in
+
+    found = document_in(_measured_beside(output))
+    if found is None:
+        raise Stopped(f"No calibration was begun with -o {output}, or it has come to its end.")
+    return found
+
+
+def computed(
+    calibration: "Calibration", processes: int | None, output: Path | None = None
+) -> "Outcome":
+    """Carry out a calibration with a bar on stderr; Stopped if nothing fits, or by a signal.
+
+    What it measures is kept beside the file of its results, if it will have one, so that it can go
+    on there.
+    """
     from concurrent.futures.process import BrokenProcessPool
 
     from jointplay.progress import progress
+    from jointplay.worker.local.interruption import interruption
 
-    with progress("calibrate") as report:
+    with interruption() as asked_to_end, progress("calibrate") as report:
         report(0.0, "preparing the kernels")
         from jointplay.solver.calibration import calibrate as search
         from jointplay.solver.calibration.measure import measures
-        from jointplay.solver.runs.processes import cores
+        from jointplay.solver.runs.processes import Interrupted, cores
+        from jointplay.worker.local.measured import Measured
 
+        kept = None if output is None else Measured(_measured_beside(output), calibration)
         try:
-            with measures(calibration, processes or cores()) as (fitted, every):
+            with measures(calibration, processes or cores(), asked_to_end) as (fitted, every):
+                if kept is not None:
+                    fitted, every = kept.of(fitted, every=False), kept.of(every, every=True)
                 outcome = search.calibrate(calibration, fitted, every, report)
+        except Interrupted:
+            raise Stopped(_interrupted(output), Exit.INTERRUPTED) from None
         except search.NothingFits as nothing:
             raise Stopped(str(nothing), Exit.FAILED) from None
         except BrokenProcessPool:
@@ -120,3 +154,13 @@ def computed(calibration: "Calibration", processes: int | None) -> "Outcome":
             raise Stopped(line, Exit.FAILED) from None
         report(1.0, f"{len(outcome.found.costs) + outcome.good.tried} candidates")
     return outcome
+
+
+def _measured_beside(output: Path) -> Path:
+    return output.with_name(f"{output.name}.measured")
+
+
+def _interrupted(output: Path | None) -> str:
+    if output is None:
+        return "interrupted; with -o FILE what was measured is kept, and --resume FILE goes on."
+    return f"interrupted. To go on: jointplay calibrate --resume {shlex.quote(str(output))}"

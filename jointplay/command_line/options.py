@@ -26,13 +26,11 @@ AS_JSON = Annotated[bool, typer.Option("--json", help="Print one JSON document i
 WAIT = Annotated[bool, typer.Option("--wait", help="Wait until the job is finished.")]
 PROCESSES = Annotated[int | None, typer.Option(min=1, max=1024, help="Default one for each core.")]
 
-JOB = Annotated[
-    str,
-    typer.Argument(
-        metavar="JOB.json|SCENE.json|PRESET",
-        help="A job document, a scene document, or the name of a preset (`jointplay scene list`).",
-    ),
-]
+JOB_ARGUMENT = typer.Argument(
+    metavar="JOB.json|SCENE.json|PRESET",
+    help="A job document, a scene document, or the name of a preset (`jointplay scene list`).",
+)
+JOB = Annotated[str, JOB_ARGUMENT]
 SCENE = Annotated[
     str,
     typer.Argument(metavar="SCENE.json|PRESET", help="A scene document, or the name of a preset."),

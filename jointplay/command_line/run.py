@@ -1,28 +1,32 @@
 """``jointplay run``: simulate here and now, without any service."""
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from jointplay.command_line.exits import Exit, Stopped
+from jointplay.command_line.exits import Stopped
 from jointplay.command_line.job_document import job_document
 from jointplay.command_line.job_options import with_job_options
-from jointplay.command_line.options import AS_JSON, JOB, SET
-from jointplay.command_line.output import json_text, make_folder, tell
-
-if TYPE_CHECKING:
-    from jointplay.client import Job
+from jointplay.command_line.local_run import compute_and_show
+from jointplay.command_line.options import AS_JSON, JOB_ARGUMENT, SET
+from jointplay.command_line.output import make_folder
 
 
 @with_job_options()
 def run(
-    source: JOB,
+    source: Annotated[str | None, JOB_ARGUMENT] = None,
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="OUT", help="Folder to make; must not exist.")
-    ],
+        Path | None,
+        typer.Option("-o", "--output", metavar="OUT", help="Folder to make; must not exist."),
+    ] = None,
     settings: SET = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="OUT", help="Go on with a run that was cut short, to the same bits; no more."
+        ),
+    ] = None,
     processes: Annotated[
         int | None, typer.Option(min=1, max=1024, help="Of a study; default one for each core.")
     ] = None,
@@ -36,65 +40,51 @@ def run(
 
     OUT gets job.json (every default filled in: running it repeats the result), results.zarr.zip
     (a Zarr store in one file), outcome.json, peaks.csv, of a study points.csv or accuracy.json.
-    Figures are drawn when they are asked for: `jointplay plot OUT`.  Ctrl-C ends the run and keeps
-    what was computed.
+    Figures are drawn when they are asked for: `jointplay plot OUT`.  Ctrl-C, SIGTERM, SIGHUP and a
+    full disk end the run and keep what was computed; --resume OUT goes on from there.
 
     Examples: `jointplay run seven-bar-press --set clearance=5e-4 --duration 2 -o OUT`,
     `jointplay run seven-bar-press --bifurcation clearance=1e-4:1e-3:200 --record 50 -o DIAGRAM`
     """
-    from jointplay.command_line.plot import draw_all
-    from jointplay.command_line.summary import document_of, results_of
-    from jointplay.local import load
-    from jointplay.progress import progress
+    from jointplay.local.running import unfinished
     from jointplay.solver.kinds import Study, admit
-    from jointplay.worker.local.computing import compute
+    from jointplay.worker.local.folder import write_job
 
-    admission = admit(job_document(source, settings=settings, options=options))
-    if processes is not None and not isinstance(admission, Study):
-        raise Stopped("--processes is of studies; this is one simulation.")
-    make_folder(output)
-    with progress(output.name) as report:
-        compute(admission, output, processes, report)
-    job = load(output)
-    found = results_of(job)
-    table = _write(found, output)
-    if figures:
-        draw_all(job, output / "figures")
-    document = document_of(job, found)
-    del document["statistics"]
-    tell(document, _lines(job, found, table), as_json=as_json)
-    job.check()
-    points = document["points"]
-    if points is not None and len(points["failures"]) == points["number"]:
-        raise Stopped("every point failed; the first one says why above", Exit.FAILED)
-
-
-def _write(found: dict[str, Any], output: Path) -> Path:
-    """Write the table of results into the folder, and return its path."""
-    from jointplay.command_line.peaks import peak_lines
-    from jointplay.command_line.summary import units
-    from jointplay.exports.study import point_lines
-
-    if found["accuracy"] is not None:
-        table, text = output / "accuracy.json", json_text(found["accuracy"]) + "\n"
-    elif (study := found["points"]) is not None:
-        channels = [channel.name for channel in study.channels]
-        lines = point_lines(study, channels, range(study.points), units(study))
-        table, text = output / "points.csv", "".join(lines)
+    if resume is not None:
+        _insist_alone(source, output, settings, options)
+        admission, output = unfinished(resume), resume
     else:
-        table, text = output / "peaks.csv", "".join(peak_lines(found["peaks"]))
-    table.write_text(text)
-    return table
+        source, output = _insist_on_both(source, output)
+        admission = admit(job_document(source, settings=settings, options=options))
+    if processes is not None and admission is not None and not isinstance(admission, Study):
+        raise Stopped("--processes is of studies; this is one simulation.")
+    if resume is None and admission is not None:
+        make_folder(output)
+        write_job(output, admission.job)  # first of all, whatever happens next
+    compute_and_show(admission, output, processes, figures=figures, as_json=as_json)
 
 
-def _lines(job: "Job", found: dict[str, Any], table: Path) -> Iterator[str]:
-    from jointplay.command_line.peaks import headline
-    from jointplay.command_line.summary import result_lines
+def _insist_alone(source: object, output: object, settings: object, options: Any) -> None:
+    if (
+        source
+        or output
+        or settings
+        or any(value not in (None, [], False) for value in options.values())
+    ):
+        raise Stopped(
+            "--resume OUT goes on with OUT/job.json as it is; beside it there can only be"
+            " --processes, --figures and --json."
+        )
 
-    peaks, points = found["peaks"], found["points"]
-    first = () if peaks is None else headline(job.results.source(None, None, None))
-    yield from result_lines(job, found, first)
-    if peaks is not None:
-        yield f"all {len(peaks)} channels are in {table}"
-    if points is not None:
-        yield f"all {points.points} points are in {table}"
+
+def _insist_on_both(source: str | None, output: Path | None) -> tuple[str, Path]:
+    if source is None:
+        raise Stopped(
+            "Missing argument 'JOB.json|SCENE.json|PRESET': name what to simulate, such as"
+            " slider-crank (jointplay scene list), or --resume a run."
+        )
+    if output is None:
+        raise Stopped(
+            "Missing option '--output' / '-o': name a folder for the results, such as -o OUT."
+        )
+    return source, output

@@ -4,13 +4,14 @@ import json
 import shutil
 from collections.abc import Iterator
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import NotFound
 from jointplay.client.job import Job
 from jointplay.storage.errors import ResultsError
-from jointplay.worker.local.folder import OUTCOME_FILE, RUNNING, STORE
+from jointplay.worker.local.folder import OUTCOME_FILE, STORE
 
 if TYPE_CHECKING:
     from jointplay.local.folder_results import FolderResults
@@ -98,12 +99,14 @@ def store_in(folder: Path) -> Path:
 
     The packed store itself may be given too; `NotFound` if there is none.
     """
+    from jointplay.worker.local.growing import growing_store
+
     if folder.is_file():
         return folder
-    for store in (folder / STORE, folder / RUNNING):
-        if store.exists():
-            return store
-    raise NotFound(f"{folder} holds no results: give a folder that a run made, or a job's id.")
+    store = folder / STORE if (folder / STORE).exists() else growing_store(folder)
+    if store is None:
+        raise NotFound(f"{folder} holds no results: give a folder that a run made, or a job's id.")
+    return store
 
 
 def results_in(folder: Path) -> "ResultReader | StudyReader":
@@ -111,11 +114,13 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
     from jointplay.storage.errors import NotAStore
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
+    from jointplay.worker.local.growing import growing_results
 
     store = store_in(folder)
-    for kind in (StudyReader, ResultReader):
+    kinds = (partial(StudyReader, store), partial(ResultReader, store))
+    for read in kinds if store.is_file() else (partial(growing_results, folder),):
         try:
-            return kind(store)
+            return read()
         except NotAStore as error:
             why = error
     raise NotFound(f"{store} holds no results that this version reads: {why}.") from why

@@ -1,4 +1,4 @@
-"""`run`: what a client's methods do, without a service."""
+"""`run` and `resume`: what a client's methods do, without a service."""
 
 import atexit
 import shutil
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay import jobs
-from jointplay.client.errors import FieldProblem, Refused
+from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.job import Job
 from jointplay.local.folder_job import load
 from jointplay.progress import progress as shown
@@ -51,7 +51,8 @@ def run(
     jointplay.client.Refused
         The job cannot be run as it is described; ``fields`` says why.
     jointplay.client.JobFailed, jointplay.client.JobCancelled
-        It failed, or Ctrl-C was pressed; what had been computed can be read.
+        It failed, or Ctrl-C or another signal ended it; what had been computed can be read, and
+        `resume` goes on from there.
     FileExistsError
         The folder is there already.
     """
@@ -68,7 +69,84 @@ def run(
         folder = Path(tempfile.mkdtemp(prefix="jointplay-"))
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
     title = folder.name if output is not None else "run"
-    with shown(title) if progress else nullcontext(lambda fraction, note: None) as report:
+    return _computed(admission, folder, processes, title if progress else None, check=check)
+
+
+def resume(
+    folder: Path | str,
+    *,
+    processes: int | None = None,
+    progress: bool = False,
+    check: bool = True,
+) -> Job:
+    """Go on with a run that was cut short, and return it finished; with one that ended, do nothing.
+
+    It goes on from its last restart point, at most seconds before it was cut short, and gives the
+    same bits as a run in one piece.
+
+    Parameters
+    ----------
+    folder
+        That `run` made, or the command ``jointplay run``.
+    processes, progress, check
+        As for `run`.
+
+    Raises
+    ------
+    jointplay.client.NotFound
+        No run was begun there.
+    jointplay.client.JobFailed, jointplay.client.JobCancelled
+        As for `run`.
+    BlockingIOError
+        Another process is computing it.
+    """
+    admission = unfinished(Path(folder))
+    if admission is not None:
+        title = Path(folder).name if progress else None
+        return _computed(admission, Path(folder), processes, title, check=check)
+    found = load(folder)
+    if check:
+        found.check()
+    return found
+
+
+def unfinished(folder: Path) -> "Admission | Study | None":
+    """Return the job of a run that was cut short; None of one that ended by itself.
+
+    Raises
+    ------
+    jointplay.client.NotFound
+        No run was begun there.
+    jointplay.client.Refused
+        Its ``job.json`` is not what was written.
+    """
+    from jointplay.records.strict_json import MalformedJson, parse
+    from jointplay.worker.local.ending import ended
+    from jointplay.worker.local.folder import JOB_FILE
+
+    path = folder / JOB_FILE
+    try:
+        document = parse(path.read_bytes())
+    except (FileNotFoundError, NotADirectoryError):
+        sentence = f"{folder} holds no run: give the folder that a run was begun in."
+        raise NotFound(sentence) from None
+    except MalformedJson as error:
+        raise Refused(f"{path}: {error}") from None
+    if not isinstance(document, dict):
+        raise Refused(f"{path}: a job is a JSON object.")
+    return None if ended(folder) else _admitted(document)
+
+
+def _computed(
+    admission: "Admission | Study",
+    folder: Path,
+    processes: int | None,
+    title: str | None,
+    *,
+    check: bool,
+) -> Job:
+    """Compute into a folder, with a bar if it has a title, and return the finished job."""
+    with shown(title) if title else nullcontext(lambda fraction, note: None) as report:
         from jointplay.worker.local.computing import compute
 
         compute(admission, folder, processes, report)

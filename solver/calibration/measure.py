@@ -12,7 +12,7 @@ from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.calibration.case_measure import CaseMeasure
 from jointplay.solver.calibration.problem import Calibration, admit_calibration
 from jointplay.solver.kernels.layout import BUNDLE
-from jointplay.solver.runs.processes import Advance, Call, Processes, processes
+from jointplay.solver.runs.processes import Advance, Call, Interrupted, Processes, processes
 
 Measure = Callable[[Floats], Floats]
 """Takes candidates (n, parameters), returns the values of all targets (n, targets)."""
@@ -60,8 +60,12 @@ class Measurement:
 
 
 @contextmanager
-def measures(calibration: Calibration, count: int) -> Iterator[tuple[Measure, Measure]]:
+def measures(
+    calibration: Calibration, count: int, asked_to_end: Callable[[], bool] = lambda: False
+) -> Iterator[tuple[Measure, Measure]]:
     """Give what measures the fitted targets, and what measures every target, by `count` processes.
+
+    Both raise `solver.runs.processes.Interrupted` once the end was asked for.
 
     Raises
     ------
@@ -73,12 +77,22 @@ def measures(calibration: Calibration, count: int) -> Iterator[tuple[Measure, Me
     fitted, every = (Measurement(calibration, every=every) for every in (False, True))
     every.prepare()  # compiles what the processes then find in the cache
     if count == 1:
-        yield fitted, every
+        yield _unless(asked_to_end, fitted), _unless(asked_to_end, every)
         return
-    with processes(count, most_calls=count) as pool:
+    with processes(count, count, asked_to_end) as pool:
         document = json.dumps(calibration.document)
         dealt = partial(_dealt, pool, count, document)
         yield partial(dealt, False), partial(dealt, True)
+
+
+def _unless(asked_to_end: Callable[[], bool], measure: Measure) -> Measure:
+    def measured(candidates: Floats) -> Floats:
+        values = measure(candidates)
+        if asked_to_end():
+            raise Interrupted
+        return values
+
+    return measured
 
 
 def _dealt(pool: Processes, count: int, document: str, every: bool, candidates: Floats) -> Floats:

@@ -4,13 +4,17 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterator, MutableSequence, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 _POLL = 0.1  # s between two looks at the progress of other processes
+_DELIVERY = 0.5  # s in which the result of a call has reached the caller
 Report = Callable[[float, int, str], None]
 """Receives the fraction of all calls, the parts that are done, the note of the last call ended."""
 
@@ -96,6 +100,10 @@ class Processes:
                     )
                     whole = sum(call.weight for call in calls)
                     report(min(reached / whole, 1.0), sum(shared.parts), note)
+        except BrokenProcessPool:
+            if self._asked_to_end():  # a signal for all processes: they left, too
+                raise Interrupted from None
+            raise
         finally:
             self._leave(running)  # after an error too, the others stop
         if self._asked_to_end():
@@ -126,7 +134,8 @@ def processes(
 ) -> Iterator[Processes]:
     """Open a pool of `count` processes, for at most `most_calls` calls at a time.
 
-    Ctrl-C does not reach the processes: `asked_to_end` is asked ten times a second.
+    `asked_to_end` is asked ten times a second.  Ctrl-C does not reach the processes; SIGTERM and
+    SIGHUP have them leave their calls and end.  None outlives the caller, however that ends.
     """
     context = multiprocessing.get_context("spawn")  # threads of libraries do not survive a fork
     with _bare_start():
@@ -175,10 +184,42 @@ _shared: _Shared | None = None
 """Set in a process of the pool when it begins."""
 
 
+_idle = threading.Event()
+"""Set while a process of the pool makes no call."""
+_leaving = threading.Event()
+"""Set when a process of the pool was asked to end by a signal of its own."""
+
+
 def _begin(shared: _Shared) -> None:
     global _shared
+    _idle.set()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in (signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _leave_soon)
+    threading.Thread(target=_end_with_the_caller, daemon=True).start()
     _shared = shared
+
+
+def _end_with_the_caller() -> None:
+    """End this process when the one that started it is gone: what it computes, nobody takes."""
+    caller = multiprocessing.parent_process()
+    if caller is not None:
+        caller.join()
+        os._exit(1)
+
+
+def _leave_soon(number: int, frame: object) -> None:
+    """Have the present call leave, as the caller would, and then end this process."""
+    if not _leaving.is_set():
+        _leaving.set()
+        threading.Thread(target=_end_when_idle, daemon=True).start()
+
+
+def _end_when_idle() -> None:
+    _idle.wait()
+    time.sleep(_DELIVERY)
+    os._exit(0)
 
 
 def _nothing() -> None:
@@ -191,6 +232,10 @@ def _make(function: Callable[..., Any], arguments: tuple[Any, ...], index: int) 
 
     def advance(fraction: float, parts: int = 0, /) -> bool:
         shared.fractions[index], shared.parts[index] = fraction, parts
-        return not shared.leave.value
+        return not (shared.leave.value or _leaving.is_set())
 
-    return function(*arguments, advance)
+    _idle.clear()
+    try:
+        return function(*arguments, advance)
+    finally:
+        _idle.set()

@@ -128,6 +128,12 @@ def name_of(index: int, attempt: int) -> str:
     return f"{index:05d}-a{attempt}"
 
 
+def attempt_of(name: str) -> int | None:
+    """Return the number of the attempt that wrote a part of that name; None of a block's last."""
+    number = name.partition("-a")[2]
+    return int(number) if number else None
+
+
 def newest(folder: Path) -> dict[int, Path]:
     """Find each block's last part, or else that of its latest attempt, by the block's index."""
     found: dict[int, tuple[float, Path]] = {}

@@ -1,11 +1,18 @@
 """``jointplay calibrate`` from its options or a document, and what it prints and writes."""
 
 import json
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from jointplay.command_line.exits import Exit
+from jointplay.solver.calibration.problem import admit_calibration
 from jointplay.solver.kinds import admit
+from jointplay.worker.local.measured import Measured
+from tests.waiting import until
 
 FORCE = "bearing.normal_force@0:0.018"
 BOUNCE = ["bouncing-journal", "--set", "friction=0", "--set", "restitution=1"]
@@ -137,3 +144,33 @@ def test_targets_of_a_document_are_not_replaced(jointplay, document):
     ended = jointplay("calibrate", document, "--target", f"{FORCE}=1")
     assert ended.code == 2
     assert "has its targets already" in ended.line()
+
+
+def test_a_signal_ends_it_and_says_how_to_go_on(jointplay, tmp_path):
+    found = tmp_path / "found.json"
+    measured = tmp_path / "found.json.measured"
+    long = [*BOUNCE, *FIT, "--target", f"{FORCE}={WANTED}", "--generations", "10000"]
+    begin = [sys.executable, "-m", "jointplay", "calibrate", *long, "--population", "500"]
+    with subprocess.Popen(
+        [*begin, "-o", found, "--processes", "1"], stderr=subprocess.PIPE, text=True
+    ) as process:
+        until(lambda: process.poll() is not None or measured.exists())
+        process.send_signal(signal.SIGTERM)
+        _, told = process.communicate()
+    assert process.returncode == Exit.INTERRUPTED
+    assert told.splitlines()[-1].endswith(f"To go on: jointplay calibrate --resume {found}")
+    assert measured.exists()
+    nothing = jointplay("calibrate", "--resume", tmp_path / "other.json")
+    assert nothing.code == 2
+    assert "No calibration was begun" in nothing.line()
+
+
+def test_a_calibration_that_was_begun_is_ended(jointplay, document, tmp_path):
+    found, again = tmp_path / "found.json", tmp_path / "again.json"
+    begun = admit_calibration(json.loads(document.read_bytes()))
+    Measured(tmp_path / "found.json.measured", begun)
+    ended = jointplay("calibrate", "--resume", found, "--processes", "1")
+    assert ended.code == 0, ended.err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["calibration.json", "found.json"]
+    assert jointplay("calibrate", found, "-o", again, "--processes", "1").code == 0
+    assert again.read_bytes() == found.read_bytes()

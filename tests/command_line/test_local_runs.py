@@ -139,7 +139,7 @@ def test_figures_are_drawn_with_the_run_if_asked_for(jointplay, tmp_path):
     assert drawn == {file.name: file.read_bytes() for file in (tmp_path / "later").iterdir()}
 
 
-def test_a_run_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(tmp_path):
+def test_a_run_that_is_ended_from_outside_ends_with_four_and_keeps_what_was_computed(tmp_path):
     output = tmp_path / "OUT"
     arguments = ["run", "seven-bar-press", "--duration", "100000", "--output-step", "0.5"]
     with subprocess.Popen(
@@ -153,10 +153,11 @@ def test_a_run_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(tm
         for line in process.stderr:
             if "t = " in line and "t = 0 s" not in line:
                 break
-        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
         rest = process.stderr.read()
     assert process.returncode == 4, rest
-    assert "cancelled" in rest.splitlines()[-1]
+    assert f"To go on: jointplay run --resume {output}" in rest.splitlines()[-1]
+    assert json.loads((output / "job.json").read_bytes())["duration"] == 100_000.0
     reader = ResultReader(output / "results.zarr.zip")
     assert reader.sealed
     assert not reader.complete

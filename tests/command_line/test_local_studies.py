@@ -14,7 +14,8 @@ from zarr.storage import ZipStore
 
 from jointplay.command_line.application import run
 from jointplay.storage.studies.reader import StudyReader
-from jointplay.worker.local.folder import RUNNING, STORE
+from jointplay.worker.local.folder import STORE
+from jointplay.worker.local.growing import growing_results
 
 CRANK = ["run", "slider-crank"]
 DIAGRAM = ["--bifurcation", "clearance=1e-4:5e-4:17", "--settle", "2", "--record", "4"]
@@ -154,10 +155,10 @@ def test_a_study_that_is_interrupted_ends_with_four_and_keeps_what_was_computed(
         process.send_signal(signal.SIGINT)
         out, rest = process.communicate()
     assert process.returncode == 4, rest
-    assert "cancelled" in rest.splitlines()[-1]
+    assert f"To go on: jointplay run --resume {output}" in rest.splitlines()[-1]
     assert "waiting" in out
     assert not (output / STORE).exists()
-    reader = StudyReader(output / RUNNING)
+    reader = growing_results(output)
     assert not reader.complete
     done = int((reader.status == 2).sum())
     assert 0 < done < 400

@@ -3,6 +3,7 @@
 import base64
 import json
 import re
+import signal
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -12,12 +13,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from jointplay.command_line.exits import Exit
 from jointplay.paper import cases, peaks, reported
 from jointplay.paper.reproduction import PAGE, RUNS
 from jointplay.paper.variants import QUICK
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 from tests.paper.printed_numbers import pointers as printed_numbers
+from tests.waiting import until
 
 REPRODUCE = [sys.executable, "-m", "jointplay", "reproduce"]
 NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?")
@@ -67,12 +70,26 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """Folder of a quick reproduction, and the page that the command names."""
+    """Folder of a quick reproduction that went on after a signal, and the page that it names."""
     folder = tmp_path_factory.mktemp("reproduce") / "out"
-    command = [*REPRODUCE, "--quick", "-o", str(folder), "--json"]
-    ended = subprocess.run(command, capture_output=True, text=True)
+    begin = [*REPRODUCE, "--quick", "-o", str(folder), "--json"]
+    with subprocess.Popen(begin, stderr=subprocess.PIPE, text=True) as process:
+        until(lambda: process.poll() is not None or len(stores_in(folder)) > 2)
+        process.send_signal(signal.SIGTERM)
+        _, told = process.communicate()
+    assert process.returncode == Exit.INTERRUPTED, told
+    assert f"To go on: jointplay reproduce --resume {folder}" in told
+    there = stores_in(folder)
+    go_on = [*REPRODUCE, "--resume", str(folder), "--json"]
+    ended = subprocess.run(go_on, capture_output=True, text=True)
     assert ended.returncode == 0, ended.stderr
+    assert there.items() <= stores_in(folder).items()  # what was there is not computed again
     return folder, json.loads(ended.stdout)["report"]
+
+
+def stores_in(folder: Path) -> dict[Path, int]:
+    """Return the results in a reproduction, and when they were written."""
+    return {path: path.stat().st_mtime_ns for path in folder.glob(f"{RUNS}/*.zarr.zip")}
 
 
 @pytest.fixture(scope="module")

@@ -1,15 +1,18 @@
-"""One job, computed here and now into a folder."""
+"""One job, computed here and now into a folder, or to its end from where it was cut short."""
 
+import errno
 import json
 import shutil
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from jointplay.records.job import JobError
+from jointplay.storage import durable
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
-from jointplay.worker.local.folder import JOB_FILE, OUTCOME_FILE, RUNNING, STORE
+from jointplay.worker.local.folder import OUTCOME_FILE, STORE, holding, write_job
 from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
@@ -17,19 +20,25 @@ if TYPE_CHECKING:
     from jointplay.worker.execute import Outcome
 
 Report = Callable[[float, str], None]
+NO_ROOM: Final = "no-room"
+"""Code of the error of a run that found its disk full."""
+_FULL: Final = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
 def compute(
     admission: "Admission | Study", folder: Path, processes: int | None, report: Report
 ) -> "Outcome":
-    """Compute a checked job; Ctrl-C ends it between two slices of a quarter second.
+    """Compute a checked job; signals that end a process end it between two slices.
+
+    What an earlier call left of the same job is not computed again: it goes on from its last
+    restart point, bit for bit.
 
     Parameters
     ----------
     admission
         As `solver.kinds.admit` returned it.
     folder
-        Where job, store and outcome go; it is there, and empty.
+        Where job, store and outcome go; it is there, and empty, or has such a rest.
     processes
         Of a study; by default one for each core.
     report
@@ -38,42 +47,94 @@ def compute(
     Returns
     -------
     Outcome
-        Whatever it is, what was computed is kept.
-    """
-    from jointplay.solver.kinds import Study
+        Whatever it is, what was computed is kept.  "cancelled" by a signal, or "failed" with
+        `NO_ROOM` where the disk is full: both can go on.
 
+    Raises
+    ------
+    BlockingIOError
+        Another process computes into the folder.
+    """
     begun = datetime.now(UTC)
-    (folder / JOB_FILE).write_text(json.dumps(admission.job, indent=2) + "\n")
-    running, target = folder / RUNNING, StoredObject(Folder(str(folder)), STORE)
-    if isinstance(admission, Study):
+    target = StoredObject(Folder(str(folder)), STORE)
+    reached = _Reached(report)
+    with interruption() as asked_to_end, holding(folder) as running:
+        write_job(folder, admission.job)
+        _clear(folder)
+        from jointplay.solver.kinds import Study  # from here on, loading takes seconds
         from jointplay.worker.local.study import compute_study
 
-        outcome = compute_study(admission, running, target, processes, report)
-    else:
-        outcome = _simulation(admission, running, target, report)
-    if target.exists():
+        try:
+            if isinstance(admission, Study):
+                outcome = compute_study(
+                    admission, running, target, processes, reached.report, asked_to_end
+                )
+            else:
+                outcome = _simulation(admission, running, target, reached, asked_to_end)
+        except OSError as fault:
+            if fault.errno not in _FULL:
+                raise
+            outcome = reached.without_room(folder)
+        _write_outcome(folder, begun, outcome)
+    if target.exists() and outcome.state != "cancelled":
         shutil.rmtree(running)
-    _write_outcome(folder, begun, outcome)
     return outcome
 
 
+class _Reached:
+    """How far a run is, for the outcome of one that cannot say so."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self.time = self.fraction = 0.0
+
+    def report(self, fraction: float, note: str) -> None:
+        """Note the fraction and pass it on."""
+        self.fraction = fraction
+        self._report(fraction, note)
+
+    def without_room(self, folder: Path) -> "Outcome":
+        from jointplay.worker.execute import Outcome
+
+        sentence = (
+            f"The disk of {folder} is full. What was computed up to the last restart point is"
+            " kept: make room, and go on from there."
+        )
+        return Outcome("failed", self.time, self.fraction, JobError("platform", NO_ROOM, sentence))
+
+
 def _simulation(
-    admission: "Admission", running: Path, target: StoredObject, report: Report
+    admission: "Admission",
+    running: Path,
+    target: StoredObject,
+    reached: _Reached,
+    asked_to_end: Callable[[], bool],
 ) -> "Outcome":
-    report(0.0, "preparing the kernel")
-    from jointplay.worker.execute import Progress, execute
+    reached.report(0.0, "preparing the kernel")
+    from jointplay.worker.execute import Answer, Progress, execute
+    from jointplay.worker.local.keeping import Keeping
+    from jointplay.worker.local.tries import next_try
 
-    with interruption() as asked_to_end:
+    def go_on(done: Progress) -> bool:
+        reached.time = done.time
+        reached.report(done.fraction, f"t = {done.time:.4g} s")
+        return not asked_to_end()
 
-        def go_on(done: Progress) -> str:
-            report(done.fraction, f"t = {done.time:.4g} s")
-            return "cancel" if asked_to_end() else "continue"
+    folder, restart = next_try(running)
+    keeping = Keeping(go_on, Answer.cancel)
+    return execute(admission, folder, target, report=keeping, resume_from=restart)
 
-        return execute(admission, running, target, report=go_on)
+
+def _clear(folder: Path) -> None:
+    """Remove what an end before the last said of itself; what was computed is in `RUNNING`."""
+    for name in (OUTCOME_FILE, STORE):
+        (folder / name).unlink(missing_ok=True)
+    for path in folder.glob(f"*{durable.PARTIAL}"):
+        path.unlink(missing_ok=True)
 
 
 def _write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
-    """Write beside the results how the run ended."""
+    """Write beside the results how the run ended; a full disk may have no room for it."""
     document = {
         "state": outcome.state,
         "error": outcome.error and outcome.error.document(),
@@ -81,4 +142,8 @@ def _write_outcome(folder: Path, begun: datetime, outcome: "Outcome") -> None:
         "finished": datetime.now(UTC).isoformat(),
         "progress": {"time": outcome.time, "fraction": outcome.fraction},
     }
-    (folder / OUTCOME_FILE).write_text(json.dumps(document, indent=2) + "\n")
+    try:
+        durable.write(folder / OUTCOME_FILE, [(json.dumps(document, indent=2) + "\n").encode()])
+    except OSError as fault:
+        if fault.errno not in _FULL:
+            raise

@@ -13,6 +13,7 @@ from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.results import verified
+from jointplay.worker.local.ending import ended
 from jointplay.worker.local.folder import JOB_FILE, OUTCOME_FILE, RUNNING, STORE
 
 
@@ -22,7 +23,7 @@ def examined(folder: Path) -> Iterator[Finding]:
     if not (folder / STORE).exists():
         if not (folder / OUTCOME_FILE).exists():
             found = "is not there: the run was cut short, or goes on"
-            yield _finding(folder, STORE, found, advice=again)
+            yield _finding(folder, STORE, found, advice=f"jointplay run --resume {folder}")
         return
     try:
         job = verified(StoredObject(Folder(str(folder)), STORE))["job"]
@@ -37,7 +38,7 @@ def examined(folder: Path) -> Iterator[Finding]:
     if (folder / OUTCOME_FILE).exists() and _document(folder / OUTCOME_FILE) is None:
         mend = partial((folder / OUTCOME_FILE).unlink, missing_ok=True)
         yield _finding(folder, OUTCOME_FILE, "is no JSON document", "removed", mend=mend)
-    if (folder / RUNNING).exists():
+    if (folder / RUNNING).exists() and ended(folder):
         mend = partial(shutil.rmtree, folder / RUNNING, ignore_errors=True)
         yield _finding(folder, RUNNING, "is left over", "removed", mend=mend)
     for path in sorted(folder.glob(f"*{durable.PARTIAL}")):

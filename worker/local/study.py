@@ -1,50 +1,62 @@
 """All blocks of a study on this machine's cores, each result through the study's store."""
 
 import json
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Mapping
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from jointplay.solver.runs.processes import Advance, Call, Interrupted, cores, processes
-from jointplay.worker.local.interruption import interruption
 
 if TYPE_CHECKING:
     from jointplay.solver.kinds import Study
     from jointplay.storage.places import StoredObject
-    from jointplay.worker.execute import Outcome
+    from jointplay.storage.studies.layout import StudyLayout
+    from jointplay.worker.execute import Outcome, Progress
 
 Report = Callable[[float, str], None]
+STORE = "study"
+"""Folder of the growing store, which all tries fill together."""
 _DIED = "A process that computed a part of the study died; what others stored is kept."
 
 
 def compute_study(
-    study: "Study", folder: Path, target: "StoredObject", processes: int | None, report: Report
+    study: "Study",
+    running: Path,
+    target: "StoredObject",
+    processes: int | None,
+    report: Report,
+    asked_to_end: Callable[[], bool],
 ) -> "Outcome":
     """Compute a study into a store; what is computed does not depend on the processes.
+
+    Blocks that an earlier call ended are not computed again; those that it began go on.
 
     Parameters
     ----------
     study
         As admitted.
-    folder
-        Where the store is filled.
+    running
+        Folder of the store's, with what an earlier call left.
     target
         Where the sealed store goes.
     processes
         How many; by default one for each core.
     report
         Called several times a second with the fraction of the whole, and a few words.
+    asked_to_end
+        Asked several times a second.
 
     Returns
     -------
     Outcome
         The store is sealed if it is "succeeded", otherwise it keeps what was computed: "cancelled"
-        by Ctrl-C, or "failed" because one of the processes was ended from outside.
+        by a signal, or "failed" because one of the processes was ended from outside.
     """
     from jointplay.records.job import JobError
-    from jointplay.storage.studies.store import create, seal
+    from jointplay.storage.studies.store import seal
     from jointplay.worker.execute import Outcome
     from jointplay.worker.study_block import layout_of
 
@@ -57,11 +69,14 @@ def compute_study(
 
     wanted = min(processes or cores(), len(study.blocks))
     report(0.0, "preparing the kernels")
-    layout = layout_of(study)
-    create(folder, layout)
+    layout, folder = layout_of(study), running / STORE
+    open_store(folder, layout)
+    tries = tries_in(folder)
     try:
         complete = (
-            _here(study, folder, tell) if wanted == 1 else _spread(study, folder, wanted, tell)
+            _here(study, folder, tries, tell, asked_to_end)
+            if wanted == 1
+            else _spread(study, folder, tries, wanted, tell, asked_to_end)
         )
     except BrokenProcessPool:
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
@@ -72,30 +87,71 @@ def compute_study(
     return Outcome("succeeded", 0.0, 1.0)
 
 
-def _here(study: "Study", folder: Path, report: Report) -> bool:
+def open_store(folder: Path, layout: "StudyLayout") -> None:
+    """Make the store, or find it; one that another version of the program began is of no use."""
+    from jointplay.storage.errors import StoreExists
+    from jointplay.storage.studies.store import create
+
+    try:
+        create(folder, layout)
+    except StoreExists:
+        shutil.rmtree(folder)
+        create(folder, layout)
+
+
+class Try(NamedTuple):
+    """A try at a block to come: its number, and the restart point that it goes on from."""
+
+    number: int = 1
+    resume_from: str | None = None
+
+
+def tries_in(folder: Path) -> dict[int, Try]:
+    """Return the next try at every block of a store that was begun, by its index."""
+    from jointplay.storage.studies.part import attempt_of, newest
+
+    return {
+        index: Try((attempt_of(path.name) or 0) + 1, path.name)
+        for index, path in newest(folder).items()
+    }
+
+
+def _here(
+    study: "Study",
+    folder: Path,
+    tries: Mapping[int, Try],
+    report: Report,
+    asked_to_end: Callable[[], bool],
+) -> bool:
     """Compute all blocks in this process, one after the other."""
     from jointplay.worker.execute import Progress
-    from jointplay.worker.study_block import run_block
 
-    with interruption() as asked_to_end:
-        for index, (first, count) in enumerate(study.blocks):
+    for index, (first, count) in enumerate(study.blocks):
 
-            def go_on(done: Progress, first: int = first, count: int = count) -> str:
-                ended = first + done.watermark
-                fraction = (first + count * done.fraction) / study.points
-                report(fraction, f"{ended} of {study.points} points")
-                return "cancel" if asked_to_end() else "continue"
+        def go_on(done: Progress, first: int = first, count: int = count) -> bool:
+            ended = first + done.watermark
+            fraction = (first + count * done.fraction) / study.points
+            report(fraction, f"{ended} of {study.points} points")
+            return not asked_to_end()
 
-            if run_block(study, index, folder, report=go_on).state != "succeeded":
-                return False
+        state = compute_block(study, index, folder, tries.get(index, Try()), go_on)
+        if state != "succeeded":
+            return False
     return True
 
 
-def _spread(study: "Study", folder: Path, count: int, report: Report) -> bool:
+def _spread(
+    study: "Study",
+    folder: Path,
+    tries: Mapping[int, Try],
+    count: int,
+    report: Report,
+    asked_to_end: Callable[[], bool],
+) -> bool:
     """Compute the blocks in several processes, each taking the next one when it is free."""
     job = json.dumps(study.job)
     calls = [
-        Call(_block, (job, str(folder), index), weight=points, parts=points)
+        Call(_block, (job, str(folder), index, tries.get(index, Try())), points, points)
         for index, (_, points) in enumerate(study.blocks)
     ]
 
@@ -103,7 +159,7 @@ def _spread(study: "Study", folder: Path, count: int, report: Report) -> bool:
         if fraction > 0.0:
             report(fraction, f"{points} of {study.points} points")
 
-    with interruption() as asked_to_end, processes(count, len(calls), asked_to_end) as pool:
+    with processes(count, len(calls), asked_to_end) as pool:
         try:
             return pool.make(calls, show) == ["succeeded"] * len(calls)
         except Interrupted:
@@ -118,12 +174,32 @@ def _study(job: str) -> "Study":
     return cast("Study", parse(json.loads(job)))
 
 
-def _block(job: str, folder: str, index: int, advance: Advance) -> str:
-    """Compute one block and return how it ended."""
-    from jointplay.worker.execute import Progress
+def _block(job: str, folder: str, index: int, begin: Try, advance: Advance) -> str:
+    """Compute one block in a process of the pool and return how it ended."""
+    return compute_block(
+        _study(job),
+        index,
+        Path(folder),
+        begin,
+        lambda done: advance(done.fraction, done.watermark),
+    )
+
+
+def compute_block(
+    study: "Study",
+    index: int,
+    folder: Path,
+    begin: Try,
+    go_on: "Callable[[Progress], bool]",
+) -> str:
+    """Compute one block, with restart points, and return how it ended; "left" can go on."""
+    from jointplay.worker.execute import Answer
+    from jointplay.worker.local.keeping import Keeping
     from jointplay.worker.study_block import run_block
 
-    def go_on(done: Progress) -> str:
-        return "continue" if advance(done.fraction, done.watermark) else "cancel"
-
-    return run_block(_study(job), index, Path(folder), report=go_on).state
+    restart = None if begin.resume_from is None else (begin.resume_from, 0.0)
+    keeping = Keeping(go_on, Answer.leave)
+    outcome = run_block(
+        study, index, folder, report=keeping, attempt=begin.number, resume_from=restart
+    )
+    return outcome.state
