@@ -8,6 +8,7 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    __version__: str
     from jointplay.client import Client, Job
     from jointplay.local import load, resume, run
 
@@ -22,10 +23,14 @@ def __getattr__(name: str) -> Any:
         return getattr(import_module("jointplay.client"), name)
     if name in ("load", "resume", "run"):
         return getattr(import_module("jointplay.local"), name)
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("jointplay")
     if name in ("client", "figures", "jobs"):
         return import_module(f"jointplay.{name}")
     raise AttributeError(f"module 'jointplay' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, "client", "figures", "jobs"})
+    return sorted({*globals(), *__all__, "__version__", "client", "figures", "jobs"})

@@ -4,7 +4,7 @@ import errno
 import gc
 import sys
 from importlib import import_module
-from typing import Final
+from typing import Annotated, Final
 
 import typer
 
@@ -41,11 +41,36 @@ application = typer.Typer(
     name="jointplay",
     help="Simulate planar mechanisms whose joints have play.",
     no_args_is_help=True,
-    add_completion=False,
+    add_completion=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _tell_version(*, wanted: bool) -> None:
+    if wanted:
+        from jointplay import __version__
+
+        typer.echo(f"jointplay {__version__}")
+        raise typer.Exit
+
+
+@application.callback()
+def _before_any_command(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the version.",
+            is_eager=True,
+            callback=lambda wanted: _tell_version(wanted=wanted),
+        ),
+    ] = False,
+) -> None:
+    """Simulate planar mechanisms whose joints have play."""
+
+
 for name in COMMANDS:
     application.command(name)(getattr(import_module(f"jointplay.command_line.{name}"), name))
 application.add_typer(scene.application, name="scene")
@@ -85,7 +110,7 @@ def run(arguments: list[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return _reported(Exit.INTERRUPTED, "interrupted")
     except typer.TyperException as error:
-        return _reported(Exit.BAD_INPUT, f"{error.format_message()} (see: jointplay --help)")
+        return _misused(error.format_message())
     except Stopped as error:
         return _reported(error.code, str(error))
     except Exception as error:
@@ -97,6 +122,11 @@ def run(arguments: list[str] | None = None) -> int:
     if code == Exit.INTERRUPTED:  # typer's own way to say Ctrl-C
         return _reported(Exit.INTERRUPTED, "interrupted")
     return int(code or Exit.OK)
+
+
+def _misused(why: str) -> int:
+    """Say what is wrong with what was typed; nothing of a group alone, whose help was told."""
+    return _reported(Exit.BAD_INPUT, f"{why} (see: jointplay --help)") if why else Exit.OK
 
 
 def _reported(code: Exit, line: str) -> int:

@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+import jointplay as package
 from jointplay import client, figures
 from jointplay.command_line.application import EXITS
 from jointplay.records import failure, strict_json
@@ -162,3 +163,23 @@ def test_exit_codes_are_of_exceptions_that_there_are():
     places = (builtins, client, failure, strict_json, processes, figures, errors, of_the_catalogue)
     unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
     assert unknown == []
+
+
+@pytest.mark.parametrize("arguments", [[], ["scene"]], ids=["alone", "a group alone"])
+def test_what_needs_a_command_shows_its_help_and_nothing_else(jointplay, arguments):
+    ended = jointplay(*arguments)
+    assert (ended.code, ended.err) == (0, "")
+    assert "Commands" in ended.out
+
+
+def test_the_version_is_told(jointplay):
+    assert jointplay("--version").out == f"jointplay {package.__version__}\n"
+
+
+def test_shells_complete_commands(jointplay, monkeypatch, capsys):
+    monkeypatch.setenv("_JOINTPLAY_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", "jointplay repr")
+    monkeypatch.setenv("COMP_CWORD", "1")
+    with pytest.raises(SystemExit):
+        jointplay()
+    assert capsys.readouterr().out.split() == ["reproduce"]
