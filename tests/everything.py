@@ -18,8 +18,13 @@ from pathlib import Path
 
 from tests.wheel_layout import ROOT, lay_out
 
-LONGEST = ("faults", "solver", "solver/runs", "command_line", "service")
-"""Groups that begin first, so that none is left alone at the end: some wait, some compute."""
+GROUPS = (
+    *("faults", "solver/runs", "command_line", "solver", "service"),
+    *("figures", "worker", "seams", "storage", "deployment"),
+)
+"""Folders of tests with a process of their own, the longest first, so that none is left alone at
+the end: some wait, some compute. All other tests share one: each process imports for two seconds.
+"""
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
 }
@@ -64,25 +69,24 @@ class Step:
 
 
 def steps() -> list[Step]:
-    """Return the checks of the code, then the tests, a group for each folder of tests."""
+    """Return the checks of the code, then the tests: what has no group of its own, the groups."""
     bin_folder = Path(sys.executable).parent
     pytest = [sys.executable, "-m", "pytest", "-m", "not long"]
     tests, tree = ROOT / "tests", lay_out()
     configuration, cache = ROOT / "pyproject.toml", ROOT / ".mypy_cache"
     settings = ["--config-file", str(configuration)]
-    names = [folder.name for folder in tests.iterdir() if any(folder.rglob("test_*.py"))]
     without = {"solver": ["--ignore", str(tests / "solver/runs")]}  # half of it
-    groups = sorted([*names, "solver/runs"], key=lambda name: (name not in LONGEST, name))
-    alone = [str(path) for path in sorted(tests.glob("test_*.py"))]
+    files = {path.relative_to(tests).parts[0] for path in tests.rglob("test_*.py")}
+    others = [str(tests / name) for name in sorted(files.difference(GROUPS))]
     return [
         Step("format", [str(bin_folder / "ruff"), "format", "--check", "."]),
         Step("lint", [str(bin_folder / "ruff"), "check", "."]),
         Step("types", [str(bin_folder / "mypy"), *settings, f"--cache-dir={cache}"], tree),
         Step("imports", [str(bin_folder / "lint-imports"), "--config", str(configuration)], tree),
-        Step("tests", [*pytest, *alone]),
+        Step("tests", [*pytest, *others]),
         *(
             Step(f"tests/{name}", [*pytest, str(tests / name), *without.get(name, [])])
-            for name in groups
+            for name in GROUPS
         ),
     ]
 

@@ -22,6 +22,10 @@ from tests.solver.laws.specification.element import ElementSpecification
 MASS, STIFFNESS, FREE_LENGTH = 2.0, 50.0, 0.4
 RATE = math.sqrt(STIFFNESS / MASS)
 formulations = pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+by_multipliers = pytest.mark.parametrize(
+    "formulation", [pytest.param("reduced", marks=pytest.mark.long), "lagrange"]
+)
+"""Elements act on bodies alike in both: the short suite compiles one test's motion in both."""
 
 
 class TestSpringDamper(ElementSpecification):
@@ -133,7 +137,7 @@ def test_a_mass_on_a_spring_swings_at_its_natural_frequency(formulation: str) ->
     np.testing.assert_allclose(total, 0.5 * STIFFNESS * 0.1**2, atol=1e-6)
 
 
-@formulations
+@by_multipliers
 def test_a_damper_lets_it_decay_and_the_ledger_says_where_the_energy_went(formulation: str) -> None:
     damping = 4.0
     found = computed(oscillator(damping=damping), 3.0, formulation)
@@ -149,7 +153,7 @@ def test_a_damper_lets_it_decay_and_the_ledger_says_where_the_energy_went(formul
     assert abs(energy["residual"]) <= 1e-7 * energy["gross_work"]
 
 
-@formulations
+@by_multipliers
 def test_springs_alone_hold_a_body_that_no_joint_holds(formulation: str) -> None:
     """A body on two equal springs, aside of the pendulum that every scene's joint needs."""
     scene = oscillator()
@@ -209,7 +213,7 @@ def test_the_driver_of_an_ideal_mechanism_works_against_a_spring() -> None:
     np.testing.assert_allclose(found["motor.torque"] * 2.0, tension * rate, atol=1e-9)
 
 
-@formulations
+@by_multipliers
 def test_a_torque_spins_one_body_up_against_another(formulation: str) -> None:
     """Two wheels on one axle: each gets the torque, in opposite directions."""
     moment, inertias = 0.3, {"rotor": 0.2, "stator": 0.5}

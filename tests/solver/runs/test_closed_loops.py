@@ -45,6 +45,7 @@ def gaps(found: Run, four_bar: int = 0) -> float:
     return float(np.hypot(across, up).max())
 
 
+@pytest.mark.long
 def test_the_press_with_play_at_a_alone_has_the_same_motion_in_both_formulations() -> None:
     runs = [
         run(

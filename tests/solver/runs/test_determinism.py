@@ -168,7 +168,9 @@ def test_two_runs_of_a_job_have_the_same_bits() -> None:
     assert_same(whole(job()), whole(job()))
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "lagrange"])
+@pytest.mark.parametrize(
+    "formulation", ["reduced", pytest.param("lagrange", marks=pytest.mark.long)]
+)
 def test_a_run_restarted_from_any_checkpoint_has_the_bits_of_an_undisturbed_one(
     formulation: str,
 ) -> None:
@@ -216,9 +218,13 @@ def test_outputs_do_not_change_the_motion() -> None:
         assert_same_conclusion(one, other)
 
 
-def test_a_certificate_does_not_change_a_bit() -> None:
-    for changes in ({}, {"formulation": "lagrange", "duration": 0.2}):
-        assert_same(whole(job(**changes)), whole(job(**changes, certificate=False)))
+@pytest.mark.parametrize(
+    "changes",
+    [{}, pytest.param({"formulation": "lagrange", "duration": 0.2}, marks=pytest.mark.long)],
+    ids=["reduced", "lagrange"],
+)
+def test_a_certificate_does_not_change_a_bit(changes: dict[str, Any]) -> None:
+    assert_same(whole(job(**changes)), whole(job(**changes, certificate=False)))
 
 
 def test_a_longer_run_begins_with_the_bits_of_a_shorter_one() -> None:

@@ -103,13 +103,16 @@ def random_flight(rng: np.random.Generator) -> Flight:
     return ring(clearance, radius, fast, slow, spin, velocity, eccentricity, gravity, duration)
 
 
-@pytest.mark.parametrize(("seed", "count"), [(1, 7), pytest.param(2, 3000, marks=pytest.mark.long)])
-def test_a_first_contact_is_never_missed(seed: int, count: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "count", "methods"),
+    [(1, 8, 2), pytest.param(2, 3000, len(ACCURACIES), marks=pytest.mark.long)],
+)
+def test_a_first_contact_is_never_missed(seed: int, count: int, methods: int) -> None:
     rng = np.random.default_rng(seed)
     touched = 0
     for i in range(count):
         flight = random_flight(rng)
-        found = first_onset(flight, *ACCURACIES[i % len(ACCURACIES)])
+        found = first_onset(flight, *ACCURACIES[i % methods])
         check(flight, found)
         touched += found < math.inf
     assert touched > count / 2  # else there would be little to miss
