@@ -33,6 +33,8 @@ from jointplay.service.windows import WindowProcess
 from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
+from jointplay.storage.places.fitness import require_fit
+from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
 
 _DESCRIPTION = """
@@ -73,6 +75,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         settings.data.mkdir(parents=True, exist_ok=True)
+        if not isinstance(settings.place, Folder):
+            require_fit(settings.place)
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
         app.state.catalogue = catalogue

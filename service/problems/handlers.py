@@ -121,6 +121,13 @@ def _(error: Unavailable) -> RequestRefused:
 
 
 @refusal.register
+def _(error: ConnectionError) -> RequestRefused:
+    """Another server that answers are made of, such as that of the results, is away."""
+    detail = "The results cannot be reached at the moment; they are not lost."
+    return RequestRefused(kinds.UNAVAILABLE, detail, headers={"Retry-After": "5"})
+
+
+@refusal.register
 def _(error: KeyReused) -> RequestRefused:
     sentence = f"{str(error).capitalize()}."
     errors = [ErrorDetail(parameter="Idempotency-Key", detail=clipped(sentence))]

@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Final, Protocol
 
 from jointplay.storage.places.folder import Folder
+from jointplay.storage.places.s3 import Bucket
 
 
 class Place(Protocol):
@@ -71,7 +72,7 @@ class Place(Protocol):
         ...
 
 
-PLACES: Final[dict[str, Callable[[str], Place]]] = {"file": Folder}
+PLACES: Final[dict[str, Callable[[str], Place]]] = {"file": Folder, "s3": Bucket}
 """By the scheme of a place's address; called with what follows it."""
 
 

@@ -1,0 +1,175 @@
+"""A bucket of an S3-compatible store: objects are its own, put in one request each.
+
+The store must refuse a PUT of a key that there is (If-None-Match), and list what was put at once;
+`storage.places.fitness` tries it. Its credentials are where other clients of S3 have them, such as
+`AWS_ACCESS_KEY_ID` and `AWS_SECRET_ACCESS_KEY` in the environment.
+"""
+
+import mmap
+import os
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from datetime import timedelta
+from functools import lru_cache
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Final
+from urllib.parse import parse_qsl, urlsplit
+
+if TYPE_CHECKING:
+    from obstore.store import RetryConfig, S3Store
+
+_IN_MEMORY: Final = 2**24
+"""Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
+_AT_ONCE: Final = 2**23
+_RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
+_OPTIONS: Final = {"endpoint", "region"}
+_ADDRESS: Final = "s3://bucket/prefix?endpoint=http://host:8333&region=us-east-1"
+
+
+@dataclass(frozen=True)
+class Bucket:
+    """See `storage.places.Place`.
+
+    Parameters
+    ----------
+    address
+        Behind ``s3:``, such as ``//bucket/prefix?endpoint=http://host:8333``.
+
+    Raises
+    ------
+    ValueError
+        The address is no such one, or obstore is not installed.
+    """
+
+    address: str
+    _parts: tuple[str, str, tuple[tuple[str, str], ...]] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if find_spec("obstore") is None:
+            raise ValueError("results in S3 need obstore: pip install 'jointplay[cluster]'")
+        parts = urlsplit(self.address)
+        options = dict(parse_qsl(parts.query))
+        if not parts.netloc or options.keys() - _OPTIONS:
+            raise ValueError(f"'s3:{self.address}' is no bucket; an address is like {_ADDRESS}")
+        found = parts.netloc, parts.path.strip("/"), tuple(sorted(options.items()))
+        object.__setattr__(self, "_parts", found)
+
+    def put(self, key: str, pieces: Iterable[bytes]) -> None:
+        """Gather the object, then send it in one request, which fails if the key is taken."""
+        import obstore
+        from obstore.exceptions import AlreadyExistsError
+
+        with tempfile.SpooledTemporaryFile(max_size=_IN_MEMORY) as gathered:
+            for piece in pieces:
+                gathered.write(piece)
+            size = gathered.tell()
+            gathered.seek(0)
+            mapped = None
+            if size > _IN_MEMORY:
+                mapped = mmap.mmap(gathered.fileno(), 0, access=mmap.ACCESS_READ)
+            content = gathered.read() if mapped is None else mapped
+            with _answering(key):
+                try:
+                    obstore.put(self._store, key, content, mode="create", use_multipart=False)
+                except AlreadyExistsError as error:
+                    raise FileExistsError(f"results are written once: {key}") from error
+
+    def size(self, key: str) -> int:
+        """Ask for the object's head."""
+        import obstore
+
+        with _answering(key):
+            return int(obstore.head(self._store, key)["size"])
+
+    def version(self, key: str) -> str | None:
+        """Ask for the object's head, which has the digest of its bytes."""
+        import obstore
+
+        with suppress(FileNotFoundError), _answering(key):
+            found = obstore.head(self._store, key)
+            return f"{found['e_tag']}-{found['size']}-{found['last_modified'].timestamp()}"
+        return None
+
+    def read(self, key: str, start: int, stop: int) -> bytes:
+        """Ask for a range; for one beyond the end, what there is of it."""
+        import obstore
+
+        if start < stop:
+            with suppress(ConnectionError), _answering(key):
+                return bytes(obstore.get_range(self._store, key, start=start, end=stop))
+        stop = min(stop, self.size(key))
+        if start >= stop:
+            return b""
+        with _answering(key):
+            return bytes(obstore.get_range(self._store, key, start=start, end=stop))
+
+    def list(self, prefix: str) -> Iterator[str]:
+        """Ask for the keys in the folder that the prefix ends in."""
+        import obstore
+
+        folder = prefix.rpartition("/")[0]
+        with _answering(prefix):
+            for some in obstore.list(self._store, folder or None):
+                yield from (one["path"] for one in some if one["path"].startswith(prefix))
+
+    def cut_off(self) -> Iterator[str]:
+        """Yield nothing: a request that was cut off leaves nothing."""
+        return iter(())
+
+    def remove(self, prefix: str) -> None:
+        """Ask for the keys, and delete them together."""
+        import obstore
+
+        if found := [*self.list(prefix)]:
+            with suppress(FileNotFoundError), _answering(prefix):
+                obstore.delete(self._store, found)
+
+    def adopt(self, key: str, lost: str) -> bool:
+        """Read the object and put it under its second name."""
+        if self.version(lost) is None:
+            return False
+        with suppress(FileExistsError):
+            self.put(key, self._pieces(lost))
+        return True
+
+    def _pieces(self, key: str) -> Iterator[bytes]:
+        for start in range(0, self.size(key), _AT_ONCE):
+            yield self.read(key, start, start + _AT_ONCE)
+
+    @property
+    def _store(self) -> "S3Store":
+        return _opened(self._parts, os.getpid())  # its threads do not outlive a fork
+
+
+@lru_cache(maxsize=8)
+def _opened(parts: tuple[str, str, tuple[tuple[str, str], ...]], _process: int) -> "S3Store":
+    from obstore.store import S3Store
+
+    bucket, prefix, options = parts
+    given = dict(options)
+    return S3Store(
+        bucket,
+        prefix=prefix or None,
+        endpoint=given.get("endpoint", os.environ.get("AWS_ENDPOINT_URL")),
+        region=given.get("region", os.environ.get("AWS_REGION", "us-east-1")),
+        virtual_hosted_style_request=False,
+        client_options={"allow_http": True, "connect_timeout": "5s", "timeout": "120s"},
+        retry_config=_RETRIES,
+    )
+
+
+@contextmanager
+def _answering(key: str) -> Iterator[None]:
+    """Raise what a folder would: FileNotFoundError, or ConnectionError if the store fails."""
+    from obstore.exceptions import BaseError, NotFoundError
+
+    try:
+        yield
+    except (NotFoundError, FileNotFoundError) as error:
+        raise FileNotFoundError(f"{key} is not there") from error
+    except BaseError as error:
+        first = str(error).strip().partition("\n")[0]
+        sentence = f"the store of results does not do as asked with {key}: {first}"
+        raise ConnectionError(sentence) from error

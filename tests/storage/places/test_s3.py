@@ -1,0 +1,120 @@
+"""Results in a bucket of an S3-compatible store."""
+
+import itertools
+import os
+from collections.abc import Callable, Iterator
+from datetime import timedelta
+
+import obstore
+import pytest
+from obstore.exceptions import NotFoundError
+
+from jointplay.storage.places import Place, place_at
+from jointplay.storage.places.fitness import Unfit, require_fit
+from jointplay.storage.places.s3 import Bucket
+from tests.seaweedfs_server import BUCKET, running_store, store
+from tests.storage.places.contract import CONTENT, KEY, PlaceContract, pieces
+
+
+@pytest.fixture(scope="module")
+def endpoint() -> Iterator[str]:
+    with running_store() as endpoint:
+        yield endpoint
+
+
+@pytest.fixture(scope="module")
+def new_address(endpoint: str) -> Callable[[], str]:
+    number = itertools.count()
+    return lambda: f"s3://{BUCKET}/place{next(number)}?endpoint={endpoint}"
+
+
+class TestBucket(PlaceContract):
+    """The contract."""
+
+    @pytest.fixture
+    def place(self, new_address: Callable[[], str]) -> Place:
+        return place_at(new_address())
+
+    def raw_get(self, place: Place, key: str) -> bytes | None:
+        try:
+            return bytes(obstore.get(raw(place), key).bytes())
+        except (NotFoundError, FileNotFoundError):
+            return None
+
+    def raw_set(self, place: Place, key: str, content: bytes) -> None:
+        obstore.put(raw(place), key, content)
+
+
+def raw(place: Place) -> obstore.store.S3Store:
+    assert isinstance(place, Bucket)
+    path, _, endpoint = place.address.partition("?endpoint=")
+    return store(endpoint, path.removeprefix(f"//{BUCKET}/"))
+
+
+def test_an_object_that_memory_should_not_hold_is_stored_and_adopted(
+    new_address: Callable[[], str],
+) -> None:
+    place = place_at(new_address())
+    large = os.urandom(17 * 2**20)
+    place.put(KEY, pieces(large))
+    assert place.size(KEY) == len(large)
+    assert place.read(KEY, 2**24 - 5, 2**24 + 5) == large[2**24 - 5 : 2**24 + 5]
+    assert place.adopt("2R/other", KEY)
+    assert place.read("2R/other", 0, len(large)) == large
+
+
+def test_a_store_that_is_away_is_a_fault_that_may_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    from jointplay.storage.places import s3
+
+    quick = {"max_retries": 0, "retry_timeout": timedelta(seconds=1)}
+    monkeypatch.setattr(s3, "_RETRIES", quick)
+    monkeypatch.setenv("AWS_ACCESS_KEY_ID", "nobody")
+    monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "nothing")
+    place = place_at("s3://results/away?endpoint=http://127.0.0.1:1")
+    for act in (
+        lambda: place.put(KEY, pieces()),
+        lambda: place.size(KEY),
+        lambda: place.version(KEY),
+        lambda: place.read(KEY, 0, 1),
+        lambda: place.remove(KEY),
+        lambda: list(place.list("")),
+    ):
+        with pytest.raises(ConnectionError, match="does not do as asked"):
+            act()
+
+
+def test_wrong_keys_are_such_a_fault_too(
+    new_address: Callable[[], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    address = new_address()
+    monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "guessed")
+    with pytest.raises(ConnectionError):
+        place_at(address).put(KEY, pieces())
+
+
+@pytest.mark.parametrize("address", ["s3:", "s3:///prefix", "s3:bucket", "s3://b?secret=x"])
+def test_an_address_that_is_no_bucket_is_refused(address: str) -> None:
+    with pytest.raises(ValueError, match="an address is like s3://bucket"):
+        place_at(address)
+
+
+def test_a_store_that_does_what_results_need_is_fit(new_address: Callable[[], str]) -> None:
+    place = place_at(new_address())
+    place.put(KEY, pieces())
+    require_fit(place)
+    assert list(place.list("")) == [KEY]
+    assert place.read(KEY, 0, 9999) == CONTENT
+
+
+class Overwriting(Bucket):
+    """Stands for a store that does not heed If-None-Match."""
+
+    def put(self, key: str, pieces: object) -> None:
+        obstore.put(raw(self), key, b"".join(pieces))  # type: ignore[call-overload]
+
+
+def test_a_store_that_writes_over_objects_is_refused(new_address: Callable[[], str]) -> None:
+    place = Overwriting(new_address().removeprefix("s3:"))
+    with pytest.raises(Unfit, match="If-None-Match"):
+        require_fit(place)
+    assert list(place.list("")) == []
