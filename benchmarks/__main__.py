@@ -10,6 +10,7 @@ ALL = (
     "peers",
     "accuracy",
     "stiffness",
+    "knots",
     "exponent",
     "sweep",
     "restitution",

@@ -36,8 +36,8 @@ class SimulationFailed(Exception):
     Attributes
     ----------
     code : str
-        ``step-size-underflow``, ``step-limit``, ``time-limit``, ``onset-not-located`` or
-        ``assembly-lost``.
+        ``step-size-underflow``, ``step-limit``, ``time-limit``, ``onset-not-located``,
+        ``outside-of-a-function`` or ``assembly-lost``.
     detail : str
         When, where and what to try.
     time : float

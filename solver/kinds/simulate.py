@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from jointplay.records.channel import Channel
-from jointplay.records.failure import LimitExceeded, Problem
+from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
 from jointplay.solver.kinds import documents, limits
 from jointplay.solver.kinds.job import ChannelChoice, Job
 from jointplay.solver.kinds.kind import Kind
@@ -17,6 +17,7 @@ from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.domains import domain_problems
 from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.parameters import set_parameters
 from jointplay.solver.scene.periods import (
@@ -86,6 +87,9 @@ class Simulate(Kind[SimulateJob]):
         """Check and fill in; see `Kind.admit`."""
         scene, scene_document, echo = resolve(job)
         _, assembly = check(scene, job.formulation)
+        outside = list(domain_problems(scene, job.duration))
+        if outside:
+            raise InvalidInput(outside)
         moves = assembly.freedom_with_play > 0
         selected = select(channels(scene), list(job.channels), "/channels")
         chosen(job)

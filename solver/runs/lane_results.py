@@ -14,6 +14,8 @@ from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.periods import PACE_STEPS, SLOWEST_PACE
 from jointplay.solver.kernels.loop.runs import Status
 from jointplay.solver.quantities.extremes import refined_peaks
+from jointplay.solver.runs.left_domains import left_domain
+from jointplay.solver.scene.document import Scene
 
 INSTANTS_A_PERIOD = 720
 MOST_INSTANTS = 200_000
@@ -107,9 +109,13 @@ def out_of_time(seconds: float, at: float) -> SimulationFailed:
     )
 
 
-def failure_of(bundle: Bundle, lane: int, tolerance: float) -> SimulationFailed:
+def failure_of(bundle: Bundle, lane: int, tolerance: float, scene: Scene) -> SimulationFailed:
     """Return what stopped a lane that is neither running nor done."""
     stopped = bundle.lane(lane)
+    left = left_domain(bundle, lane, scene)
+    if left:
+        sentence = f"At t = {stopped.time:.9g} s {left}."
+        return SimulationFailed("outside-of-a-function", sentence, stopped.time)
     status, at, steps = stopped.status, stopped.time, stopped.steps
     step = stopped.number("next_step")
     if not bundle.kernel.tableau.error:

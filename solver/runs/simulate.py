@@ -137,7 +137,7 @@ class DynamicRun:
                 found = stiff_method.joined(held) if told else stiff_method.withheld(found)
             yield found
         if self.bundle.lane(LANE).status != Status.DONE:
-            raise failure_of(self.bundle, LANE, self.admission.tolerance)
+            raise failure_of(self.bundle, LANE, self.admission.tolerance, self.problem.scene)
 
     def _goes_on(self) -> bool:
         """Choose the method: whether the run goes on, or begins again with the implicit one."""

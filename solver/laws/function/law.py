@@ -39,6 +39,11 @@ class Function(Strict):
         """
 
     @property
+    def domain(self) -> tuple[float, float] | None:
+        """First and last argument, if others are refused: there the value is not a number."""
+        return None
+
+    @property
     def bend(self) -> float:
         """Length of the argument in which it bends, as a period would be; infinite: none."""
         return math.inf

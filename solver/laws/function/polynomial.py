@@ -23,9 +23,7 @@ class Polynomial(Function):
 
     def at(self, x: Scalar) -> Derivatives:
         """Return value and derivatives by Horner's rule."""
-        first = [k * c for k, c in enumerate(self.coefficients)][1:]
-        second = [k * c for k, c in enumerate(first)][1:]
-        return Derivatives(*(_horner(part, x) for part in (self.coefficients, first, second)))
+        return derivatives(self.coefficients, x)
 
     @property
     def period(self) -> float:
@@ -34,14 +32,26 @@ class Polynomial(Function):
 
     def largest(self, until: float) -> list[float]:
         """Return the largest magnitudes, at the ends or where the next derivative vanishes."""
-        found = []
-        derivative = Numeric(self.coefficients)
-        for _ in range(min(SMOOTH, len(self.coefficients) - 1)):
-            derivative = derivative.deriv()
-            turns = derivative.deriv().roots().real
-            places = [0.0, until, *(x for x in turns if 0.0 < x < until)]
-            found.append(max(abs(float(derivative(x))) for x in places))
-        return found
+        return largest_magnitudes(Numeric(self.coefficients), until)
+
+
+def derivatives(coefficients: list[Scalar], x: Scalar) -> Derivatives:
+    """Return value and derivatives of a polynomial, lowest power first."""
+    first = [k * c for k, c in enumerate(coefficients)][1:]
+    second = [k * c for k, c in enumerate(first)][1:]
+    return Derivatives(*(_horner(part, x) for part in (coefficients, first, second)))
+
+
+def largest_magnitudes(polynomial: Numeric, until: float) -> list[float]:
+    """Return the largest magnitudes of its first derivatives over arguments 0..`until`."""
+    found = []
+    derivative = polynomial
+    for _ in range(min(SMOOTH, len(polynomial.coef) - 1)):
+        derivative = derivative.deriv()
+        turns = derivative.deriv().roots().real
+        places = [0.0, until, *(x for x in turns if 0.0 < x < until)]
+        found.append(max(abs(float(derivative(x))) for x in places))
+    return found
 
 
 def _horner(coefficients: list[Scalar], x: Scalar) -> Scalar:

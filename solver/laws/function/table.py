@@ -1,27 +1,24 @@
 """A table of values, with a cubic between any two of them."""
 
 import math
-from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-import numpy as np
 from pydantic import Field
 
 from jointplay.solver.laws.function.cubics import Cubics, smooth_slopes, steady_slopes
+from jointplay.solver.laws.function.knots import (
+    BENDS,
+    GROWING,
+    MOST_KNOTS,
+    Knots,
+    Outside,
+    brought_inside,
+    least_gap,
+)
 from jointplay.solver.laws.function.law import Derivatives, Function
-from jointplay.solver.quantities.scalars import Scalar, floor, maximum, minimum, select_positive
+from jointplay.solver.quantities.scalars import Scalar, maximum, select_positive
 from jointplay.solver.quantities.units import Rule
 
-MOST_KNOTS = 64
-BENDS = 4.0
-"""Distances of knots that a wave through them is at least long."""
-UNEVEN = 1e4
-"""Largest ratio of distances of knots: a spline through more uneven ones overshoots wildly."""
-
-Knots = Annotated[
-    list[Annotated[float, Field(ge=-1e9, le=1e9, json_schema_extra={"unit": "unit of x"})]],
-    Field(min_length=2, max_length=MOST_KNOTS),
-]
 Values = Annotated[
     list[
         Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
@@ -30,35 +27,14 @@ Values = Annotated[
 ]
 
 
-def _gaps(table: Any) -> list[Any]:
-    return [after - before for before, after in pairwise(table.knots)]
-
-
-def _least(table: Any) -> Any:
-    return np.min(np.stack([np.asarray(gap) for gap in np.broadcast_arrays(*_gaps(table))]), axis=0)
-
-
-def _falling(table: Any) -> str:
-    k = next(k for k, gap in enumerate(_gaps(table), start=1) if gap <= 0.0)
-    return (
-        f"Knot {k} is {table.knots[k]:g}, not above {table.knots[k - 1]:g} before it; knots must"
-        " grow strictly."
-    )
-
-
-def _ratio(table: Any) -> Any:
-    gaps = np.stack(np.broadcast_arrays(*_gaps(table)))
-    return gaps.max(axis=0) / np.maximum(gaps.min(axis=0), 1e-300)
-
-
 class Table(Function):
     """f through given values at given knots, a cubic between two of them (Hermite's form).
 
     ``smooth``: the slopes make the second derivative continuous (cubic spline). ``monotone``: the
     slopes are weighted harmonic means of those on either side, zero where they differ in sign,
     so that f rises and falls only where the values do, and the second derivative jumps at knots.
-    Outside of the knots ``held`` keeps the end values, where the slope is zero; ``periodic``
-    repeats the table, whose last value must be its first.
+    Outside of the knots ``held`` keeps the end values; ``periodic`` repeats the table, whose last
+    value must be its first; ``refused`` ends the run there. Ends have no slope, unless it repeats.
 
     Source: de Boor 1978, A Practical Guide to Splines, chapter IV; Fritsch and Butland 1984, SIAM
     Journal on Scientific and Statistical Computing 5:300 (the weights; not yet checked).
@@ -68,17 +44,9 @@ class Table(Function):
     knots: Knots
     values: Values
     between: Literal["smooth", "monotone"] = "smooth"
-    outside: Literal["held", "periodic"]
+    outside: Outside
     rules: ClassVar[tuple[Rule, ...]] = (
-        Rule("knots", lambda table: _least(table) <= 0.0, _falling),
-        Rule(
-            "knots",
-            lambda table: (_least(table) > 0.0) & (_ratio(table) > UNEVEN),
-            lambda table: (
-                f"The widest distance of knots is {_ratio(table):.3g} times the narrowest; at most"
-                f" {UNEVEN:g} times is followed. Space them more evenly."
-            ),
-        ),
+        *GROWING,
         Rule(
             "values",
             lambda table: len(table.values) != len(table.knots),
@@ -104,11 +72,9 @@ class Table(Function):
     def at(self, x: Scalar) -> Derivatives:
         """Return value and derivatives; which cubic is in force is chosen by comparison."""
         first, last = self.knots[0], self.knots[-1]
-        if self.outside == "periodic":
-            inside = x - (last - first) * floor((x - first) / (last - first))
-            return self._cubics.at(inside)
-        inside = minimum(maximum(x, first), last)
-        found = self._cubics.at(inside)
+        found = self._cubics.at(brought_inside(x, first, last, self.outside))
+        if self.outside != "held":
+            return found
         # the slope is zero at the ends, the curvature of a cubic need not be
         beyond = maximum(first - x, x - last)
         return found._replace(curvature=select_positive(beyond, 0.0, found.curvature))
@@ -129,12 +95,17 @@ class Table(Function):
     @property
     def bend(self) -> float:
         """Some distances of the nearest knots."""
-        return BENDS * float(_least(self))
+        return BENDS * float(least_gap(self))
 
     @property
     def has_curvature(self) -> bool:
         """True where it is smooth."""
         return self.between == "smooth"
+
+    @property
+    def domain(self) -> tuple[float, float] | None:
+        """See `Function.domain`."""
+        return (self.knots[0], self.knots[-1]) if self.outside == "refused" else None
 
     def largest(self, until: float) -> list[float]:
         """Return the largest magnitudes of slope, second and third derivative anywhere."""

@@ -229,7 +229,7 @@ class LaneGroup:
         bundle, study = self.bundle, self.study
         failure: SimulationFailed | None = None
         if status != Status.DONE:
-            failure = failure_of(bundle, lane, study.tolerance)
+            failure = failure_of(bundle, lane, study.tolerance, study.point_scene(run.point))
         elif study.indicators:
             settled = run.settled * float(study.period[run.point])
             scene = study.point_scene(run.point)

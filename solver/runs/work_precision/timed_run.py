@@ -25,6 +25,7 @@ class TimedRun:
     """Runs a scene with the kernel of a method, also as jobs may not ask for it."""
 
     def __init__(self, scene: Scene, kernel: Kernel, run: Run, duration: float) -> None:
+        self.scene = scene
         self.tolerance = run.tolerance or 1.0
         self.duration = duration
         problem = LaneProblem(
@@ -74,7 +75,7 @@ class TimedRun:
     def failure(self) -> SimulationFailed | None:
         """Return why it did not come to its end."""
         if self.bundle.lane(0).status != Status.DONE:
-            return failure_of(self.bundle, 0, self.tolerance)
+            return failure_of(self.bundle, 0, self.tolerance, self.scene)
         states = self.samples()[1]
         if len(states) == SAMPLES + 1 and np.isfinite(states).all():
             return None

@@ -13,6 +13,7 @@ from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.recorder import Recorder
 from jointplay.solver.laws.function import FUNCTIONS, Function
 from jointplay.solver.laws.function.constant import Constant
+from jointplay.solver.laws.function.piecewise_polynomial import PiecewisePolynomial
 from jointplay.solver.laws.function.polynomial import Polynomial
 from jointplay.solver.laws.function.ramp import Ramp
 from jointplay.solver.laws.function.sinusoidal import Sinusoidal
@@ -151,11 +152,86 @@ class TestTable(FunctionSpecification):
     functions = tables()
 
     def bends_at(self, function: Function, x: float) -> bool:
-        assert isinstance(function, Table)
+        assert isinstance(function, Table | PiecewisePolynomial)
         knots = np.array(function.knots)
         span = knots[-1] - knots[0] if function.outside == "periodic" else np.inf
         away = np.abs(x - knots) % span
         return bool(np.any((away < 1e-9) | (away > span - 1e-9)))
+
+
+@st.composite
+def pieces(draw: st.DrawFn) -> Function:
+    """Draw lines between values, or a cubic spline that is flat at its ends or repeats."""
+    table = draw(tables())
+    assert isinstance(table, Table)
+    outside, knots, values = table.outside, table.knots, table.values
+    if table.between == "smooth":
+        spline = CubicSpline(
+            knots, values, bc_type="periodic" if outside == "periodic" else "clamped"
+        )
+        coefficients = spline.c[::-1].T.tolist()
+    else:
+        rises = np.diff(values) / np.diff(knots)
+        coefficients = [list(pair) for pair in zip(values, rises.tolist(), strict=False)]
+    fields = {"knots": knots, "coefficients": coefficients, "outside": outside}
+    return PiecewisePolynomial.model_validate({"type": "piecewise-polynomial", **fields})
+
+
+class TestPiecewisePolynomial(FunctionSpecification):
+    model = PiecewisePolynomial
+    functions = pieces()
+    bends_at = TestTable.bends_at
+
+    @some
+    @given(table=tables(), x=arguments)
+    def test_it_is_the_spline_whose_coefficients_it_has(self, table: Table, x: float) -> None:
+        assume(table.between == "smooth" and not self.bends_at(table, x))
+        found = table._cubics.pieces()
+        fields = {"knots": table.knots, "coefficients": [list(piece[1:]) for piece in found]}
+        kind = {"type": "piecewise-polynomial", "outside": table.outside}
+        function = PiecewisePolynomial.model_validate(kind | fields)
+        assert not any(rule.broken(function) for rule in function.rules)
+        assert function.has_curvature
+        np.testing.assert_allclose(function.at(x), table.at(x), rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"coefficients": [[0.0]]}, "1 polynomials for 3 knots; give 2"),
+        ({"coefficients": [[0.0, 1.0], [0.5]]}, "jumps at a knot, by 0.5 of its largest"),
+        ({"outside": "periodic"}, "the last end where the first begins"),
+    ],
+)
+def test_pieces_that_do_not_meet_are_refused(changes: dict[str, Any], words: str) -> None:
+    fields = {"knots": [0.0, 1.0, 2.0], "coefficients": [[0.0, 1.0], [1.0]], "outside": "held"}
+    kind = {"type": "piecewise-polynomial"}
+    function = PiecewisePolynomial.model_validate(kind | fields | changes)
+    (broken,) = [rule for rule in function.rules if rule.broken(function)]
+    assert broken.field == "coefficients"
+    assert words in broken.sentence(function)
+
+
+def test_slopes_that_jump_drive_nothing() -> None:
+    fields = {"knots": [0.0, 1.0, 2.0], "coefficients": [[0.0, 1.0], [1.0]], "outside": "refused"}
+    kind = {"type": "piecewise-polynomial"}
+    assert not PiecewisePolynomial.model_validate(kind | fields).has_curvature
+    smooth = {"coefficients": [[0.0, 0.0, 1.0], [1.0, 2.0]]}
+    assert PiecewisePolynomial.model_validate(kind | fields | smooth).has_curvature
+
+
+@pytest.mark.parametrize("model", ["table", "piecewise-polynomial"])
+def test_a_refused_argument_is_not_a_number(model: str) -> None:
+    own = {"table": {"values": [0.0, 1.0]}, "piecewise-polynomial": {"coefficients": [[0.0, 1.0]]}}
+    document = {"type": model, "knots": [0.0, 2.0], "outside": "refused"} | own[model]
+    function = FUNCTIONS[model].model_validate(document)
+    assert function.domain == (0.0, 2.0)
+    assert math.isfinite(function.at(2.0 + 1e-10).value)
+    assert math.isnan(function.at(2.0 + 1e-8).value)
+    recorder = Recorder()
+    recorded = recorder.lift(function.at(recorder.variable("x")).value)
+    assert math.isnan(evaluate(recorded, {"x": -1.0}, {}))
+    assert evaluate(recorded, {"x": 1.0}, {}) == pytest.approx(function.at(1.0).value)
 
 
 def test_every_function_in_the_roster_is_specified() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from jointplay.records.failure import InvalidInput
+from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kinds import admit
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.force.distance import distance
@@ -86,6 +86,44 @@ def test_a_force_over_a_distance_is_finite_where_the_points_meet() -> None:
     apart = distance(ends._replace(gap=(3.0, 4.0)))
     assert apart.length == 5.0
     assert [*apart.direction, apart.rate] == pytest.approx([0.6, 0.8, -0.14], rel=1e-15)
+
+
+ENDS = {"type": "table", "knots": [-0.5, 0.0, 0.5], "values": [1.0, 0.0, 1.0], "outside": "refused"}
+
+
+def pushed(course: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
+    """Return a block that a force pushes along a slide, from rest."""
+    points = {"points": {"O": [0.0, 0.0]}}
+    slide = {"type": "prismatic", "guide": "ground.O", "slider": "block.O", "axis": [1.0, 0.0]}
+    ends = {"first": "ground.O", "second": "block.O"}
+    push = {"type": "force", "magnitude": 2.0, "direction": [1.0, 0.0]}
+    return {
+        "name": "pushed",
+        "ground": points,
+        "bodies": {"block": {"mass": 1.0, "inertia": 1.0} | points},
+        "joints": {"slide": slide},
+        "forces": {
+            "push": push | ends,
+            "spring": push | ends | {"course": course, "over": over},
+        },
+    }
+
+
+def test_a_run_ends_where_a_course_refuses_its_argument() -> None:
+    with pytest.raises(SimulationFailed) as failed:
+        run(pushed(ENDS, {"quantity": "x"}), 5.0)
+    assert failed.value.code == "outside-of-a-function"
+    assert 0.4 < failed.value.time < 1.0
+    for words in ("course of force 'spring'", "from -0.5 to 0.5", "came to 0.5", "more knots"):
+        assert words in str(failed.value)
+
+
+def test_a_duration_beyond_a_refused_course_is_refused() -> None:
+    with pytest.raises(InvalidInput) as refused:
+        run(pushed(ENDS | {"knots": [0.0, 0.2, 1.0]}, {"quantity": "time"}), 5.0)
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/forces/spring/course/knots"
+    assert "given from 0 to 1, but time, s, goes from 0 to 5" in problem.detail
 
 
 def test_the_period_is_that_of_driver_and_force_together() -> None:

@@ -1,0 +1,48 @@
+"""Arguments that a function refuses: found on admission, where a run's length tells them."""
+
+from collections.abc import Iterator
+
+from jointplay.records.failure import Problem
+from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.laws.function import Function
+from jointplay.solver.laws.function.knots import SLACK
+from jointplay.solver.scene.clocks import clocks, timed
+from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.drivers import MovingDriver, SteadyDriver
+
+
+def domain_problems(scene: Scene, duration: float) -> Iterator[Problem]:
+    """Yield what a run of a duration, s, surely asks of functions that refuse it."""
+    for name, driver in scene.drivers.items():
+        if isinstance(driver, MovingDriver):
+            place = f"/scene/drivers/{name}/motion/knots"
+            yield from _over(place, driver.motion, (0.0, duration), "time, s,")
+    for name, varying in timed(scene).items():
+        if varying.course is not None:
+            place = f"/scene/forces/{name}/course/knots"
+            yield from _over(place, varying.course, (0.0, duration), "time, s,")
+    for name, element in scene.forces.items():
+        over = element.follows()
+        if not isinstance(element, Varying) or element.course is None or over is None:
+            continue
+        moving = scene.drivers.get(over.driver or "")
+        if isinstance(moving, SteadyDriver) and not over.rate:
+            clock = clocks(scene)[over.driver or ""]
+            travel = sorted((clock.start, clock.start + clock.rate * duration))
+            place = f"/scene/forces/{name}/course/knots"
+            yield from _over(place, element.course, (travel[0], travel[1]), f"'{over.driver}'")
+
+
+def _over(
+    place: str, function: Function, needed: tuple[float, float], what: str
+) -> Iterator[Problem]:
+    if function.domain is None:
+        return
+    (first, last), (low, high) = function.domain, needed
+    slack = SLACK * (last - first)
+    if first - low > slack or high - last > slack:
+        yield Problem(
+            place,
+            f"It is given from {first:g} to {last:g}, but {what} goes from {low:g} to {high:g}, and"
+            " others are refused. Give more knots, a shorter duration, or another 'outside'.",
+        )
