@@ -4,6 +4,7 @@
 # make test-long  the tests that take longer
 # make bench      measure speed on this machine
 # make install    only .venv with the dependencies
+# make docs       the documentation as a site: build/site/index.html
 # make clean      remove what the others made
 .DEFAULT_GOAL := help
 SHELL := /bin/bash
@@ -49,7 +50,12 @@ test-long: $(STAMP)
 bench: $(STAMP)
 	@$(BIN)/python -m benchmarks
 
+docs: $(STAMP)
+	@$(BIN)/python -m tests.wheel_layout
+	@$(BIN)/python -m mkdocs build --quiet
+	@echo "build/site/index.html"
+
 clean:
 	rm -rf $(VENV) demo reproduction build *.egg-info .jointplay .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
 
-.PHONY: help install demo reproduce test test-long bench clean
+.PHONY: help install demo reproduce test test-long bench docs clean

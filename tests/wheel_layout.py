@@ -24,8 +24,14 @@ def lay_out() -> Path:
     top.mkdir(parents=True, exist_ok=True)
     linked = {path.name: path for path in (ROOT / rooms.pop("jointplay")).iterdir()}
     linked |= {package.partition(".")[2]: ROOT / folder for package, folder in rooms.items()}
-    for stale in top.iterdir():
-        stale.unlink()
+    for link in top.iterdir():  # those that are right stay: a checker may be reading them
+        if linked.get(link.name) != link.readlink():
+            link.unlink()
     for name, target in linked.items():
-        (top / name).symlink_to(target)
+        if not (top / name).is_symlink():
+            (top / name).symlink_to(target)
     return TREE
+
+
+if __name__ == "__main__":
+    lay_out()

@@ -1,0 +1,65 @@
+"""The tutorial, followed word by word: its scene, its commands, and the numbers that they print."""
+
+import json
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from jointplay.command_line.application import run
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "tutorial.md").read_text()
+BLOCKS = re.findall(r"^```(json|bash|text)\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+CLOSE = 1e-3
+"""Relative: what other processors may change of printed numbers."""
+
+
+def merged(before: Any, patch: Any) -> Any:
+    """What is said in a second block replaces or adds to what was there (RFC 7386)."""
+    if not (isinstance(before, dict) and isinstance(patch, dict)):
+        return patch
+    return {**before, **{name: merged(before.get(name), value) for name, value in patch.items()}}
+
+
+def said(line: str, printed: str) -> bool:
+    """Whether a line is among those that were printed, its numbers within `CLOSE`."""
+    wanted = line.split()
+    return any(
+        len(words) == len(wanted) and all(map(alike, words, wanted))
+        for words in (one.split() for one in printed.splitlines())
+    )
+
+
+def alike(word: str, other: str) -> bool:
+    try:
+        return float(word) == pytest.approx(float(other), rel=CLOSE)
+    except ValueError:
+        return word == other
+
+
+def test_its_commands_print_its_numbers_and_draw_its_figures(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    scene: Any = {}
+    printed = ""
+    told = 0
+    for language, text in BLOCKS:
+        if language == "json":
+            scene = merged(scene, json.loads(text))
+            Path("mine.json").write_text(json.dumps(scene))
+        elif language == "bash":
+            printed = ""
+            for command in text.splitlines():
+                program, *arguments = shlex.split(command)
+                assert program == "jointplay"
+                assert run(arguments) == 0, command
+                printed += capsys.readouterr().out
+        else:
+            for line in text.splitlines():
+                assert said(line, printed), f"{line}\n--- not in ---\n{printed}"
+                told += 1
+    assert told >= 6
+    figures = {path.name for path in Path("figures").iterdir()}
+    assert {"contact-force.png", "orbit.png", "swing.pdf", "bifurcation.png"} <= figures
