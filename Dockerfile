@@ -23,6 +23,7 @@ COPY jointplay jointplay
 COPY records records
 COPY figures figures
 COPY paper paper
+COPY page page
 RUN pip install --no-cache-dir .
 
 RUN useradd --create-home jointplay && mkdir -p /data kernels && chown jointplay /data kernels

@@ -4,7 +4,10 @@ from pathlib import Path
 
 from setuptools import find_packages, setup
 
-ROOMS = ("chaos", "figures", "paper", "records", "scenes", "service", "solver", "storage", "worker")
+ROOMS = (
+    *("chaos", "figures", "page", "paper", "records"),
+    *("scenes", "service", "solver", "storage", "worker"),
+)
 ROOT = Path(__file__).parent
 
 folders = {"jointplay": "jointplay"} | {f"jointplay.{room}": room for room in ROOMS}

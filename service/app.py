@@ -14,6 +14,7 @@ from pydantic import TypeAdapter
 
 import jointplay.service.batches.endpoints
 import jointplay.service.jobs.endpoints
+import jointplay.service.page.endpoints
 import jointplay.service.problems.endpoints
 import jointplay.service.results.endpoints
 import jointplay.service.results.figures
@@ -58,6 +59,7 @@ _RESOURCES = (
     schemas,
     health,
     jointplay.service.problems.endpoints,
+    jointplay.service.page.endpoints,
 )
 
 
@@ -98,6 +100,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         version=version("jointplay"),
         description=_DESCRIPTION,
         lifespan=lifespan,
+        docs_url=None,  # theirs loads its scripts from elsewhere; ours: service/page
+        redoc_url=None,
     )
     app.state.settings = settings
     install(app)

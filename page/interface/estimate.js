@@ -1,0 +1,51 @@
+/** What a job will cost, asked of the service before anything is queued. */
+
+import { element, fill } from "./element.js";
+import { bytes, short, span } from "./numbers.js";
+import { pause, post } from "../requests/service.js";
+
+const QUIET = 600; // ms without a change before it is asked
+
+export class Estimate {
+  /** @param document returns the job's document; throws while it is wrong */
+  constructor(document, signal) {
+    Object.assign(this, { document, signal, asking: new AbortController() });
+    this.element = element("p", { class: "notice", role: "status" }, "Estimating the cost …");
+    signal.addEventListener("abort", () => this.asking.abort());
+  }
+
+  later() {
+    this.refresh(QUIET);
+  }
+
+  async refresh(wait = 0) {
+    this.asking.abort();
+    this.asking = new AbortController();
+    const { signal } = this.asking;
+    try {
+      await pause(wait, signal);
+      const job = this.document();
+      const slow = setTimeout(() => !signal.aborted && fill(this.element,
+        "Estimating the cost … (equations are compiled the first time they are met)"), 1500);
+      signal.addEventListener("abort", () => clearTimeout(slow));
+      const found = await post("/v1/estimates", job, signal).finally(() => clearTimeout(slow));
+      fill(this.element, words(found));
+    } catch (error) {
+      if (error.name !== "AbortError") fill(this.element, "No estimate: ", error.message);
+    }
+  }
+}
+
+function words(found) {
+  if (found.cached) return "An identical job is there already: it costs nothing.";
+  const points = found.points > 1 ? ` for ${found.points} points in ${found.blocks} blocks` : "";
+  const compiling = found.compilation > 0.05
+    ? " Its equations are being compiled for the first time."
+    : "";
+  const failing = found.failure ? ` It will end early: ${found.failure}` : "";
+  return [
+    "About ", element("strong", {}, span(found.seconds)), ` of one core${points}, `,
+    element("strong", {}, bytes(found.bytes)), ` of results, ${short(found.steps, 3)} steps.`,
+    compiling, failing,
+  ];
+}

@@ -1,0 +1,88 @@
+/** A job as something to copy: for curl, Python, the command line, and as JSON. */
+
+import { element, fill } from "./element.js";
+
+/** Returns tabs with the texts of a job's document; `document()` is asked when they are shown. */
+export function jobAsText(document) {
+  const text = element("pre", { class: "copied", tabindex: "0", "aria-label": "The same job" });
+  const said = element("span", { role: "status", class: "quiet small" });
+  let shown = "Python";
+  const buttons = Object.keys(FORMS).map((name) =>
+    element("button", {
+      type: "button",
+      class: "plain",
+      "aria-pressed": String(name === shown),
+      onclick: () => {
+        shown = name;
+        refresh();
+      },
+    }, name));
+  const refresh = () => {
+    said.textContent = "";
+    for (const button of buttons) {
+      button.setAttribute("aria-pressed", String(button.textContent === shown));
+      button.classList.toggle("chosen", button.textContent === shown);
+    }
+    try {
+      fill(text, FORMS[shown](document()));
+    } catch (error) {
+      fill(text, error.message);
+    }
+  };
+  const copy = async () => {
+    try {
+      await navigator.clipboard.writeText(text.textContent);
+      said.textContent = "Copied.";
+    } catch {
+      getSelection().selectAllChildren(text);
+      said.textContent = "Selected: press Ctrl+C.";
+    }
+  };
+  refresh();
+  const row = element("div", { class: "buttons" }, buttons,
+    element("button", { type: "button", onclick: copy }, "Copy"), said);
+  return { element: element("div", { class: "stacked" }, row, text), refresh };
+}
+
+const FORMS = {
+  Python: python,
+  "Command line": commandLine,
+  curl: (job) =>
+    `curl -s ${location.origin}/v1/jobs -H 'Content-Type: application/json' \\\n  -d '${
+      JSON.stringify(job).replaceAll("'", "'\\''")}'`,
+  JSON: (job) => JSON.stringify(job, null, 2),
+};
+
+function python(job) {
+  return `import jointplay
+
+with jointplay.Client("${location.origin}") as client:
+    job = client.submit(${literal(job, 4)})
+    job.wait(progress=True)
+    print(job.peaks)`;
+}
+
+function literal(value, indent) {
+  if (value === null) return "None";
+  if (value === true) return "True";
+  if (value === false) return "False";
+  if (typeof value !== "object") return JSON.stringify(value);
+  if (Array.isArray(value)) return `[${value.map((one) => literal(one, indent)).join(", ")}]`;
+  const space = " ".repeat(indent + 4);
+  const lines = Object.entries(value).map(([key, one]) =>
+    `${space}${JSON.stringify(key)}: ${literal(one, indent + 4)},\n`);
+  return lines.length ? `{\n${lines.join("")}${" ".repeat(indent)}}` : "{}";
+}
+
+function commandLine(job) {
+  const { scene } = job;
+  if (!scene.preset || job.kind !== "simulate") {
+    return `# save the JSON of this job as job.json, then\njointplay submit job.json --wait`;
+  }
+  const set = Object.entries(scene.parameters ?? {}).map(([name, value]) =>
+    ` --set ${name}=${value}`);
+  const label = job.label ? ` --label '${job.label.replaceAll("'", "'\\''")}'` : "";
+  const tolerance = job.accuracy ? ` --accuracy ${job.accuracy}` : "";
+  return `jointplay submit ${scene.preset}${set.join("")} --duration ${job.duration}${tolerance}${
+    label} --wait`;
+}

@@ -1,0 +1,86 @@
+/** One job in a list. */
+
+import { element, fill } from "./element.js";
+import { ago, span } from "./numbers.js";
+import { address } from "./place.js";
+import { parameterWords, progressWords, sceneName, stateMark } from "./state.js";
+import { TERMINAL } from "../requests/following.js";
+import { post, remove } from "../requests/service.js";
+
+export class JobRow {
+  /** @param acts `choose(job, chosen)` false if that is too many, `gone(job)`, and `chosen` */
+  constructor(job, acts) {
+    Object.assign(this, { job, acts });
+    this.box = element("input", {
+      type: "checkbox", checked: acts.chosen, disabled: job.kind !== "simulate",
+      "aria-label": `Compare ${job.label || sceneName(job.job)}`,
+      onchange: () => {
+        if (!acts.choose(this.job, this.box.checked)) this.box.checked = false;
+      },
+    });
+    this.mark = element("span");
+    this.progress = element("div", { class: "parameters small quiet" });
+    this.cost = element("span", { class: "cost small quiet" });
+    this.buttons = element("span", { class: "buttons" });
+    const title = job.label || sceneName(job.job).replaceAll("-", " ");
+    const kind = job.kind === "simulate" ? "" : ` · ${job.kind}`;
+    this.element = element("div", { class: "row", role: "listitem", "data-job": job.id },
+      this.box, this.mark,
+      element("div", {},
+        element("a", { href: address(["job", job.id]) }, `${title}${kind}`),
+        element("div", { class: "small quiet" }, job.label ? sceneName(job.job) : "")),
+      this.progress,
+      element("span", { class: "when small quiet", title: job.created }, ago(job.created)),
+      this.cost, this.buttons);
+  }
+
+  /** Shows the job as it is now, at a height in px. */
+  update(job, top) {
+    this.job = job;
+    this.element.style.transform = `translateY(${top}px)`;
+    const now = `${job.state} ${job.progress.fraction}`;
+    if (now === this.shown) return;
+    this.shown = now;
+    fill(this.mark, stateMark(job.state));
+    fill(this.progress, TERMINAL.has(job.state) ? parameters(job) : [
+      progressWords(job),
+      element("progress", { max: 1, value: job.progress.fraction, "aria-label": "Progress" }),
+    ]);
+    const took = job.started && job.finished &&
+      (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
+    this.cost.textContent = took ? `took ${span(took)}` : "";
+    fill(this.buttons, TERMINAL.has(job.state)
+      ? [this.button("Again", () => post("/v1/jobs", { ...job.job, cache: false })),
+         this.button("Delete", async () => {
+           await remove(`/v1/jobs/${job.id}`);
+           this.acts.gone(job);
+         })]
+      : this.button("Cancel", () => post(`/v1/jobs/${job.id}/cancel`)));
+  }
+
+  button(text, act) {
+    return element("button", {
+      type: "button",
+      onclick: async ({ target }) => {
+        target.disabled = true;
+        try {
+          await act();
+        } catch (error) {
+          target.title = error.message;
+          fill(this.progress, error.message);
+        }
+        target.disabled = false;
+      },
+    }, text, element("span", { class: "hidden-text" }, ` ${this.job.label ?? sceneName(this.job.job)}`));
+  }
+}
+
+function parameters(job) {
+  if (job.error) return job.error.detail;
+  return parameterWords({ scene: { parameters: own(job.job.scene?.parameters) } });
+}
+
+function own(parameters = {}) {
+  return Object.fromEntries(Object.entries(parameters).filter(([, value]) =>
+    typeof value === "number").slice(0, 6));
+}

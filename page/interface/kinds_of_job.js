@@ -1,0 +1,157 @@
+/** Kinds of jobs as the page offers them: fields, and the document that they make. */
+
+import { bounds } from "../mechanism/placing.js";
+import { withParameters } from "../mechanism/parameters.js";
+import { startingPose, turn } from "../mechanism/sketch.js";
+
+const ACCURACY = {
+  title: "Accuracy",
+  help: "How small the error of every step is kept.",
+  unit: "1",
+  choices: ["draft", "standard", "fine", "reference"],
+  default: "standard",
+};
+const WITHOUT_TURNING = 0.05; // s, of mechanisms that neither turn nor fall
+
+/** Returns a duration in s in which something can be seen: two turns, or some swings. */
+export function someDuration(document) {
+  if (document.reported?.length) return document.reported[0].duration;
+  const scene = withParameters(document);
+  const once = turn(scene);
+  if (once !== null) return rounded(4 * once);
+  const gravity = Math.hypot(...(scene.gravity ?? [0, 0]));
+  const pose = startingPose(scene);
+  if (!gravity || !pose) return WITHOUT_TURNING;
+  const [left, low, right, high] = bounds(scene, [pose]);
+  return rounded(20 * Math.sqrt(Math.hypot(right - left, high - low) / gravity));
+}
+
+/** Returns the job that shows a preset with its defaults. */
+export function firstJob(document) {
+  return { kind: "simulate", scene: { preset: document.name }, duration: someDuration(document) };
+}
+
+/**
+ * The kinds by name: what they are, their fields (as declared parameters are described), and the
+ * fields of the job's document that they make of the values.
+ */
+export const KINDS = {
+  simulate: {
+    title: "One run",
+    help: "One trajectory from the start, to watch and to measure.",
+    fields: (document) => ({
+      duration: {
+        title: "Duration", help: "Simulated time.", unit: "s", minimum: 1e-9,
+        default: someDuration(document),
+      },
+      accuracy: ACCURACY,
+      output_step: {
+        title: "Output step", help: "Between stored samples; 1/2000 of the duration if empty.",
+        unit: "s", minimum: 1e-15, default: null, empty: "duration / 2000",
+      },
+    }),
+    made: ({ duration, accuracy, output_step: step }) => ({
+      duration, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
+    }),
+  },
+  bifurcation: {
+    title: "Bifurcation diagram",
+    help: "The motion once a turn, over the values of one parameter.",
+    fields: (document) => ({
+      ...varied(document, "parameter", "Parameter"),
+      settle: {
+        title: "Periods to settle", help: "Before the first section.", unit: "periods",
+        minimum: 0, default: 40,
+      },
+      record: {
+        title: "Sections", help: "Kept of each value.", unit: "1", minimum: 1, default: 30,
+      },
+      continuation: {
+        title: "Continuation", unit: "1", default: "none",
+        help: "Where each value begins: at the scene's start, or where its neighbour ended.",
+        choices: ["none", "forward", "backward", "both"],
+      },
+      verdicts: {
+        title: "Regular or chaotic", unit: "1", default: "yes", choices: ["yes", "no"],
+        help: "Judge the motion of every value; takes longer.",
+      },
+      accuracy: ACCURACY,
+    }),
+    made: ({ parameter, from, to, count, settle, record, continuation, verdicts, accuracy }) => ({
+      parameter, values: { from, to, count }, settle, record, continuation,
+      ...(verdicts === "yes" ? { indicators: "all" } : {}), ...accurate(accuracy),
+    }),
+  },
+  sweep: {
+    title: "Sweep",
+    help: "Extremes of forces and motions over one or two parameters.",
+    fields: (document) => ({
+      ...varied(document, "first", "First parameter", 5),
+      second: {
+        ...choice(document, ["–"]), title: "Second parameter", default: "–",
+        help: "For a map over two parameters.",
+      },
+      second_from: { title: "Second: from", help: "", unit: "1", default: null, empty: "" },
+      second_to: { title: "Second: to", help: "", unit: "1", default: null, empty: "" },
+      second_count: { title: "Second: values", help: "", unit: "1", minimum: 1, default: 5 },
+      duration: {
+        title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
+        default: someDuration(document),
+      },
+      accuracy: ACCURACY,
+    }),
+    made: (given) => ({
+      grid: {
+        [given.first]: { from: given.from, to: given.to, count: given.count },
+        ...(given.second === "–" ? {} : {
+          [given.second]: {
+            from: given.second_from, to: given.second_to, count: given.second_count,
+          },
+        }),
+      },
+      duration: given.duration,
+      ...accurate(given.accuracy),
+    }),
+  },
+  "accuracy-study": {
+    title: "What accuracy costs",
+    help: "Every method and tolerance against a reference.",
+    fields: (document) => ({
+      duration: {
+        title: "Duration", help: "Of every run.", unit: "s", minimum: 1e-9,
+        default: rounded(someDuration(document) / 10),
+      },
+    }),
+    made: ({ duration }) => ({ duration }),
+  },
+};
+
+function varied(document, name, title, count = 48) {
+  const choices = choice(document);
+  const first = document.parameters?.[choices.default];
+  const middle = first?.default || 1;
+  return {
+    [name]: { ...choices, title, help: "What is varied." },
+    from: {
+      title: "From", help: "", unit: "1", required: true, default: rounded(middle * 0.5),
+    },
+    to: { title: "To", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
+    count: { title: "Values", help: "", unit: "1", minimum: 1, maximum: 100000, default: count },
+  };
+}
+
+function choice(document, before = []) {
+  const names = Object.entries(document.parameters ?? {})
+    .filter(([, { choices }]) => !choices)
+    .map(([name]) => name);
+  const likely = names.find((name) => document.parameters[name].default > 0) ?? names[0];
+  return { unit: "1", choices: [...before, ...names], default: likely };
+}
+
+function accurate(accuracy) {
+  return accuracy === "standard" ? {} : { accuracy };
+}
+
+function rounded(value) {
+  return Number(value.toPrecision(2));
+}

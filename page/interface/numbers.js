@@ -1,0 +1,58 @@
+/** Numbers, times and sizes as people read them. */
+
+const PREFIXES = [
+  [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"],
+];
+const PREFIXED = new Set(["m", "s", "N", "J", "W", "Pa", "N m", "N s", "Hz"]);
+
+/** Returns a number with few digits: 0.0005, 1569, 2.07e+11. */
+export function short(value, digits = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text =
+    size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1) : value.toPrecision(digits);
+  return text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "").replace("-", "−");
+}
+
+/** Returns a value with its unit and a prefix that suits it: 0.5 mm, 1.57 kN, 3.14 rad/s. */
+export function withUnit(value, unit, digits = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (unit === "1" || !unit) return short(value, digits);
+  if (!PREFIXED.has(unit) || value === 0) return `${short(value, digits)} ${unit}`;
+  const [factor, prefix] =
+    PREFIXES.find(([one]) => Math.abs(value) >= one * 0.9995) ?? PREFIXES.at(-1);
+  return `${short(value / factor, digits)} ${prefix}${unit}`;
+}
+
+/** Returns a span of seconds for people: 0.3 s, 2 min 5 s, 3 h 20 min. */
+export function span(seconds) {
+  if (seconds === null || seconds === undefined) return "–";
+  if (seconds < 0.95) return withUnit(seconds, "s", 2);
+  if (seconds < 60) return `${short(seconds, 2)} s`;
+  const whole = Math.round(seconds);
+  if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  if (whole < 172800) return `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
+  return `${Math.round(whole / 86400)} days`;
+}
+
+/** Returns a size in bytes for people: 820 kB, 1.2 GB. */
+export function bytes(count) {
+  for (const [factor, prefix] of PREFIXES.slice(0, 3)) {
+    if (count >= factor) return `${short(count / factor, 3)} ${prefix}B`;
+  }
+  return `${count} B`;
+}
+
+/** Returns how long ago a moment is: "just now", "5 min ago". */
+export function ago(moment) {
+  const seconds = (Date.now() - Date.parse(moment)) / 1000;
+  return seconds < 10 ? "just now" : `${span(seconds).replace(/ min \d+ s/, " min")} ago`;
+}
+
+/** Returns a number that was typed, with a decimal point or comma; NaN if it is none. */
+export function typed(text) {
+  const trimmed = text.trim().replace("−", "-").replace(/^([^.]*),([^,.]*)$/, "$1.$2");
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? Number(trimmed) : NaN;
+}

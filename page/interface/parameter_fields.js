@@ -1,0 +1,143 @@
+/** A form made of a scene's declared parameters: units, ranges, help. */
+
+import { element } from "./element.js";
+import { short, typed } from "./numbers.js";
+
+/**
+ * Fields of declared parameters.
+ *
+ * @property element   the form's part
+ * @property values()  what differs from the defaults; throws where something is wrong
+ */
+export class ParameterFields {
+  constructor(parameters, given = {}, onchange = () => {}, place = "/scene/parameters") {
+    this.place = place;
+    this.fields = Object.entries(parameters).map(([name, parameter]) =>
+      new Field(name, parameter, given[name], onchange, `${place.replaceAll("/", "-")}-${name}`));
+    const required = this.fields.filter(({ parameter }) => parameter.required);
+    const [first, rest] = required.length
+      ? [required, this.fields.filter((one) => !required.includes(one))]
+      : [this.fields.slice(0, 6), this.fields.slice(6)];
+    this.element = element(
+      "div",
+      { class: "stacked" },
+      element("div", { class: "fields" }, first.map((one) => one.element)),
+      rest.length > 0 && element(
+        "details",
+        { open: rest.some((one) => given[one.name] !== undefined) },
+        element("summary", {}, `${rest.length} more parameters`),
+        element("div", { class: "fields" }, rest.map((one) => one.element)),
+      ),
+    );
+  }
+
+  get valid() {
+    return this.fields.map((field) => field.check()).every(Boolean);
+  }
+
+  values() {
+    const given = this.fields.map((field) => [field.name, field.value()]);
+    return Object.fromEntries(given.filter(([, value]) => value !== undefined));
+  }
+
+  /** Returns the value of every field, defaults too. */
+  all() {
+    return Object.fromEntries(this.fields.map((field) =>
+      [field.name, field.value() ?? field.parameter.default]));
+  }
+
+  /** Shows what the service found wrong; returns the errors that belong to no field here. */
+  blame(errors) {
+    return errors.filter(({ pointer, detail }) => {
+      const inside = pointer?.startsWith(`${this.place}/`);
+      const name = inside ? pointer.slice(this.place.length + 1).split("/")[0] : null;
+      const field = this.fields.find((one) => one.name === name);
+      field?.complain(detail);
+      return !field;
+    });
+  }
+}
+
+class Field {
+  constructor(name, parameter, given, onchange, id) {
+    Object.assign(this, { name, parameter });
+    const shown = given ?? parameter.default;
+    const checked = () => {
+      this.check();
+      onchange();
+    };
+    this.input = parameter.choices
+      ? element(
+          "select",
+          { id, onchange: checked, "aria-describedby": `${id}-help` },
+          parameter.choices.map((one) =>
+            element("option", { value: one, selected: one === shown },
+              parameter.words?.[one] ?? one)),
+        )
+      : element("input", {
+          id,
+          inputmode: "decimal",
+          autocomplete: "off",
+          value: written(shown),
+          placeholder: parameter.required ? "required" : (parameter.empty ?? "as the scene says"),
+          "aria-describedby": `${id}-help ${id}-wrong`,
+          required: parameter.required,
+          oninput: checked,
+        });
+    this.wrong = element("p", { class: "wrong", id: `${id}-wrong` });
+    this.element = element(
+      "div",
+      { class: "field" },
+      element("label", { for: id }, parameter.title ?? name),
+      element("div", { class: "entry" }, this.input,
+        element("span", { class: "unit" }, parameter.unit === "1" ? "" : parameter.unit)),
+      element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter)),
+      this.wrong,
+    );
+  }
+
+  /** Returns the value that was chosen; undefined for the default. */
+  value() {
+    const text = this.input.value.trim();
+    if (this.parameter.choices) return text === this.parameter.default ? undefined : text;
+    if (text === "") return undefined;
+    const value = typed(text);
+    return value === this.parameter.default ? undefined : value;
+  }
+
+  check() {
+    const { parameter } = this;
+    const text = this.input.value.trim();
+    let wrong = "";
+    if (!parameter.choices) {
+      const value = typed(text);
+      const low = parameter.minimum ?? -Infinity;
+      const high = parameter.maximum ?? Infinity;
+      if (text === "") wrong = parameter.required ? "This has no default; give a value." : "";
+      else if (Number.isNaN(value)) wrong = "This is no number; 0.0005 and 5e-4 are.";
+      else if (value < low || value > high) wrong = `Allowed: ${range(parameter)}`;
+    }
+    this.complain(wrong);
+    return wrong === "";
+  }
+
+  complain(sentence) {
+    this.wrong.textContent = sentence;
+    this.input.setAttribute("aria-invalid", String(sentence !== ""));
+  }
+}
+
+function written(value) {
+  if (value === null || value === undefined) return "";
+  const large = typeof value === "number" && Math.abs(value) >= 1e6;
+  return large ? value.toExponential().replace("+", "") : String(value);
+}
+
+function range({ minimum, maximum, unit, choices }) {
+  const of = unit === "1" || !unit ? "" : ` ${unit}`;
+  if (choices) return "";
+  const [low, high] = [minimum, maximum].map((one) => one !== null && one !== undefined);
+  if (low && high) return `${short(minimum)} to ${short(maximum)}${of}.`;
+  if (low) return `At least ${short(minimum)}${of}.`;
+  return high ? `At most ${short(maximum)}${of}.` : "";
+}

@@ -1,0 +1,144 @@
+/** The motion of a job: poses and contacts at any time, from the history that it has stored. */
+
+import { play } from "./placing.js";
+import { get } from "../requests/service.js";
+
+const CHUNK = 2048; // samples that are fetched at once
+const KEPT = 24; // chunks
+const CONTACT = ["eccentricity_x", "eccentricity_y", "normal_force", "friction_force"];
+
+/** The channels that the pictures of a scene are made of. */
+function needed(scene) {
+  const bodies = Object.keys(scene.bodies).flatMap((body) =>
+    ["x", "y", "theta"].map((coordinate) => `${body}.${coordinate}`));
+  return [...bodies, ...journals(scene).flatMap((joint) => CONTACT.map((one) => `${joint}.${one}`))];
+}
+
+/** Names of the revolute joints whose journals move in their bearings. */
+export function journals(scene) {
+  return Object.entries(scene.joints)
+    .filter(([, joint]) => joint.type === "revolute" && play(joint) > 0)
+    .map(([name]) => name);
+}
+
+export class Motion {
+  /**
+   * @param job the job as the service shows it, of kind `simulate`
+   * @param scene its scene document, its parameters set
+   * @param onNew called when something that was missing has come
+   */
+  constructor(job, scene, onNew, signal) {
+    Object.assign(this, { job, scene, onNew, signal });
+    this.step = job.job.output_step;
+    const stored = new Set(job.job.channels);
+    this.names = needed(scene).filter((name) => stored.has(name));
+    this.missing = Object.keys(scene.bodies).filter((body) => !stored.has(`${body}.x`)
+      || !stored.has(`${body}.y`) || !stored.has(`${body}.theta`));
+    this.chunks = new Map();
+  }
+
+  /** Returns the chunk that holds a time, or null while it is fetched. */
+  chunk(time) {
+    const index = Math.max(0, Math.floor(time / this.step / CHUNK + 1e-9));
+    const found = this.chunks.get(index);
+    if (!found) this.fetch(index);
+    return found?.columns ?? null;
+  }
+
+  /** Fetches a chunk, unless that is done. */
+  async fetch(index) {
+    if (this.chunks.has(index)) return;
+    const entry = { columns: null, complete: false };
+    this.chunks.set(index, entry);
+    if (this.chunks.size > KEPT) this.chunks.delete(this.chunks.keys().next().value);
+    const start = Math.max(0, (index * CHUNK - 0.5) * this.step);
+    const stop = ((index + 1) * CHUNK + 1.5) * this.step;
+    try {
+      const query = { channels: this.names.join(","), start, stop };
+      const history = await get(`${this.job.links.history}`, query, this.signal);
+      const columns = { time: numbers(history.time.values) };
+      for (const [name, { values }] of Object.entries(history.channels)) {
+        columns[name] = numbers(values);
+      }
+      if (columns.time.length < 1) this.chunks.delete(index);
+      else Object.assign(entry, { columns, complete: history.complete });
+      this.onNew();
+    } catch (error) {
+      this.chunks.delete(index);
+      if (error.name === "AbortError") return;
+      this.error = error;
+    }
+  }
+
+  /** Forgets what was incomplete: the job has gone on. */
+  refresh() {
+    for (const [index, { columns, complete }] of this.chunks) {
+      if (columns && !complete) this.chunks.delete(index);
+    }
+  }
+
+  /** Returns `{pose, contacts}` at a time, or null while they are fetched. */
+  at(time) {
+    const columns = this.chunk(time);
+    if (!columns) return null;
+    const { index, share } = between(columns.time, time);
+    const value = (name) => {
+      const values = columns[name];
+      const next = values[Math.min(index + 1, values.length - 1)];
+      return values[index] + share * (next - values[index]);
+    };
+    const pose = {};
+    for (const body of Object.keys(this.scene.bodies)) {
+      pose[body] = [value(`${body}.x`), value(`${body}.y`), value(`${body}.theta`)];
+    }
+    const contacts = {};
+    for (const joint of journals(this.scene)) {
+      if (!columns[`${joint}.eccentricity_x`]) continue;
+      contacts[joint] = Object.fromEntries(CONTACT.map((quantity) =>
+        [quantity, columns[`${joint}.${quantity}`] ? value(`${joint}.${quantity}`) : NaN]));
+    }
+    return { pose, contacts };
+  }
+
+  /** Returns poses spread over a chunk, to see how far the mechanism reaches. */
+  reach(time) {
+    const columns = this.chunk(time);
+    if (!columns) return [];
+    const stride = Math.max(1, Math.floor(columns.time.length / 60));
+    const poses = [];
+    for (let i = 0; i < columns.time.length; i += stride) {
+      poses.push(Object.fromEntries(Object.keys(this.scene.bodies).map((body) =>
+        [body, ["x", "y", "theta"].map((one) => columns[`${body}.${one}`][i])])));
+    }
+    return poses;
+  }
+
+  /** Returns the journal's path of a joint up to a time: `[[x, y], …]`, at most `count` samples. */
+  trail(joint, time, count) {
+    const columns = this.chunk(time);
+    const x = columns?.[`${joint}.eccentricity_x`];
+    const y = columns?.[`${joint}.eccentricity_y`];
+    if (!x || !y) return [];
+    const { index } = between(columns.time, time);
+    const path = [];
+    for (let i = Math.max(0, index - count); i <= index; i++) path.push([x[i], y[i]]);
+    return path;
+  }
+}
+
+/** Returns the index of the last time that is not later, and the share of the way to the next. */
+function between(times, time) {
+  let [low, high] = [0, times.length - 1];
+  if (time >= times[high]) return { index: high, share: 0 };
+  if (time <= times[0]) return { index: 0, share: 0 };
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  return { index: low, share: (time - times[low]) / (times[high] - times[low]) };
+}
+
+function numbers(values) {
+  return Float64Array.from(values, (value) => value ?? NaN);
+}

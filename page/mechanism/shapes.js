@@ -1,0 +1,173 @@
+/**
+ * A mechanism at a pose as a list of shapes, for a canvas or an SVG file alike.
+ *
+ * A shape is `{kind, points, …}` with kind `line`, `polygon`, `disc` or `text`. A point is
+ * `[x, y, right, down]`: a place in the world in m, and pixels from there. Colours are names of the
+ * palette, widths and radii pixels.
+ */
+
+import { GROUND, bounds, ends, placeOf, play, world } from "./placing.js";
+
+const BLOCK = [15, 9]; // half a slider's length and height, px
+
+/** Returns the shapes of a scene at a pose, from the back to the front. */
+export function shapes(scene, pose, { labels = false } = {}) {
+  const box = bounds(scene, [pose]);
+  const size = Math.max(box[2] - box[0], box[3] - box[1]);
+  return [
+    ...rails(scene, pose, size),
+    ...supports(scene, pose),
+    ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
+    ...springs(scene, pose),
+    ...joints(scene, pose),
+    ...(labels ? names(scene, pose) : []),
+  ];
+}
+
+/** Returns corners of the convex hull, counter-clockwise (Andrew's monotone chain). */
+export function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const half = (list) => {
+    const chain = [];
+    for (const point of list) {
+      while (chain.length > 1 && turn(chain.at(-2), chain.at(-1), point) <= 1e-15) chain.pop();
+      chain.push(point);
+    }
+    return chain.slice(0, -1);
+  };
+  return sorted.length < 3 ? sorted : [...half(sorted), ...half(sorted.reverse())];
+}
+
+function rails(scene, pose, size) {
+  return sliding(scene, pose).map(({ at, along }) => ({
+    kind: "line",
+    points: [-0.16, 0.16].map((share) => [
+      at[0] + share * size * along[0], at[1] + share * size * along[1],
+    ]),
+    colour: "faint",
+    width: 1.2,
+    dash: [8, 3, 2, 3],
+  }));
+}
+
+/** Joints that slide, each with its place and the direction of its axis in the world. */
+function sliding(scene, pose) {
+  return Object.values(scene.joints)
+    .filter(({ axis }) => axis)
+    .map((joint) => {
+      const [guide, slider] = ends(joint);
+      const owner = guide.split(".")[0];
+      const angle = owner === GROUND ? 0 : pose[owner][2];
+      const heading = angle + Math.atan2(joint.axis[1], joint.axis[0]);
+      const along = [Math.cos(heading), Math.sin(heading)];
+      return { at: placeOf(scene, pose, slider), along, body: slider.split(".")[0] };
+    });
+}
+
+function supports(scene, pose) {
+  const found = [];
+  for (const joint of Object.values(scene.joints)) {
+    const [first, second] = ends(joint);
+    const grounded = [first, second].find((end) => end.startsWith(`${GROUND}.`));
+    if (joint.axis || !grounded || play(joint) > 0.05) continue;
+    const [x, y] = placeOf(scene, pose, grounded);
+    const at = (points) => points.map(([right, down]) => [x, y, right, down]);
+    found.push({
+      kind: "polygon", points: at([[0, 0], [-10, 14], [10, 14]]),
+      fill: "ground", stroke: "edge", width: 1.2,
+    });
+    const strokes = [[[-15, 14], [15, 14]], ...[-11, -4, 3, 10].map((s) => [[s, 14], [s - 4, 19]])];
+    for (const stroke of strokes) {
+      found.push({ kind: "line", points: at(stroke), colour: "edge", width: 1.2 });
+    }
+  }
+  return found;
+}
+
+function body(scene, pose, name, index) {
+  const tint = `tint-${index % 6}`;
+  const points = Object.values(scene.bodies[name].points ?? {}).map((at) => world(pose, name, at));
+  const corners = hull(unique(points));
+  if (corners.length > 2) {
+    return [{
+      kind: "polygon", points: corners, fill: tint, stroke: "edge", width: 1.4, round: 6,
+    }];
+  }
+  if (corners.length === 2) {
+    return [
+      { kind: "line", points: corners, colour: "edge", width: 11, cap: "round" },
+      { kind: "line", points: corners, colour: tint, width: 8.4, cap: "round" },
+    ];
+  }
+  const [x, y] = corners[0] ?? pose[name];
+  const rail = sliding(scene, pose).find((one) => one.body === name);
+  if (!rail) {
+    const dot = [0, 1].map((i) => 8 * (i ? -Math.sin(pose[name][2]) : Math.cos(pose[name][2])));
+    return [
+      { kind: "disc", points: [[x, y]], radius: 12, fill: tint, stroke: "edge", width: 1.4 },
+      { kind: "line", points: [[x, y], [x, y, ...dot]], colour: "edge", width: 1.4 },
+    ];
+  }
+  const [c, s] = rail.along;
+  const block = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
+    const [along, across] = [a * BLOCK[0], b * BLOCK[1]];
+    return [x, y, c * along - s * across, -(s * along + c * across)];
+  });
+  return [{ kind: "polygon", points: block, fill: tint, stroke: "edge", width: 1.4 }];
+}
+
+function springs(scene, pose) {
+  return Object.values(scene.forces ?? {}).flatMap((force) => {
+    if (!force.first || !force.second) return [];
+    const [a, b] = [force.first, force.second].map((end) => placeOf(scene, pose, end));
+    if (!force.stiffness) {
+      return [{ kind: "line", points: [a, b], colour: "faint", width: 1.2, dash: [3, 3] }];
+    }
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
+    const [nx, ny] = [(a[1] - b[1]) / length, (b[0] - a[0]) / length];
+    const turns = 8;
+    const coils = Array.from({ length: turns * 2 + 1 }, (_, i) => {
+      const share = 0.15 + (0.7 * i) / (turns * 2);
+      const off = i === 0 || i === turns * 2 ? 0 : i % 2 ? 6 : -6;
+      const place = [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])];
+      return [...place, off * nx, -off * ny];
+    });
+    return [{ kind: "line", points: [a, ...coils, b], colour: "edge", width: 1.3 }];
+  });
+}
+
+function joints(scene, pose) {
+  const driven = new Set(Object.values(scene.drivers ?? {}).map(({ joint }) => joint));
+  return Object.entries(scene.joints).flatMap(([name, joint]) => {
+    if (joint.type === "prismatic") return [];
+    const at = placeOf(scene, pose, ends(joint)[1]);
+    if (joint.type === "fixed") {
+      const square = [[-4, -4], [4, -4], [4, 4], [-4, 4]].map((offset) => [...at, ...offset]);
+      return [{ kind: "polygon", points: square, fill: "edge", stroke: "edge", width: 1 }];
+    }
+    const disc = { kind: "disc", points: [at], stroke: "edge", fill: "paper", width: 1.4 };
+    if (play(joint) > 0) return [{ ...disc, radius: 6.5, stroke: "play", width: 3 }];
+    return [{ ...disc, radius: 4.5, fill: driven.has(name) ? "edge" : "paper" }];
+  });
+}
+
+function names(scene, pose) {
+  const written = [];
+  const label = (text, at, look) => {
+    const near = written.filter(([x, y]) => Math.hypot(x - at[0], y - at[1]) < 1e-6).length;
+    written.push(at);
+    return { kind: "text", points: [[...at, 10, -9 - 13 * near]], text, colour: "ink", ...look };
+  };
+  const ofJoints = Object.entries(scene.joints)
+    .filter(([, { type }]) => type !== "prismatic")
+    .map(([name, joint]) => label(name, placeOf(scene, pose, ends(joint)[1]), { bold: true }));
+  const ofBodies = Object.keys(scene.bodies).map((name) =>
+    label(name, pose[name].slice(0, 2), { italic: true, colour: "quiet" }));
+  return [...ofBodies, ...ofJoints];
+}
+
+function unique(points) {
+  return points.filter((p, i) =>
+    points.findIndex((o) => Math.hypot(o[0] - p[0], o[1] - p[1]) < 1e-12) === i);
+}

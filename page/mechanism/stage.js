@@ -1,0 +1,75 @@
+/** The mechanism of a job as its clock runs: drawing, and pictures and films to keep. */
+
+import { element } from "../interface/element.js";
+import { paint, prepared } from "./canvas.js";
+import { frame } from "./frame.js";
+import { palette } from "./palette.js";
+import { bounds } from "./placing.js";
+import { shapes } from "./shapes.js";
+import { svgFile } from "./svg.js";
+
+export class Stage {
+  /** @param motions one, or several to be compared in the same place */
+  constructor(motions, name) {
+    Object.assign(this, { motions, name, labels: false, box: null, seen: new Set() });
+    this.canvas = element("canvas", { role: "img", "aria-label": `The mechanism ${name} in motion` });
+    this.frames = 0;
+  }
+
+  /** Draws the mechanism at a time; returns its states, of each motion one or null. */
+  draw(time) {
+    const states = this.motions.map((motion) => motion.at(time));
+    if (!this.canvas.clientWidth) return states;
+    this.reach(time);
+    const context = prepared(this.canvas);
+    if (!this.box) return states;
+    const view = this.view();
+    const colours = palette();
+    states.forEach((state, i) => {
+      if (!state) return;
+      context.globalAlpha = 1;
+      paint(context, this.shapes(state.pose, i), view, this.tinted(colours, i));
+    });
+    if (states.some(Boolean)) this.frames += 1;
+    this.canvas.dataset.frames = String(this.frames);
+    return states;
+  }
+
+  shapes(pose, i) {
+    return shapes(this.motions[i].scene, pose, { labels: this.labels && i === 0 });
+  }
+
+  /** Colours of one of several mechanisms: its bodies in the colour of its curves. */
+  tinted(colours, i) {
+    if (this.motions.length === 1) return colours;
+    const own = colours[`curve-${i % 4}`];
+    const tints = [0, 1, 2, 3, 4, 5].map((one) => [`tint-${one}`, `${own}66`]);
+    return { ...colours, ...Object.fromEntries(tints), edge: own };
+  }
+
+  view() {
+    return frame(this.box, this.canvas.clientWidth, this.canvas.clientHeight, 42);
+  }
+
+  /** Lets the frame grow so that everything fits that was loaded around a time. */
+  reach(time) {
+    for (const motion of this.motions) {
+      const columns = motion.chunk(time);
+      if (!columns || this.seen.has(columns)) continue;
+      this.seen.add(columns);
+      const box = bounds(motion.scene, motion.reach(time));
+      this.box = this.box
+        ? [0, 1, 2, 3].map((i) => Math[i < 2 ? "min" : "max"](this.box[i], box[i]))
+        : box;
+    }
+  }
+
+  /** Returns the text of an SVG file of a moment. */
+  svg(time) {
+    const drawn = this.motions.flatMap((motion, i) => {
+      const state = motion.at(time);
+      return state ? this.shapes(state.pose, i) : [];
+    });
+    return svgFile(drawn, this.view(), palette(), `${this.name} at ${time} s`);
+  }
+}

@@ -1,0 +1,59 @@
+/** Writes shapes as an SVG file. */
+
+import { svgElement } from "../interface/element.js";
+
+/** Returns the text of an SVG file that shows shapes (see `shapes.js`) in a frame. */
+export function svgFile(shapes, frame, colours, title) {
+  const { width, height } = frame;
+  const picture = svgElement(
+    "svg",
+    { viewBox: `0 0 ${width} ${height}`, width, height },
+    svgElement("title", {}, title),
+    svgElement("rect", { width, height, fill: colours.paper }),
+    shapes.map((shape) => WRITERS[shape.kind](shape, frame, colours)),
+  );
+  return new XMLSerializer().serializeToString(picture);
+}
+
+const WRITERS = {
+  line: ({ points, colour, width, dash, cap, alpha }, frame, colours) =>
+    svgElement("polyline", {
+      points: listed(points, frame), fill: "none", stroke: colours[colour], opacity: alpha,
+      "stroke-width": width, "stroke-dasharray": dash?.join(" "), "stroke-linecap": cap,
+      "stroke-linejoin": "round",
+    }),
+  polygon: ({ points, fill, stroke, width, round }, frame, colours) => [
+    round && svgElement("polygon", {
+      points: listed(points, frame), fill: colours[fill], stroke: colours[stroke],
+      "stroke-width": round + 2 * width, "stroke-linejoin": "round",
+    }),
+    svgElement("polygon", {
+      points: listed(points, frame), fill: colours[fill], stroke: colours[round ? fill : stroke],
+      "stroke-width": round ?? width, "stroke-linejoin": "round",
+    }),
+  ],
+  disc({ points, radius, fill, stroke, width }, frame, colours) {
+    const [cx, cy] = frame.pixel(points[0]).map(rounded);
+    return svgElement("circle", {
+      cx, cy, r: radius, fill: colours[fill] ?? "none", stroke: colours[stroke],
+      "stroke-width": width,
+    });
+  },
+  text({ points, text, colour, italic, bold, size = 12, align = "left" }, frame, colours) {
+    const [x, y] = frame.pixel(points[0]).map(rounded);
+    const anchor = { left: "start", center: "middle", right: "end" }[align];
+    return svgElement("text", {
+      x, y, fill: colours[colour], "font-size": size, "font-family": "sans-serif",
+      "font-style": italic && "italic", "font-weight": bold && 600, "text-anchor": anchor,
+      "dominant-baseline": "middle",
+    }, text);
+  },
+};
+
+function listed(points, frame) {
+  return points.map((point) => frame.pixel(point).map(rounded).join(",")).join(" ");
+}
+
+function rounded(value) {
+  return Math.round(value * 100) / 100;
+}

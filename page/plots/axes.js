@@ -1,0 +1,82 @@
+/** Axes of plots on a canvas: nice numbers, labels, and the way from values to pixels. */
+
+import { short } from "../interface/numbers.js";
+
+const FONT = "12px system-ui, sans-serif";
+
+/** Returns the way from values to pixels of a rectangle `[left, top, width, height]`. */
+export function scales([left, top, width, height], [x0, x1], [y0, y1]) {
+  const [dx, dy] = [x1 - x0 || 1, y1 - y0 || 1];
+  return {
+    room: [left, top, width, height],
+    domain: [x0, x1, y0, y1],
+    x: (value) => left + ((value - x0) / dx) * width,
+    y: (value) => top + height - ((value - y0) / dy) * height,
+    valueX: (pixel) => x0 + ((pixel - left) / width) * dx,
+    valueY: (pixel) => y0 + ((top + height - pixel) / height) * dy,
+  };
+}
+
+/** Returns the smallest and largest finite value, with some room beyond. */
+export function extent(lists, room = 0.04) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const list of lists) {
+    for (const value of list) {
+      if (!Number.isFinite(value)) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  if (low > high) return [0, 1];
+  const margin = (high - low || Math.abs(high) || 1) * room;
+  return [low - margin, high + margin];
+}
+
+/** Returns round numbers in a range, about as many as wanted. */
+export function ticks([low, high], wanted) {
+  const raw = (high - low) / Math.max(wanted, 1);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].find((one) => one * power >= raw) * power;
+  const found = [];
+  for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step; k++) found.push(k * step);
+  return found;
+}
+
+/** Draws a frame with ticks and labels. */
+export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = true }, colours) {
+  const [left, top, width, height] = to.room;
+  const [x0, x1, y0, y1] = to.domain;
+  context.font = FONT;
+  context.lineWidth = 1;
+  context.strokeStyle = colours.faint;
+  context.fillStyle = colours.quiet;
+  context.strokeRect(left + 0.5, top + 0.5, width, height);
+  context.textAlign = "center";
+  context.textBaseline = "top";
+  for (const value of ticks([x0, x1], width / 90)) {
+    const x = Math.round(to.x(value)) + 0.5;
+    line(context, [x, top + height], [x, top + height + 5]);
+    if (numbersX) context.fillText(short(value, 4), x, top + height + 7);
+  }
+  if (numbersX) context.fillText(xLabel, left + width / 2, top + height + 23);
+  context.textAlign = "right";
+  context.textBaseline = "middle";
+  for (const value of ticks([y0, y1], height / 45)) {
+    const y = Math.round(to.y(value)) + 0.5;
+    line(context, [left - 5, y], [left, y]);
+    context.fillText(short(value, 4), left - 8, y);
+  }
+  context.save();
+  context.translate(14, top + height / 2);
+  context.rotate(-Math.PI / 2);
+  context.textAlign = "center";
+  context.fillText(yLabel, 0, 0);
+  context.restore();
+}
+
+function line(context, from, to) {
+  context.beginPath();
+  context.moveTo(...from);
+  context.lineTo(...to);
+  context.stroke();
+}

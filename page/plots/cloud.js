@@ -1,0 +1,70 @@
+/** Clouds of points on a canvas, a million of them: darker where there are more. */
+
+const FEW = 30000; // points below which each is a visible dot
+
+/**
+ * Draws points in the colour of their layer, density as opacity.
+ *
+ * @param to scales of `axes.js`
+ * @param layers `{x, y, colour}` with lists of numbers
+ */
+export function drawCloud(context, to, layers) {
+  const dots = window.devicePixelRatio || 1;
+  const [left, top, width, height] = to.room.map((one) => Math.round(one * dots));
+  if (width < 1 || height < 1) return;
+  const total = layers.reduce((sum, { x }) => sum + x.length, 0);
+  const size = total < FEW ? Math.max(1, Math.round((total < FEW / 10 ? 1.2 : 0.8) * dots)) : 0;
+  const image = new ImageData(width, height);
+  for (const { x, y, colour } of layers) {
+    const counts = new Uint16Array(width * height);
+    for (let i = 0; i < x.length; i++) {
+      const column = Math.round(to.x(x[i]) * dots) - left;
+      const row = Math.round(to.y(y[i]) * dots) - top;
+      for (let r = row - size; r <= row + size; r++) {
+        for (let c = column - size; c <= column + size; c++) {
+          if (c >= 0 && r >= 0 && c < width && r < height) {
+            const at = r * width + c;
+            if (counts[at] < 65535) counts[at] += 1;
+          }
+        }
+      }
+    }
+    blend(image.data, counts, rgb(context, colour), total < FEW ? 0.55 : density(counts));
+  }
+  const layer = new OffscreenCanvas(width, height);
+  layer.getContext("2d").putImageData(image, 0, 0);
+  context.drawImage(layer, left / dots, top / dots, width / dots, height / dots);
+}
+
+/** Opacity of one point, so that the densest places are just opaque. */
+function density(counts) {
+  let filled = 0;
+  let sum = 0;
+  for (const count of counts) {
+    if (count) {
+      filled += 1;
+      sum += count;
+    }
+  }
+  return Math.min(0.6, Math.max(0.03, (1.2 * filled) / (sum || 1)));
+}
+
+function blend(data, counts, [red, green, blue], share) {
+  for (let i = 0; i < counts.length; i++) {
+    if (!counts[i]) continue;
+    const alpha = 1 - (1 - share) ** counts[i];
+    const at = 4 * i;
+    const under = data[at + 3] / 255;
+    data[at] = red * alpha + data[at] * (1 - alpha) * (under ? 1 : 0);
+    data[at + 1] = green * alpha + data[at + 1] * (1 - alpha) * (under ? 1 : 0);
+    data[at + 2] = blue * alpha + data[at + 2] * (1 - alpha) * (under ? 1 : 0);
+    if (!under) [data[at], data[at + 1], data[at + 2]] = [red, green, blue];
+    data[at + 3] = 255 * (alpha + under * (1 - alpha));
+  }
+}
+
+function rgb(context, colour) {
+  context.fillStyle = colour;
+  const text = context.fillStyle; // #rrggbb, as the canvas writes it
+  return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16));
+}

@@ -1,0 +1,69 @@
+/** The page begins here: the address chooses a view, and the view fills the content. */
+
+import { element, fill } from "./interface/element.js";
+import { place } from "./interface/place.js";
+import { trouble } from "./interface/trouble.js";
+import { get, onReachable, pause } from "./requests/service.js";
+
+const VIEWS = {
+  start: ["Mechanisms", () => import("./views/start.js")],
+  new: ["New job", () => import("./views/new_job.js")],
+  jobs: ["Jobs", () => import("./views/jobs.js")],
+  job: ["Job", () => import("./views/job.js")],
+};
+const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs" };
+
+const content = document.getElementById("content");
+const connection = document.getElementById("connection");
+let leaving = new AbortController();
+let away = false;
+
+async function show() {
+  leaving.abort();
+  leaving = new AbortController();
+  const { signal } = leaving;
+  const here = place();
+  const [title, load] = VIEWS[here.view] ?? [];
+  mark(BELONGS[here.view] ?? here.view);
+  document.title = title ? `${title} · jointplay` : "jointplay";
+  try {
+    if (!load) throw new Error(`There is no view “${here.view}”. Choose one above.`);
+    const { show: fillIn } = await load();
+    if (signal.aborted) return;
+    const room = element("div", { class: `view view-${here.view}` });
+    fill(content, room);
+    await fillIn(room, { ...here, signal });
+  } catch (error) {
+    if (signal.aborted || error.name === "AbortError") return;
+    fill(content, trouble(error, here));
+  }
+}
+
+function mark(view) {
+  for (const link of document.querySelectorAll("nav [data-view]")) {
+    if (link.dataset.view === view) link.setAttribute("aria-current", "page");
+    else link.removeAttribute("aria-current");
+  }
+}
+
+onReachable((reachable) => {
+  if (reachable !== away) return;
+  away = !reachable;
+  connection.textContent = away ? "The service does not answer. Trying again …" : "";
+  connection.classList.toggle("away", away);
+  if (away) comeBack();
+});
+
+async function comeBack() {
+  while (away) {
+    await pause(1000);
+    await get("/healthz").catch(() => {});
+  }
+  if (content.querySelector(".trouble")) show(); // a view that could not be filled
+}
+
+window.addEventListener("hashchange", () => {
+  window.scrollTo(0, 0);
+  show().then(() => content.focus({ preventScroll: true }));
+});
+show();

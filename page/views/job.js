@@ -1,0 +1,207 @@
+/** One job: its state, and tabs with what it has computed so far. */
+
+import { element, fill } from "../interface/element.js";
+import { ago, withUnit } from "../interface/numbers.js";
+import { address, go } from "../interface/place.js";
+import { parameterWords, progressWords, sceneName, stateMark } from "../interface/state.js";
+import { TERMINAL, follow } from "../requests/following.js";
+import { get, post, remove } from "../requests/service.js";
+
+const TABS = {
+  watch: ["Watch", () => import("./job/watch.js"), ["history"]],
+  diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
+  map: ["Map", () => import("./job/map.js"), ["sweep"]],
+  sections: ["Sections", () => import("./job/sections.js"), ["poincare"]],
+  accuracy: ["Accuracy", () => import("./job/accuracy.js"), ["certificate", "accuracy"]],
+  numbers: ["Numbers", () => import("./job/numbers.js"), ["peaks"]],
+  figures: ["Figures", () => import("./job/figures.js"), ["figures"]],
+  document: ["Document", () => import("./job/document.js"), ["self"]],
+};
+const LONELY = 8000; // ms in the queue after which it is said that no worker may be alive
+
+export async function show(room, { parts, query, signal }) {
+  const [id, wanted] = parts;
+  const job = await get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal);
+  const tabs = Object.entries(TABS).filter(([, [, , links]]) => links.some((one) => job.links[one]));
+  const tab = tabs.find(([name]) => name === wanted) ?? tabs[0];
+  const name = job.label || sceneName(job.job).replaceAll("-", " ");
+  document.title = `${name} · jointplay`;
+  const head = new Head(job, name, signal);
+  const content = element("div");
+  fill(
+    room,
+    head.element,
+    element(
+      "nav",
+      { class: "tabs", "aria-label": "Parts of the job" },
+      tabs.map(([key, [title]]) => element("a", {
+        href: address(["job", id, key]), "aria-current": key === tab[0] ? "page" : null,
+      }, title)),
+    ),
+    content,
+  );
+  const listeners = new Set();
+  if (!TERMINAL.has(job.state)) {
+    follow(`/v1/jobs/${id}`, {
+      signal,
+      onEvent: (event) => head.happened(event),
+      onProgress: (now) => {
+        Object.assign(job, now);
+        head.refresh();
+        for (const listener of listeners) listener(job);
+        if (TERMINAL.has(job.state)) ended();
+      },
+    });
+  }
+  const ended = async () => {
+    const now = await get(`/v1/jobs/${id}`, {}, signal);
+    Object.assign(job, now);
+    head.refresh();
+    for (const listener of listeners) listener(job);
+  };
+  const { show: fillIn } = await tab[1][1]();
+  await fillIn(content, { job, query, signal, onChange: (listener) => listeners.add(listener) });
+}
+
+class Head {
+  constructor(job, name, signal) {
+    Object.assign(this, { job, signal });
+    this.mark = element("span", { role: "status" });
+    this.bar = element("progress", { max: 1, "aria-label": "Progress of the job" });
+    this.words = element("p", { class: "quiet small" });
+    this.notice = element("div", { "aria-live": "polite" });
+    this.buttons = element("div", { class: "buttons" });
+    const kind = job.kind === "simulate" ? "" : ` · ${job.kind}`;
+    this.element = element(
+      "header",
+      {},
+      element("div", { class: "head" }, element("h1", {}, `${name}${kind}`), this.mark, this.buttons),
+      this.facts(),
+      this.notice,
+      this.words,
+      this.bar,
+    );
+    const lonely = setTimeout(() => this.refresh((this.waited = true)), LONELY);
+    signal.addEventListener("abort", () => clearTimeout(lonely));
+    this.refresh();
+  }
+
+  facts() {
+    const { job } = this;
+    const fact = (title, value) => value &&
+      element("div", {}, element("dt", {}, `${title}`), element("dd", {}, value));
+    const parameters = element("dd", {}, "");
+    this.showParameters(parameters);
+    return element(
+      "dl",
+      { class: "facts" },
+      fact("Duration", job.job.duration && withUnit(job.job.duration, "s")),
+      element("div", { hidden: true }, element("dt", {}, "Set"), parameters),
+      fact("Submitted", ago(job.created)),
+      fact("Label", job.label),
+      job.batch && element("div", {}, element("dt", {}, "Batch"), element("dd", {},
+        element("a", { href: address(["batch", job.batch]) }, job.batch))),
+      element("div", {}, element("dt", {}, "Id"), element("dd", {}, element("code", {}, job.id))),
+    );
+  }
+
+  async showParameters(place) {
+    const { preset, parameters } = this.job.job.scene ?? {};
+    const declared = preset
+      ? (await get(`/v1/scenes/${preset}`, {}, this.signal).catch(() => ({}))).parameters
+      : Object.fromEntries(Object.entries(parameters ?? {}).map(([name]) => [name, {}]));
+    const words = preset ? parameterWords(this.job.job, declared) : "";
+    fill(place, words);
+    place.parentElement.hidden = !words;
+  }
+
+  refresh() {
+    const { job } = this;
+    const over = TERMINAL.has(job.state);
+    if (this.mark.textContent !== job.state) fill(this.mark, stateMark(job.state));
+    this.words.textContent = progressWords(job);
+    this.words.hidden = job.state === "succeeded";
+    this.bar.hidden = over;
+    if (job.state === "queued") this.bar.removeAttribute("value");
+    else this.bar.value = job.progress.fraction;
+    this.bar.dataset.fraction = String(job.progress.fraction);
+    fill(this.notice, this.notices());
+    if (this.shown !== over) this.showButtons((this.shown = over));
+  }
+
+  notices() {
+    const { job } = this;
+    const found = [];
+    const box = (look, ...words) => found.push(element("div", { class: `notice ${look}` }, words));
+    if (job.error) {
+      const at = job.error.time === null ? "" : ` at ${withUnit(job.error.time, "s")}`;
+      box("bad", element("p", {}, element("strong", {}, `It failed${at}: `), job.error.detail),
+        element("p", { class: "small" }, REMEDIES[job.error.class]));
+    }
+    if (job.damaged) box("bad", element("p", {}, job.damaged));
+    if (job.state === "queued" && this.waited) {
+      box("", element("p", {}, "No worker has taken this job yet. Either all are busy with other"
+        + " jobs, or none is alive: is jointplay serve, or a worker, running?"));
+    }
+    if (job.attempt > 1) box("", element("p", {}, `This is attempt ${job.attempt}: the one before did not end, and this one went on from there.`));
+    return found;
+  }
+
+  /** Shows an event of the job's history that readers want to see. */
+  happened({ type, data }) {
+    if (type === "lost") this.words.textContent = `A worker was lost (${data.worker ?? "unknown"}); another goes on.`;
+  }
+
+  showButtons(over) {
+    const { job } = this;
+    const button = (text, act, look = "") => element("button", {
+      type: "button", class: look, onclick: (event) => this.act(event.target, act),
+    }, text);
+    fill(
+      this.buttons,
+      over
+        ? [
+            button("Run again", async () => {
+              const again = await post("/v1/jobs", { ...job.job, cache: false });
+              go(["job", again.id]);
+            }),
+            changed(job),
+            button("Delete", async () => {
+              if (!confirm("Delete this job and its results?")) return;
+              await remove(`/v1/jobs/${job.id}`);
+              go(["jobs"]);
+            }),
+          ]
+        : button("Cancel", () => post(`/v1/jobs/${job.id}/cancel`)),
+    );
+  }
+
+  async act(button, work) {
+    button.disabled = true;
+    try {
+      await work();
+    } catch (error) {
+      fill(this.notice, element("div", { class: "notice bad" }, error.message));
+    } finally {
+      button.disabled = false;
+    }
+  }
+}
+
+/** A link to the form with this job's values. */
+function changed(job) {
+  const { scene, kind, duration, accuracy } = job.job;
+  if (!scene.preset) return null;
+  const given = Object.fromEntries(
+    Object.entries(scene.parameters ?? {}).filter(([, value]) => value !== null));
+  const query = { ...given, kind: kind === "simulate" ? null : kind, duration, accuracy };
+  return element("a", { class: "button", href: address(["new", scene.preset], query) },
+    "Run with changes");
+}
+
+const REMEDIES = {
+  user: "Another document helps: change what the sentence names, and run it again.",
+  solver: "Another tolerance or method may help: run it with changes, for example with accuracy fine.",
+  platform: "This is no fault of the job: run it again, and tell who operates the service.",
+  limit: "A smaller job helps: a shorter duration, fewer channels or points.",
+};

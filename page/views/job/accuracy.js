@@ -1,0 +1,114 @@
+/** How far results can be trusted, in words; and what accuracy costs, of an accuracy-study. */
+
+import { element, fill } from "../../interface/element.js";
+import { short, span, withUnit } from "../../interface/numbers.js";
+import { whenThere } from "../../interface/when_there.js";
+
+export async function show(room, context) {
+  const { links } = context.job;
+  if (links.accuracy) {
+    await whenThere(room, context, links.accuracy, {}, (answer) =>
+      fill(room, study(answer, links.figures)));
+  } else {
+    await whenThere(room, context, links.certificate, {}, (answer) =>
+      fill(room, certificate(answer, context.job.job.duration)));
+  }
+}
+
+function certificate(found, duration) {
+  const statements = words(found, duration);
+  return element("div", { class: "split" },
+    element("section", { class: "panel" },
+      element("h2", {}, "What you can trust"),
+      statements.map((sentence) => element("p", {}, sentence)),
+      found.note && element("p", { class: "quiet small" }, found.note),
+      found.criterion && element("details", {}, element("summary", {}, "What converged means"),
+        element("p", {}, found.criterion),
+        Object.entries(found.bars).map(([kind, sentence]) =>
+          element("p", { class: "small" }, element("strong", {}, kind), ": ", sentence)))),
+    element("section", { class: "panel" }, element("h2", {}, "Channel by channel"), channels(found)));
+}
+
+/** Returns sentences about a certificate, the most important first. */
+function words(found, duration) {
+  const sentences = [];
+  const { horizon, forces_until: forces } = found;
+  const far = horizon !== null && horizon >= duration * (1 - 1e-9);
+  if (far) sentences.push("Trust the whole curve: another tolerance gives the same motion.");
+  else if (horizon) {
+    sentences.push(`Trust the curve until ${withUnit(horizon, "s", 3)}. After that small differences`
+      + " have grown so much that another tolerance takes another path; trust the statistics there.");
+  } else sentences.push("Do not trust the course of the curve: no part of it is shown to be converged.");
+  const spread = spreads(found.channels);
+  if (!far && spread) {
+    sentences.push(`Largest values agree between runs with other tolerances: ${spread}.`);
+  }
+  if (forces !== null && forces !== undefined && !far) {
+    sentences.push(`Forces and accelerations are accurate until ${withUnit(forces, "s", 3)}.`);
+  }
+  if (found.exponent) {
+    const { value, error } = found.exponent;
+    const grows = value > 2 * (error ?? 0)
+      ? `Small differences grow tenfold every ${span(Math.log(10) / value)}: the motion is chaotic`
+        + " or close to it."
+      : "Small differences do not grow: the motion is regular as far as this run tells.";
+    sentences.push(grows);
+  } else if (found.exponent_note) sentences.push(found.exponent_note);
+  if (found.energy_error !== null && found.energy_error !== undefined) {
+    sentences.push(`Energy is accounted for to ${short(100 * Math.abs(found.energy_error), 2)} % of`
+      + " all work that was done.");
+  }
+  return sentences;
+}
+
+/** Returns how far the largest values of declared outputs and of forces are apart, in words. */
+function spreads(channels) {
+  const groups = [
+    ["declared outputs", (name) => !name.includes(".")],
+    ["contact forces", (name) => name.endsWith(".normal_force")],
+  ];
+  return groups.map(([title, belongs]) => {
+    const shares = Object.entries(channels)
+      .filter(([name, { extremes: e }]) => belongs(name) && e.highest_maximum && e.lowest_maximum !== null)
+      .map(([, { extremes: e }]) => Math.abs(1 - e.lowest_maximum / e.highest_maximum));
+    return shares.length && `those of ${title} within ${short(100 * Math.max(...shares), 2)} %`;
+  }).filter(Boolean).join(", ");
+}
+
+function channels({ channels: found }) {
+  const rows = Object.entries(found).map(([name, { until, unit, extremes: e }]) => {
+    const between = (low, high) => {
+      if (low === null || high === null) return "–";
+      const [a, b] = [low, high].map((value) => withUnit(value, unit, 3));
+      return a === b ? a : `${a} … ${b}`;
+    };
+    return element("tr", {}, element("th", { scope: "row" }, name),
+      element("td", { class: "number" }, until === null ? "–" : withUnit(until, "s", 3)),
+      element("td", { class: "number" }, between(e.lowest_minimum, e.highest_minimum)),
+      element("td", { class: "number" }, between(e.lowest_maximum, e.highest_maximum)));
+  });
+  return element("table", { class: "small" },
+    element("thead", {}, element("tr", {},
+      element("th", { scope: "col" }, "Channel"),
+      ["Accurate until", "Smallest", "Largest"].map((title) =>
+        element("th", { scope: "col", class: "number" }, title)))),
+    element("tbody", {}, rows));
+}
+
+function study(found, figures) {
+  const rows = found.points.map((one) => element("tr", {},
+    element("th", { scope: "row" }, one.method),
+    [one.tolerance === null ? withUnit(one.step, "s", 2) : short(one.tolerance, 1),
+     one.failure ?? short(one.error, 2), short(one.steps, 4), span(one.seconds)].map((cell) =>
+      element("td", { class: "number" }, cell))));
+  return element("div", { class: "split" },
+    element("section", { class: "panel" }, element("h2", {}, "What accuracy costs"),
+      element("p", {}, found.advice ?? "The advice comes when the study is complete."),
+      element("table", {}, element("thead", {}, element("tr", {},
+        ["Method", "Tolerance or step", "Error", "Steps", "Time"].map((title, i) =>
+          element("th", { scope: "col", class: i ? "number" : "" }, title)))),
+      element("tbody", {}, rows))),
+    element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"),
+      element("img", { class: "figure", src: `${figures}/work-precision.svg`,
+        alt: "Error of each method against its cost" })));
+}

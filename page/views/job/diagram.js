@@ -1,0 +1,175 @@
+/** A bifurcation diagram: density, verdicts, exponents; a click leads to that simulation. */
+
+import { element, fill } from "../../interface/element.js";
+import { short, withUnit } from "../../interface/numbers.js";
+import { go, note } from "../../interface/place.js";
+import { firstJob } from "../../interface/kinds_of_job.js";
+import { sceneOf } from "../../interface/scene_of_job.js";
+import { prepared } from "../../mechanism/canvas.js";
+import { onNewColours, palette } from "../../mechanism/palette.js";
+import { drawAxes, extent, scales } from "../../plots/axes.js";
+import { drawCloud } from "../../plots/cloud.js";
+import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
+import { whenThere } from "../../interface/when_there.js";
+import { get, post } from "../../requests/service.js";
+
+const LEFT = 78;
+const BELOW = 44;
+const EXPONENTS = 84; // height of the exponents, px
+const BAND = 16;
+
+export async function show(room, context) {
+  const diagram = new Diagram(context);
+  await whenThere(room, context, context.job.links.bifurcation, diagram.query(), async (answer) => {
+    if (!diagram.element.isConnected) fill(room, diagram.element);
+    await diagram.take(answer);
+  });
+}
+
+class Diagram {
+  constructor({ job, query, signal }) {
+    Object.assign(this, { job, signal, observable: query.get("observable") });
+    this.canvas = element("canvas", { class: "canvas-plot", role: "img", onclick: (e) => this.click(e) });
+    this.chosen = element("div", { role: "status" });
+    this.legend = element("ul", { class: "legend" });
+    const observables = job.job.observables ?? [];
+    const select = element("select", { id: "observable", onchange: () => {
+      this.observable = select.value;
+      note({ observable: select.value });
+      this.again();
+    } }, observables.map((name) =>
+      element("option", { value: name, selected: name === this.observable }, name)));
+    this.at = element("input", {
+      id: "value", inputmode: "decimal", onchange: () => this.pick(Number(this.at.value)),
+    });
+    this.element = element("section", { class: "panel" },
+      element("div", { class: "filters" },
+        element("div", { class: "field" }, element("label", { for: "observable" }, "Observable"), select),
+        element("div", { class: "field" },
+          element("label", { for: "value" }, `${job.job.parameter} (or click the diagram)`), this.at)),
+      this.canvas, this.legend, this.chosen);
+    onNewColours(() => this.draw(), signal);
+    addEventListener("resize", () => this.draw(), { signal });
+  }
+
+  query(start = null) {
+    return { observable: this.observable, start };
+  }
+
+  async again() {
+    await this.take(await get(this.job.links.bifurcation, this.query(), this.signal));
+  }
+
+  /** Takes an answer and those that follow it. */
+  async take(answer) {
+    const pages = [answer];
+    while (pages.at(-1).next_start !== null) {
+      const next = this.query(pages.at(-1).next_start);
+      pages.push(await get(this.job.links.bifurcation, next, this.signal));
+    }
+    const { parameter } = answer;
+    this.parameter = parameter;
+    this.unit = answer.values[parameter].unit;
+    this.answer = answer;
+    this.points = pages.flatMap((page) => page.status.map((status, i) => ({
+      value: page.values[parameter].values[i],
+      status,
+      sections: page.sections.values[i],
+      backward: page.directions?.[i] === "backward",
+      verdict: page.verdicts?.[i],
+      reason: page.reasons?.[i],
+      exponent: page.indicators.lyapunov?.values[i] ?? null,
+    })));
+    const done = this.points.filter(({ status }) => status === "done").length;
+    this.canvas.setAttribute("aria-label", `${answer.observable} at the sections over ${parameter}: `
+      + `${done} of ${this.points.length} values are computed`);
+    this.canvas.dataset.done = String(done);
+    this.draw();
+  }
+
+  draw() {
+    if (!this.points || !this.canvas.clientWidth) return;
+    const { canvas, points } = this;
+    const colours = palette();
+    const context = prepared(canvas);
+    const judged = points.some(({ verdict }) => verdict);
+    const below = BELOW + (judged ? EXPONENTS + BAND + 22 : 0);
+    const room = [LEFT, 10, canvas.clientWidth - LEFT - 14, canvas.clientHeight - below - 10];
+    const across = extent([points.map(({ value }) => value)], 0.01);
+    const layers = [false, true].map((backward) => {
+      const some = points.filter((one) => one.backward === backward);
+      return {
+        x: some.flatMap(({ value, sections }) => sections.map(() => value)),
+        y: some.flatMap(({ sections }) => sections),
+        colour: colours[backward ? "curve-1" : "curve-0"],
+      };
+    }).filter(({ x }) => x.length);
+    this.to = scales(room, across, extent(layers.map(({ y }) => y)));
+    drawCloud(context, this.to, layers);
+    const { sections, observable } = this.answer;
+    const xLabel = `${this.parameter} [${this.unit}]`;
+    drawAxes(context, this.to,
+      { xLabel, yLabel: `${observable} [${sections.unit}]`, numbersX: !judged }, colours);
+    if (judged) {
+      const band = [LEFT, room[1] + room[3] + 8, room[2], BAND];
+      drawVerdicts(context, scales(band, across, [0, 1]), points, colours);
+      const lower = [LEFT, band[1] + BAND + 8, room[2], EXPONENTS];
+      const values = points.map(({ exponent }) => exponent).filter((one) => one !== null);
+      const to = scales(lower, across, extent([values, [0]], 0.1));
+      drawExponents(context, to, points, colours);
+      drawAxes(context, to, { xLabel, yLabel: "exponent [1/s]" }, colours);
+    }
+    this.explain(judged, layers.length > 1);
+  }
+
+  explain(judged, both) {
+    const entry = (look, text) => element("li", {}, element("span", { class: `swatch ${look}` }), text);
+    fill(this.legend,
+      both && [entry("swatch-0", "forward"), entry("swatch-1", "backward")],
+      judged && Object.entries(VERDICTS).map(([name]) => entry(`verdict-${name}`, name)));
+  }
+
+  click(event) {
+    const { left } = this.canvas.getBoundingClientRect();
+    if (this.to) this.pick(this.to.valueX(event.clientX - left));
+  }
+
+  /** Shows the value of the parameter that is nearest, and offers its simulation. */
+  pick(value) {
+    if (!this.points?.length || Number.isNaN(value)) return;
+    const nearest = this.points.reduce((best, one) =>
+      Math.abs(one.value - value) < Math.abs(best.value - value) ? one : best);
+    this.at.value = String(nearest.value);
+    const lines = [`${nearest.sections.length} sections`, nearest.verdict, nearest.reason].filter(Boolean);
+    fill(this.chosen, element("div", { class: "notice" },
+      element("p", {}, element("strong", {},
+        `${this.parameter} = ${withUnit(nearest.value, this.unit, 6)}`), `: ${lines.join("; ")}`),
+      element("div", { class: "buttons" },
+        element("button", { type: "button", class: "main", onclick: (event) => this.run(event, nearest) },
+          "Run this simulation"),
+        element("span", { class: "quiet small" },
+          nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} 1/s`))));
+  }
+
+  async run(event, { value }) {
+    event.target.disabled = true;
+    try {
+      const { scene: given, tolerance, method } = this.job.job;
+      const scene = { ...given, parameters: { ...chosenOf(given.parameters), [this.parameter]: value } };
+      if (!given.preset) scene.parameters = given.parameters;
+      const document = await sceneOf({ scene: given }, this.signal);
+      if (!given.preset) scene.parameters[this.parameter] = { ...given.parameters[this.parameter], default: value };
+      const job = await post("/v1/jobs", {
+        kind: "simulate", scene, duration: firstJob(document).duration, tolerance, method,
+        label: `${this.parameter} = ${withUnit(value, this.unit, 4)}`,
+      });
+      go(["job", job.id]);
+    } catch (error) {
+      fill(this.chosen, element("div", { class: "notice bad" }, error.message));
+    }
+  }
+}
+
+function chosenOf(parameters = {}) {
+  return Object.fromEntries(Object.entries(parameters).filter(([, value]) => value !== null));
+}

@@ -1,0 +1,37 @@
+/** A job's document, what happened to it, and how to submit it again. */
+
+import { element, fill } from "../../interface/element.js";
+import { jobAsText } from "../../interface/job_as_text.js";
+import { follow } from "../../requests/following.js";
+
+export async function show(room, { job, signal }) {
+  const rows = element("tbody");
+  fill(
+    room,
+    element(
+      "div",
+      { class: "split" },
+      element("section", { class: "panel" }, element("h2", {}, "The same job elsewhere"),
+        element("p", { class: "quiet small" }, "With every default filled in: it repeats the"
+          + " results bit for bit."),
+        jobAsText(() => job.job).element),
+      element("section", { class: "panel" }, element("h2", {}, "What happened"),
+        element("table", {}, element("thead", {}, element("tr", {},
+          ["When", "What", "Details"].map((title) => element("th", { scope: "col" }, title)))), rows),
+        element("p", { class: "quiet small" }, `Solver ${job.solver_version}`)),
+    ),
+  );
+  follow(`/v1/jobs/${job.id}`, {
+    signal,
+    onEvent: ({ type, time, data }) => rows.append(element("tr", {},
+      element("td", {}, new Date(time).toLocaleTimeString()),
+      element("td", {}, type),
+      element("td", { class: "small" }, details(data)))),
+  });
+}
+
+function details(data) {
+  return Object.entries(data)
+    .map(([name, value]) => `${name}: ${typeof value === "object" ? JSON.stringify(value) : value}`)
+    .join(", ");
+}

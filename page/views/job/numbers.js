@@ -1,0 +1,66 @@
+/** Numbers of a run: extremes of every channel, contacts, the energy ledger. */
+
+import { element, fill } from "../../interface/element.js";
+import { short, withUnit } from "../../interface/numbers.js";
+import { whenThere } from "../../interface/when_there.js";
+import { get } from "../../requests/service.js";
+
+const MOST_IMPACTS = 200;
+
+export async function show(room, context) {
+  const { job, signal } = context;
+  await whenThere(room, context, job.links.peaks, {}, async ({ peaks }) => {
+    const ask = (path) => get(path, {}, signal).catch(() => null);
+    const [statistics, impacts] = await Promise.all([ask(job.links.statistics), ask(job.links.impacts)]);
+    fill(
+      room,
+      element("div", { class: "split" },
+        element("section", { class: "panel" }, element("h2", {}, "Extremes"), peakTable(peaks)),
+        element("div", { class: "stacked" },
+          statistics && element("section", { class: "panel" }, element("h2", {}, "The computation"),
+            ledger(statistics)),
+          impacts && element("section", { class: "panel" },
+            element("h2", {}, `${impacts.impacts.length} contacts`), impactTable(impacts.impacts)))),
+    );
+  });
+}
+
+function table(titles, rows) {
+  return element("table", {},
+    element("thead", {}, element("tr", {}, titles.map((title, i) =>
+      element("th", { scope: "col", class: i ? "number" : "" }, title)))),
+    element("tbody", {}, rows.map((row) => element("tr", {}, row.map((cell, i) =>
+      i ? element("td", { class: "number" }, cell) : element("th", { scope: "row" }, cell))))));
+}
+
+function peakTable(peaks) {
+  const rows = Object.entries(peaks).map(([name, peak]) => [
+    name, withUnit(peak.minimum, peak.unit), withUnit(peak.minimum_time, "s"),
+    withUnit(peak.maximum, peak.unit), withUnit(peak.maximum_time, "s"),
+  ]);
+  return table(["Channel", "Smallest", "at", "Largest", "at"], rows);
+}
+
+function impactTable(impacts) {
+  const shown = impacts.slice(0, MOST_IMPACTS).map((one) => [
+    one.joint, withUnit(one.onset, "s", 6),
+    one.release === null ? "lasts" : withUnit(one.release - one.onset, "s", 3),
+    withUnit(one.approach_rate, "m/s", 3), withUnit(one.peak_force, "N", 3),
+  ]);
+  return [
+    table(["Joint", "Onset", "Duration", "Approach", "Peak force"], shown),
+    impacts.length > MOST_IMPACTS &&
+      element("p", { class: "quiet small" }, `The first ${MOST_IMPACTS} are shown.`),
+  ];
+}
+
+function ledger({ method, method_reason: reason, steps, rejections, smallest_step: step, energy }) {
+  const rows = [
+    ["Method", method ?? "–"], ["because", reason ?? "–"], ["Steps", short(steps, 6)],
+    ["Tried again", short(rejections, 6)], ["Smallest step", withUnit(step, "s", 3)],
+  ];
+  for (const [name, value] of Object.entries(energy ?? {})) {
+    rows.push([name.replaceAll("_", " "), withUnit(value, "J")]);
+  }
+  return table(["Quantity", ""], rows);
+}

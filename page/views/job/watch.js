@@ -1,0 +1,148 @@
+/** A run to watch: the mechanism in motion, its clearance joints magnified, its histories. */
+
+import { ChannelChoice } from "../../interface/channel_choice.js";
+import { element, fill } from "../../interface/element.js";
+import { saving } from "../../interface/saving.js";
+import { note } from "../../interface/place.js";
+import { sceneOf } from "../../interface/scene_of_job.js";
+import { Clock } from "../../mechanism/clock.js";
+import { Insets } from "../../mechanism/insets.js";
+import { Motion, journals } from "../../mechanism/motion.js";
+import { onNewColours } from "../../mechanism/palette.js";
+import { player, watchable } from "../../mechanism/player.js";
+import { calm, turn } from "../../mechanism/sketch.js";
+import { Stage } from "../../mechanism/stage.js";
+import { TERMINAL } from "../../requests/following.js";
+import { get } from "../../requests/service.js";
+
+export async function show(room, context) {
+  const { job, onChange } = context;
+  if (job.state === "queued" || (job.state === "running" && !job.progress.time)) {
+    fill(room, element("p", { class: "panel" }, "Nothing is computed yet. The mechanism moves here"
+      + " as soon as its first seconds are."));
+    await new Promise((resolve) => onChange(({ state, progress }) => {
+      if (TERMINAL.has(state) || progress.time > 0) resolve();
+    }));
+  }
+  if (context.signal.aborted) return;
+  await new Watch(room, context).begin();
+}
+
+class Watch {
+  constructor(room, { job, query, signal, onChange }) {
+    Object.assign(this, { room, job, query, signal, onChange });
+  }
+
+  async begin() {
+    const { job, query, signal } = this;
+    const scene = await sceneOf(job.job, signal);
+    this.clock = new Clock(0, TERMINAL.has(job.state) && !job.error && job.state === "succeeded"
+      ? job.job.duration : Math.max(job.progress.time, 1e-9));
+    this.clock.speed = watchable(Math.min(turn(scene) ?? Infinity, job.job.duration));
+    this.motion = new Motion(job, scene, () => this.draw(), signal);
+    this.stage = new Stage([this.motion], job.label || scene.name);
+    this.insets = new Insets(this.motion);
+    this.impacts = [];
+    const plotRoom = element("section", { class: "panel" }, element("h2", {}, "History"));
+    fill(this.room, element("div", { class: "split" }, this.drawing(scene), plotRoom));
+    onNewColours(() => this.draw(), signal);
+    addEventListener("resize", () => this.draw(), { signal });
+    signal.addEventListener("abort", () => this.clock.stop());
+    this.clock.listen(() => this.draw());
+    this.clock.seek(Number(query.get("t") ?? 0));
+    const plots = this.plots(plotRoom, scene);
+    this.listen();
+    if (!calm() && !query.has("t")) this.clock.play();
+    await Promise.all([plots, this.facts()]);
+  }
+
+  drawing(scene) {
+    const { motion, stage, clock } = this;
+    if (motion.missing.length) {
+      return element("section", { class: "panel" }, element("h2", {}, "Mechanism"),
+        element("p", {}, "This job did not store where its bodies are"
+          + ` (${motion.missing.map((body) => `${body}.x, .y, .theta`).join("; ")}), so it cannot`
+          + " be drawn. Run it with these channels to see it move."));
+    }
+    const labels = element("input", { type: "checkbox", id: "labels", onchange: () => {
+      stage.labels = labels.checked;
+      this.draw();
+    } });
+    return element(
+      "section",
+      { class: "panel", "aria-label": "Mechanism" },
+      element("div", { class: "stage" }, stage.canvas),
+      player(clock, () => this.impacts),
+      element("div", { class: "buttons" },
+        element("label", { class: "buttons small", for: "labels" }, labels, "Names"),
+        saving(stage, clock, scene.name)),
+      journals(scene).length > 0 && this.insets.element,
+    );
+  }
+
+  draw() {
+    if (this.motion.missing.length) return;
+    const { time } = this.clock;
+    const [state] = this.stage.draw(time);
+    if (state) this.insets.draw(time, state.contacts);
+  }
+
+  async plots(room, scene) {
+    const { HistoryPlots } = await import("../../plots/history_plots.js");
+    const { job, query } = this;
+    this.history = new HistoryPlots([job], this.clock, this.signal, ([from, to]) =>
+      note({ from, to }));
+    this.history.onsets = this.impacts;
+    const choice = new ChannelChoice(job.job.channels, chosen(query, job, scene), (names) => {
+      note({ channels: names.join(",") });
+      this.history.show(names);
+    });
+    room.append(this.history.element, choice.element);
+    if (query.has("from") && query.has("to")) {
+      this.history.window = [Number(query.get("from")), Number(query.get("to"))];
+    }
+    await this.history.show(choice.names);
+  }
+
+  /** What is drawn besides, as far as it is there: peaks, impacts, the certificate. */
+  async facts() {
+    const { links } = this.job;
+    const ask = (path, query) => (path ? get(path, query, this.signal).catch(() => null) : null);
+    const [peaks, impacts, certificate] = await Promise.all([
+      ask(links.peaks), ask(links.impacts), ask(links.certificate, {
+        channels: this.job.job.channels.slice(0, 60).join(","),
+      }),
+    ]);
+    this.insets.peaks = peaks?.peaks ?? {};
+    this.impacts = (impacts?.impacts ?? []).map(({ onset }) => onset).sort((a, b) => a - b);
+    if (this.history) {
+      Object.assign(this.history, { onsets: this.impacts, certificate });
+      this.history.rebuild();
+      if (this.history.data) this.history.draw();
+    }
+    this.draw();
+  }
+
+  /** Shows what a running job has computed meanwhile. */
+  listen() {
+    this.onChange((job) => {
+      const over = TERMINAL.has(job.state);
+      const reached = job.state === "succeeded" ? job.job.duration : job.progress.time;
+      this.motion.refresh();
+      this.clock.extend(Math.max(reached, this.clock.last));
+      this.history?.extend(this.clock.last);
+      if (over) this.facts();
+    });
+  }
+}
+
+function chosen(query, job, scene) {
+  const stored = new Set(job.job.channels);
+  const asked = (query.get("channels") ?? "").split(",").filter((name) => stored.has(name));
+  if (asked.length) return asked;
+  const outputs = (scene.outputs ?? []).map(({ name }) => name);
+  const forces = journals(scene).map((joint) => `${joint}.normal_force`);
+  const likely = [...outputs, ...forces].filter((name) => stored.has(name));
+  const some = likely.length ? likely : job.job.channels;
+  return some.slice(0, 5);
+}

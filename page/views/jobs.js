@@ -1,0 +1,195 @@
+/** The list of jobs: filters in the address, as many rows as fit the screen, live. */
+
+import { element, fill } from "../interface/element.js";
+import { JobRow } from "../interface/job_row.js";
+import { address, note } from "../interface/place.js";
+import { trouble } from "../interface/trouble.js";
+import { TERMINAL } from "../requests/following.js";
+import { Unreachable, get, pause } from "../requests/service.js";
+
+const PAGE = 200;
+const BEYOND = 8; // rows above and below what is seen
+const MOST_COMPARED = 4;
+const MOST_ASKED = 12; // jobs that are looked at again one by one
+const STATES = ["queued", "running", "cancelling", "succeeded", "failed", "cancelled"];
+const KINDS = ["simulate", "bifurcation", "sweep", "poincare", "ensemble", "accuracy-study"];
+
+export async function show(room, { query, signal }) {
+  const list = new JobList(query, signal);
+  fill(room, list.element);
+  await list.begin();
+}
+
+class JobList {
+  constructor(query, signal) {
+    Object.assign(this, { signal, jobs: [], next: null, compared: new Set(), rows: new Map() });
+    this.filters = Object.fromEntries(["state", "kind", "scene", "label"].map((name) =>
+      [name, query.get(name) ?? ""]));
+    this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
+    this.scroll = element("div", { class: "rows", tabindex: "0", role: "group",
+      "aria-label": "List of jobs, scrolls", onscroll: () => this.scrolled() }, this.inside);
+    this.said = element("span", { role: "status", class: "quiet" });
+    this.compare = element("a", { class: "button", hidden: true }, "Compare");
+    this.element = element("div", {},
+      element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
+        element("div", { class: "buttons" }, this.compare)),
+      this.form(), this.scroll);
+    new ResizeObserver(() => this.draw()).observe(this.scroll);
+  }
+
+  form() {
+    const field = (name, title, control) => element("div", { class: "field" },
+      element("label", { for: `filter-${name}` }, title), control);
+    const select = (name, title, values) => field(name, title, element("select", {
+      id: `filter-${name}`, onchange: (event) => this.filter(name, event.target.value),
+    }, ["", ...values].map((value) => element("option", {
+      value, selected: value === this.filters[name],
+    }, value || "all"))));
+    const text = (name, title) => field(name, title, element("input", {
+      type: "search", id: `filter-${name}`, value: this.filters[name], maxlength: 200,
+      onchange: (event) => this.filter(name, event.target.value.trim()),
+    }));
+    return element("div", { class: "filters", role: "search" },
+      select("state", "State", STATES), select("kind", "Kind", KINDS),
+      text("scene", "Mechanism"), text("label", "Label"));
+  }
+
+  async filter(name, value) {
+    this.filters[name] = value;
+    note(this.filters);
+    await this.load().catch((error) => this.failed(error));
+  }
+
+  async begin() {
+    await this.load();
+    this.live();
+  }
+
+  async load() {
+    const page = await this.page();
+    for (const row of this.rows.values()) row.element.remove();
+    this.rows.clear();
+    this.jobs = page.jobs;
+    this.next = page.next_page_token;
+    this.draw();
+  }
+
+  page(token = null, size = PAGE) {
+    const query = { ...this.filters, page_size: size, page_token: token };
+    return get("/v1/jobs", query, this.signal);
+  }
+
+  /** Looks again, every second: new jobs, and those that are not finished. */
+  async live() {
+    while (!this.signal.aborted) {
+      try {
+        await pause(1000, this.signal);
+        const { jobs } = await this.page(null, 50);
+        const known = new Map(this.jobs.map((job, place) => [job.id, place]));
+        const fresh = jobs.filter(({ id }) => !known.has(id));
+        for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
+        this.jobs.unshift(...fresh);
+        await this.lookAgain(new Set(jobs.map(({ id }) => id)));
+        this.draw();
+      } catch (error) {
+        if (error.name === "AbortError") return;
+        if (!(error instanceof Unreachable)) return this.failed(error);
+      }
+    }
+  }
+
+  async lookAgain(seen) {
+    const shown = this.jobs.slice(...this.range());
+    const moving = shown.filter(({ id, state }) => !TERMINAL.has(state) && !seen.has(id));
+    await Promise.all(moving.slice(0, MOST_ASKED).map(async (job) => {
+      Object.assign(job, await get(`/v1/jobs/${job.id}`, {}, this.signal));
+    }));
+  }
+
+  failed(error) {
+    if (error.name !== "AbortError") fill(this.inside, trouble(error));
+  }
+
+  range() {
+    const height = this.rowHeight();
+    const first = Math.floor(this.scroll.scrollTop / height) - BEYOND;
+    const count = Math.ceil(this.scroll.clientHeight / height) + 2 * BEYOND;
+    return [Math.max(0, first), Math.max(0, first) + count];
+  }
+
+  rowHeight() {
+    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    return (matchMedia("(max-width: 760px)").matches ? 4.4 : 4) * rem;
+  }
+
+  async scrolled() {
+    this.draw();
+    const [, last] = this.range();
+    if (last < this.jobs.length || !this.next || this.loading) return;
+    this.loading = true;
+    try {
+      const page = await this.page(this.next);
+      this.jobs.push(...page.jobs);
+      this.next = page.next_page_token;
+      this.draw();
+    } catch (error) {
+      if (error.name !== "AbortError" && !(error instanceof Unreachable)) this.failed(error);
+    } finally {
+      this.loading = false;
+    }
+  }
+
+  draw() {
+    const height = this.rowHeight();
+    this.said.textContent = `${this.jobs.length}${this.next ? "+" : ""} shown`;
+    this.inside.style.height = `${Math.max(this.jobs.length * height, 1)}px`;
+    if (!this.jobs.length) return this.nothing();
+    this.inside.querySelector(".panel")?.remove();
+    const [first, last] = this.range();
+    const shown = this.jobs.slice(first, last);
+    const ids = new Set(shown.map(({ id }) => id));
+    for (const [id, row] of this.rows) {
+      if (ids.has(id)) continue;
+      row.element.remove();
+      this.rows.delete(id);
+    }
+    shown.forEach((job, place) => {
+      let row = this.rows.get(job.id);
+      if (!row) {
+        row = new JobRow(job, {
+          choose: (one, chosen) => this.choose(one, chosen),
+          gone: (one) => this.gone(one),
+          chosen: this.compared.has(job.id),
+        });
+        this.rows.set(job.id, row);
+        this.inside.append(row.element);
+      }
+      row.update(job, (first + place) * height);
+    });
+  }
+
+  nothing() {
+    const filtered = Object.values(this.filters).some(Boolean);
+    fill(this.inside, element("div", { class: "panel" },
+      element("h2", {}, filtered ? "No job matches these filters" : "No jobs yet"),
+      filtered
+        ? element("a", { class: "button", href: "#/jobs", onclick: () => location.reload() }, "Show all jobs")
+        : element("p", {}, "Choose a ", element("a", { href: "#/" }, "mechanism"),
+          " and run it: its job appears here.")));
+  }
+
+  choose(job, chosen) {
+    if (chosen && this.compared.size >= MOST_COMPARED) return false;
+    this.compared[chosen ? "add" : "delete"](job.id);
+    this.compare.hidden = this.compared.size < 2;
+    this.compare.textContent = `Compare ${this.compared.size}`;
+    this.compare.href = address(["compare"], { jobs: [...this.compared].join(",") });
+    return true;
+  }
+
+  gone(job) {
+    this.jobs = this.jobs.filter(({ id }) => id !== job.id);
+    this.compared.delete(job.id);
+    this.draw();
+  }
+}

@@ -1,0 +1,151 @@
+/** A new job of a preset: its parameters, its cost before it is submitted, and how others submit it. */
+
+import { element, fill } from "../interface/element.js";
+import { Estimate } from "../interface/estimate.js";
+import { jobAsText } from "../interface/job_as_text.js";
+import { KINDS } from "../interface/kinds_of_job.js";
+import { ParameterFields } from "../interface/parameter_fields.js";
+import { go, note } from "../interface/place.js";
+import { fields as wrongFields } from "../interface/trouble.js";
+import { onNewColours } from "../mechanism/palette.js";
+import { withParameters } from "../mechanism/parameters.js";
+import { Sketch, calm } from "../mechanism/sketch.js";
+import { get, post } from "../requests/service.js";
+
+export async function show(room, { parts, query, signal }) {
+  const [name] = parts;
+  const document_ = await get(`/v1/scenes/${encodeURIComponent(name)}`, {}, signal);
+  document.title = `${name} · jointplay`;
+  const given = numbersOf(query, document_.parameters ?? {});
+  const canvas = element("canvas", { role: "img", "aria-label": `Drawing of ${name}` });
+  const form = new JobForm(document_, query.get("kind") ?? "simulate", given, signal);
+  let sketch = null;
+  const redraw = () => {
+    const moving = sketch?.playing;
+    sketch?.stop();
+    const values = form.parameters.valid ? form.parameters.values() : {};
+    sketch = new Sketch(canvas, withParameters(document_, values), { labels: true });
+    if (moving || (sketch && !calm())) sketch.play();
+    sketch.draw();
+  };
+  form.onchange = () => {
+    note(form.address());
+    redraw();
+  };
+  fill(
+    room,
+    element("div", { class: "head" }, element("h1", {}, name.replaceAll("-", " "))),
+    element("p", { class: "quiet" }, document_.description),
+    element(
+      "div",
+      { class: "split" },
+      form.element,
+      element(
+        "div",
+        { class: "stacked" },
+        element("div", { class: "panel stage" }, canvas),
+        element("section", { class: "panel" }, element("h2", {}, "The same job elsewhere"),
+          form.text.element),
+        document_.source && element("section", { class: "panel small quiet" },
+          element("h2", {}, "Source"), document_.source),
+      ),
+    ),
+  );
+  redraw();
+  onNewColours(() => sketch.draw(), signal);
+  addEventListener("resize", () => sketch.draw(), { signal });
+  signal.addEventListener("abort", () => sketch.stop());
+  form.estimate.refresh();
+}
+
+class JobForm {
+  constructor(document_, kind, given, signal) {
+    Object.assign(this, { scene: document_, signal, onchange: () => {} });
+    const changed = () => this.changed();
+    this.parameters = new ParameterFields(document_.parameters ?? {}, given, changed);
+    this.kindRoom = element("div");
+    this.label = element("input", { id: "label", maxlength: 200, oninput: changed });
+    this.kind = element("select", { id: "kind", onchange: () => this.choose(this.kind.value) },
+      Object.entries(KINDS).map(([name, { title }]) =>
+        element("option", { value: name, selected: name === kind }, title)));
+    this.kindHelp = element("p", { class: "help", id: "kind-help" });
+    this.wrong = element("div", { role: "alert" });
+    this.button = element("button", { type: "submit", class: "main" }, "Run");
+    this.estimate = new Estimate(() => this.document(), signal);
+    this.element = element(
+      "form",
+      { class: "panel stacked", novalidate: true, onsubmit: (event) => this.submit(event) },
+      element("div", { class: "field" }, element("label", { for: "kind" }, "What to compute"),
+        this.kind, this.kindHelp),
+      this.kindRoom,
+      element("h2", {}, "Parameters of the mechanism"),
+      this.parameters.element,
+      element("div", { class: "field" }, element("label", { for: "label" }, "Label"), this.label,
+        element("p", { class: "help" }, "A name of your own, to find the job by.")),
+      this.estimate.element,
+      this.wrong,
+      element("div", { class: "buttons" }, this.button),
+    );
+    this.text = { refresh() {} };
+    this.choose(KINDS[kind] ? kind : "simulate", given);
+    this.text = jobAsText(() => this.document());
+  }
+
+  choose(kind, given = {}) {
+    this.kind.value = kind;
+    this.kindHelp.textContent = KINDS[kind].help;
+    const fields = KINDS[kind].fields(this.scene);
+    this.own = new ParameterFields(fields, given, () => this.changed(), "");
+    fill(this.kindRoom, this.own.element);
+    this.changed();
+  }
+
+  changed() {
+    this.text.refresh();
+    this.estimate?.later();
+    this.onchange();
+  }
+
+  /** Returns what the address notes of the form. */
+  address() {
+    const kind = this.kind.value === "simulate" ? null : this.kind.value;
+    return { kind, ...this.parameters.values(), ...this.own.values() };
+  }
+
+  /** Returns the job's document; throws where a field is wrong. */
+  document() {
+    const fine = [this.own.valid, this.parameters.valid].every(Boolean);
+    if (!fine) throw new Error("Correct the marked fields first.");
+    const parameters = this.parameters.values();
+    const kind = this.kind.value;
+    const scene = { preset: this.scene.name };
+    if (Object.keys(parameters).length) scene.parameters = parameters;
+    const label = this.label.value.trim();
+    const made = KINDS[kind].made(this.own.all());
+    return { kind, scene, ...made, ...(label ? { label } : {}) };
+  }
+
+  async submit(event) {
+    event.preventDefault();
+    fill(this.wrong);
+    this.button.disabled = true;
+    try {
+      const job = await post("/v1/jobs", this.document());
+      go(["job", job.id]);
+    } catch (error) {
+      const left = this.own.blame(this.parameters.blame(error.errors ?? []));
+      fill(this.wrong, element("p", { class: "notice bad" }, error.message),
+        wrongFields({ errors: left, message: error.message }));
+      this.element.querySelector("[aria-invalid=true]")?.focus();
+    } finally {
+      this.button.disabled = false;
+    }
+  }
+}
+
+function numbersOf(query, declared) {
+  return Object.fromEntries([...query].map(([name, text]) => {
+    const word = declared[name]?.choices || text.trim() === "" || Number.isNaN(Number(text));
+    return [name, word ? text : Number(text)];
+  }));
+}

@@ -1,0 +1,105 @@
+/** The start: mechanisms as cards, and one of them moving. */
+
+import { element, fill } from "../interface/element.js";
+import { address, go } from "../interface/place.js";
+import { trouble } from "../interface/trouble.js";
+import { onNewColours } from "../mechanism/palette.js";
+import { withParameters } from "../mechanism/parameters.js";
+import { Sketch, calm } from "../mechanism/sketch.js";
+import { firstJob } from "../interface/kinds_of_job.js";
+import { get, post } from "../requests/service.js";
+
+export async function show(room, { signal }) {
+  const { scenes } = await get("/v1/scenes", {}, signal);
+  const documents = await Promise.all(scenes.map(({ link }) => get(link, {}, signal)));
+  const favourite = documents.find(({ reported }) => reported?.length) ?? documents[0];
+  const said = element("div", { role: "status" });
+  const canvas = element("canvas", {
+    role: "img",
+    "aria-label": `${favourite.name}, swept through one turn of its cranks`,
+  });
+  fill(
+    room,
+    element(
+      "section",
+      { class: "hero panel" },
+      canvas,
+      element(
+        "div",
+        {},
+        element("h1", {}, "Mechanisms whose joints have play"),
+        element("p", { class: "lead" }, "Real joints have clearance: journals rattle in their"
+          + " bearings, strike, slide and stick. Choose a mechanism, set its clearances and"
+          + " friction, and watch what it does, down to single impacts."),
+        element("div", { class: "buttons" },
+          runButton(favourite, said, "main", `Run the ${favourite.name.replaceAll("-", " ")}`),
+          element("a", { class: "button", href: address(["new", favourite.name]) },
+            "Set its parameters")),
+        said,
+      ),
+    ),
+    element("ul", { class: "cards" }, documents.map((document) => card(document, signal, said))),
+  );
+  const sketch = new Sketch(canvas, withParameters(favourite), { margin: 36 });
+  sketch.draw();
+  onNewColours(() => sketch.draw(), signal);
+  addEventListener("resize", () => sketch.draw(), { signal });
+  if (!calm()) sketch.play();
+}
+
+function card(document, signal, said) {
+  const canvas = element("canvas", {
+    role: "img",
+    "aria-label": `Drawing of ${document.name} in its starting position`,
+  });
+  let sketch = null;
+  const made = element(
+    "li",
+    { class: "card panel" },
+    canvas,
+    element(
+      "div",
+      { class: "words" },
+      element("h2", {}, element("a", { href: address(["new", document.name]) },
+        document.name.replaceAll("-", " "))),
+      element("p", {}, document.description),
+      element("div", { class: "buttons" }, runButton(document, said)),
+    ),
+  );
+  const begin = () => !calm() && sketch?.play();
+  for (const entered of ["pointerenter", "focusin"]) made.addEventListener(entered, begin);
+  for (const left of ["pointerleave", "focusout"]) {
+    made.addEventListener(left, () => sketch?.stop());
+  }
+  const seen = new IntersectionObserver(([{ isIntersecting }]) => {
+    if (!isIntersecting || sketch) return;
+    sketch = new Sketch(canvas, withParameters(document), { margin: 26 });
+    sketch.draw();
+  });
+  seen.observe(canvas);
+  signal.addEventListener("abort", () => seen.disconnect());
+  onNewColours(() => sketch?.draw(), signal);
+  addEventListener("resize", () => sketch?.draw(), { signal });
+  return made;
+}
+
+function runButton(document, said, look = "", text = "Run") {
+  const needs = Object.entries(document.parameters ?? {}).filter(([, { required }]) => required);
+  if (needs.length) {
+    return element("a", { class: "button", href: address(["new", document.name]) },
+      "Set what it needs", element("span", { class: "hidden-text" }, ` (${document.name})`));
+  }
+  const run = async (event) => {
+    event.target.disabled = true;
+    try {
+      const job = await post("/v1/jobs", firstJob(document));
+      go(["job", job.id]);
+    } catch (error) {
+      event.target.disabled = false;
+      fill(said, trouble(error));
+      said.scrollIntoView({ block: "nearest" });
+    }
+  };
+  const what = text === "Run" && element("span", { class: "hidden-text" }, ` ${document.name}`);
+  return element("button", { type: "button", class: look, onclick: run }, text, what);
+}

@@ -1,0 +1,85 @@
+"""Pages of a browser that complain about errors, and look for barriers with axe."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+AXE = Path(__file__).parent / "vendor" / "axe.min.js"
+PATIENCE = 90_000  # ms: a machine may be busy with other tests
+_RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
+
+
+def chromium() -> str | None:
+    """Return the path of Chromium, or None."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
+
+
+class Browsing:
+    """Opens pages of one browser.
+
+    Parameters
+    ----------
+    browser
+        Playwright's browser.
+    """
+
+    def __init__(self, browser: Any) -> None:
+        self._browser = browser
+
+    @contextmanager
+    def page(
+        self,
+        url: str,
+        *,
+        width: int = 1280,
+        dark: bool = False,
+        expected: tuple[str, ...] = (),
+        still: bool = False,
+    ) -> Iterator[Any]:
+        """Open an address; afterwards nothing may have been complained about in the console.
+
+        Parameters
+        ----------
+        expected
+            Parts of complaints that belong to the test.
+        still
+            Whether the reader asks for little motion.
+        """
+        context = self._browser.new_context(
+            viewport={"width": width, "height": 900},
+            color_scheme="dark" if dark else "light",
+            reduced_motion="reduce" if still else "no-preference",
+        )
+        context.set_default_timeout(PATIENCE)
+        page = context.new_page()
+        complaints: list[str] = []
+        page.on("pageerror", lambda error: complaints.append(f"{error} {error.stack}"))
+        page.on("console", lambda said: complaints.append(f"{said.text} {said.location}"))
+        page.on("request", lambda asked: self._stay_here(asked.url, url, complaints))
+        page.goto(url)
+        try:
+            yield page
+        finally:
+            context.close()
+        assert [one for one in complaints if not any(part in one for part in expected)] == []
+
+    @staticmethod
+    def _stay_here(asked: str, url: str, complaints: list[str]) -> None:
+        origin = "/".join(url.split("/")[:3])
+        if not asked.startswith((origin, "blob:", "data:")):
+            complaints.append(f"{asked} was loaded from elsewhere")
+
+
+def barriers(page: Any) -> list[str]:
+    """Return what axe finds wrong with a page for readers of all kinds, as short sentences."""
+    page.evaluate(AXE.read_text())  # the page's own policy lets no script in
+    found = page.evaluate("rules => axe.run(document, rules)", _RULES)
+    return [
+        f"{one['id']}: {node['target']} {node.get('failureSummary', '')}"
+        for one in found["violations"]
+        for node in one["nodes"]
+    ]

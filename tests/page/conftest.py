@@ -1,0 +1,80 @@
+"""A real browser and a real service, shared by all tests of the page."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import pytest
+
+from jointplay.service.processes import running_service
+from tests.page.browsing import Browsing, chromium
+from tests.service_in_thread import (
+    application,
+    catalogue,
+    finished_sweep,
+    fresh_service,
+    http,
+    service_url,
+    settings,
+    worker,
+)
+
+__all__ = [
+    "application",
+    "catalogue",
+    "finished_sweep",
+    "fresh_service",
+    "http",
+    "service_url",
+    "settings",
+    "worker",
+]
+
+ARTIFACTS = Path(__file__).resolve().parents[1] / "artifacts"
+
+
+@pytest.fixture(scope="session")
+def browsing() -> Iterator[Browsing]:
+    """Headless Chromium; what needs it is skipped, by name, where there is none."""
+    reason = "no Chromium: apt-get install chromium, and pip install playwright"
+    sync_api = pytest.importorskip("playwright.sync_api", reason=reason)
+    found = chromium()
+    if found is None:
+        pytest.skip(reason)
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield Browsing(browser)
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def url(browsing: Browsing, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A service with a worker."""
+    with running_service(tmp_path_factory.mktemp("page") / "data") as url:
+        yield url
+
+
+@pytest.fixture(scope="session")
+def press(url: str) -> str:
+    """A finished run of the press: the id of its job."""
+    job = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 0.05}
+    return submitted(url, job | {"label": "a press to watch"})
+
+
+def submitted(url: str, job: dict[str, object]) -> str:
+    """Submit a job and wait for its end."""
+    with httpx.Client(base_url=url, trust_env=False, timeout=120) as client:
+        found = client.post("/v1/jobs", json=job).raise_for_status().json()
+        while found["finished"] is None:
+            found = client.get(f"/v1/jobs/{found['id']}", params={"wait": 60}).json()
+        assert found["state"] == "succeeded", found
+        return str(found["id"])
+
+
+@pytest.fixture(scope="session")
+def artifacts() -> Path:
+    """The folder for screenshots, which version control ignores."""
+    shutil.rmtree(ARTIFACTS, ignore_errors=True)
+    ARTIFACTS.mkdir()
+    return ARTIFACTS

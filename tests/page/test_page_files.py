@@ -1,0 +1,89 @@
+"""The files of the page: served from the package, allowed to load nothing from elsewhere."""
+
+import hashlib
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "page"
+OURS = sorted(
+    path
+    for path in PAGE.rglob("*")
+    if path.suffix in {".js", ".css", ".html"} and "vendor" not in path.parts
+)
+POLICY = "default-src 'none'; script-src 'self'; style-src 'self'"
+
+
+def relative(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+@pytest.mark.parametrize("address", ["/", "/docs", "/favicon.ico", "/page/start.js"])
+def test_the_page_is_served_under_a_strict_policy(http, address):
+    answer = http.get(address)
+    assert answer.status_code == 200
+    assert answer.headers["Content-Security-Policy"].startswith(POLICY)
+    assert "unsafe" not in answer.headers["Content-Security-Policy"]
+    again = http.get(address, headers={"If-None-Match": answer.headers["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    assert http.head(address).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["none.js", "__init__.py", "../setup.py", "%2e%2e/setup.py", "views/", "/etc/passwd", ""],
+)
+def test_what_is_no_file_of_the_page_is_not_found(http, name):
+    answer = http.get(f"/page/{name}")
+    assert answer.status_code == 404
+    assert answer.json()["type"] == "/problems/not-found"
+
+
+def test_the_first_page_is_small(http):
+    """HTML, styles and every module that the start needs, as they go over the wire."""
+    loaded, waiting = dict[str, int](), ["index.html", "start.js", "views/start.js"]
+    waiting += re.findall(r'"/page/(.*?)"', (PAGE / "index.html").read_text())
+    while waiting:
+        name = waiting.pop()
+        if name in loaded:
+            continue
+        answer = http.get(f"/page/{name}").raise_for_status()
+        loaded[name] = len(answer.content)
+        if name.endswith(".js"):
+            imported = re.findall(r'^import .*?"(.*?)"|^} from "(.*?)"', answer.text, re.MULTILINE)
+            here = (PAGE / name).parent
+            waiting += [
+                (here / (one or other)).resolve().relative_to(PAGE).as_posix()
+                for one, other in imported
+            ]
+    assert len(loaded) > 15
+    assert sum(loaded.values()) < 300_000
+
+
+@pytest.mark.parametrize("path", OURS, ids=relative)
+def test_modules_are_short_and_load_nothing_from_elsewhere(path):
+    text = path.read_text()
+    assert len(text.splitlines()) <= 300
+    assert not re.search(r"https?://(?!www\.w3\.org)", text)
+    assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(", text)
+    if path.suffix == ".js":
+        assert text.startswith("/**")
+    if path.suffix == ".html":
+        assert not re.search(r"<script>|<style|style=|\son\w+=", text)
+
+
+@pytest.mark.parametrize(
+    "folder", [PAGE / "vendor", Path(__file__).parent / "vendor"], ids=relative
+)
+def test_what_others_wrote_is_what_they_published(folder):
+    listed = dict(
+        reversed(line.split("  ", 1))
+        for line in (folder / "checksums.txt").read_text().splitlines()
+    )
+    files = [path for path in folder.rglob("*") if path.is_file() and path.name != "checksums.txt"]
+    assert {str(path.relative_to(folder)) for path in files} == listed.keys()
+    for path in files:
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        assert listed[str(path.relative_to(folder))] == digest, path
