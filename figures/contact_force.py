@@ -1,15 +1,20 @@
 """Contact force at each clearance joint over time, with the impacts that samples step over."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
-from jointplay.records.arrays import Floats
+from jointplay.records.arrays import Flags, Floats
 from jointplay.records.run import Source, inside
 
 _PANEL_HEIGHT = 34.0  # mm
+_REACHED = 0.99
+"""Share of a contact's peak force at which a curve shows it."""
 _MOST_IMPACTS = 4000
 """Lines drawn for impacts a joint: the strongest ones."""
 
@@ -23,17 +28,19 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     joints = scene_facts.chosen_pairs(source, selection)
     curves = [sampling.over_time(source, f"{joint}.normal_force", selection) for joint in joints]
     step = _sample_step(source, selection)
-    impacts = [_between_samples(source, joint, selection, step) for joint in joints]
+    impacts = [
+        _between_samples(source, joint, selection, step, curve)
+        for joint, curve in zip(joints, curves, strict=True)
+    ]
     newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
     across = TimeAxis(source, [time for time, _ in curves])
+    label = sampling.called(source)
     explained = bool(across.unconverged) or any(len(onset) for onset, _ in impacts)
     figure, panels = page.stack([_PANEL_HEIGHT] * len(joints), explained)
     for axes, joint, (time, force), (onset, peak) in zip(
         panels, joints, curves, impacts, strict=True
     ):
-        axes.plot(
-            across.shown(time), force / newtons.factor, color=colours.COMPUTED, label="samples"
-        )
+        axes.plot(across.shown(time), force / newtons.factor, color=colours.COMPUTED, label=label)
         look: page.Look = {"color": colours.MARKED, "linewidth": 0.5, "zorder": 1.5}
         heights = peak / newtons.factor
         axes.vlines(across.shown(onset), 0.0, heights, label="impacts between samples", **look)
@@ -55,14 +62,23 @@ def _sample_step(source: Source, selection: Selection) -> float:
 
 
 def _between_samples(
-    source: Source, joint: str, selection: Selection, step: float
+    source: Source, joint: str, selection: Selection, step: float, curve: tuple[Floats, Floats]
 ) -> tuple[Floats, Floats]:
-    """Give onset [s] and peak force [N] of the contacts that samples cannot resolve."""
+    """Give onset [s] and peak force [N] of the contacts that are too short for the curve."""
     rows = sampling.impacts_of(source, joint)
     rows = rows[inside(rows["onset"], selection.start, selection.stop)]
     rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
+    rows = rows[_missed(rows, *curve)]
     rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]
     return rows["onset"], rows["peak_force"]
+
+
+def _missed(rows: NDArray[Any], time: Floats, force: Floats) -> Flags:
+    """Tell of each contact whether the curve stays below its peak."""
+    first = np.searchsorted(time, rows["onset"], side="left")
+    behind = np.searchsorted(time, rows["release"], side="right")
+    highest = [force[a:b].max(initial=0.0) for a, b in zip(first, behind, strict=True)]
+    return np.asarray(np.array(highest) < _REACHED * rows["peak_force"], dtype=bool)
 
 
 CONTACT_FORCE = RunFigure(

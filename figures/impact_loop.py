@@ -4,12 +4,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from jointplay.figures import colours, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, page, sampling, scene_facts
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.records.arrays import Floats
 from jointplay.records.run import Source, inside
 
+_INSTANTS = 400
+"""Instants of a contact whose trajectory is known between samples."""
 _FEWEST_SAMPLES: Final = 12
 _SINGLE_HEIGHT: Final = 60.0  # mm
 _PANEL_HEIGHT: Final = 44.0
@@ -43,7 +45,7 @@ def _contacts(source: Source, selection: Selection) -> dict[str, Any]:
     resolved = {
         pair: contact
         for pair, contact in strongest.items()
-        if np.subtract(*_samples(source, contact)[::-1]) >= _FEWEST_SAMPLES
+        if len(_loop_values(source, pair, contact)[0]) >= _FEWEST_SAMPLES
     }
     if not resolved:
         pair, contact = next(iter(strongest.items()))
@@ -69,15 +71,23 @@ def _samples(source: Source, contact: Any) -> tuple[int, int]:
     return source.between(float(contact["onset"]), float(contact["release"]))
 
 
+def _loop_values(source: Source, pair: str, contact: Any) -> tuple[Floats, Floats]:
+    """Give penetrations [m] and forces [N] during a contact, at samples or between them."""
+    names = (f"{pair}.penetration", f"{pair}.normal_force")
+    times = np.linspace(float(contact["onset"]), float(contact["release"]), _INSTANTS)
+    exact = between_samples.at(source, names, times)
+    _, values = exact or sampling.joined(source, names, *_samples(source, contact))
+    return values[names[0]], values[names[1]]
+
+
 def _draw(source: Source, selection: Selection) -> page.Figure:
     contacts = _contacts(source, selection)
     figure, _, panels = page.in_columns(
         len(contacts), _SINGLE_HEIGHT, _PANEL_HEIGHT, page.LEGEND_HEIGHT
     )
     for axes, (pair, contact) in zip(panels, contacts.items(), strict=True):
-        names = (f"{pair}.penetration", f"{pair}.normal_force")
-        _, values = sampling.joined(source, names, *_samples(source, contact))
-        depth, force = (np.concatenate([[0.0], values[name], [0.0]]) for name in names)
+        found = _loop_values(source, pair, contact)
+        depth, force = (np.concatenate([[0.0], values, [0.0]]) for values in found)
         _loop(axes, pair, contact, depth, force)
     page.legend(figure, panels[0])
     return figure

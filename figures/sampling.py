@@ -6,6 +6,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.figures import between_samples
 from jointplay.figures.kind import NotDrawable, Selection
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.run import Columns, Source
@@ -36,8 +37,14 @@ def window(source: Source, selection: Selection) -> tuple[int, int]:
 
 
 def over_time(source: Source, name: str, selection: Selection) -> tuple[Floats, Floats]:
-    """Give (k,) times [s] and values of one channel, every extreme among them."""
+    """Give (k,) times [s] and values of one channel, every extreme among them.
+
+    Extremes of the trajectory where it is known between samples, else those of the samples.
+    """
     first, last = window(source, selection)
+    exact = between_samples.curve(source, name, selection)
+    if exact is not None:
+        return exact
     span = max(2 * (last - first) // MOST_SAMPLES, 1)
     parts = [
         extremes(time, columns[name], span) for time, columns in source.blocks([name], first, last)
@@ -45,9 +52,17 @@ def over_time(source: Source, name: str, selection: Selection) -> tuple[Floats, 
     return np.concatenate([part[0] for part in parts]), np.concatenate([p[1] for p in parts])
 
 
+def called(source: Source) -> str:
+    """Say what a curve is made of."""
+    return "trajectory" if between_samples.knows(source) else "samples"
+
+
 def in_a_plane(source: Source, names: tuple[str, ...], selection: Selection) -> Columns:
     """Give times [s] and values of channels, at the end of the window if it is long."""
     first, last = window(source, selection)
+    exact = between_samples.path(source, names, selection, MOST_PATH_SAMPLES)
+    if exact is not None:
+        return exact
     return joined(source, names, max(first, last - MOST_PATH_SAMPLES), last)
 
 
@@ -124,6 +139,9 @@ def path(source: Source, joint: str, names: tuple[str, ...], selection: Selectio
     names
         Of channels; those of positions need their rates among the stored ones.
     """
+    exact = between_samples.path(source, names, selection, MOST_PATH_SAMPLES)
+    if exact is not None:
+        return exact
     positions = tuple(name for name in names if ".eccentricity_rate_" not in name)
     rates = stored_rates(source, positions)
     time, values = in_a_plane(source, tuple(dict.fromkeys((*names, *rates))), selection)

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from jointplay.figures import colours, log_axis, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, log_axis, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import per_hertz
 from jointplay.figures.time_history import declared
@@ -15,6 +15,12 @@ from jointplay.records.run import Source
 _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20
 """Most samples: of a longer window its end is taken, where transients are over."""
+_APART: Final = 1e-5
+"""Seconds between instants of a trajectory that is known between samples, unless they are"""
+_MOST_INSTANTS: Final = 2**17
+"""more than so many."""
+_RESOLVED: Final = 2e-5
+"""Seconds between instants that resolve an impact."""
 _PERIODS: Final = 8
 """Periods of the drivers in one segment: their lines are four steps of resolution apart."""
 _MOST_SEGMENTS: Final = 15
@@ -31,9 +37,10 @@ _PANEL_HEIGHT: Final = 34.0  # mm
 def _draw(source: Source, selection: Selection) -> page.Figure:
     names = declared(source, selection)
     drive = _driving_frequency(source)
-    spectra = [_spectrum(*_samples(source, name, selection), drive) for name in names]
+    samples = [_samples(source, name, selection) for name in names]
+    spectra = [_spectrum(*one, drive) for one in samples]
     marked = any(len(one) and one[0] <= drive <= one[-1] for one, _ in spectra)
-    note = _aliased(source, names)
+    note = _aliased(source, names, max(step for _, step in samples))
     figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked, page.caption_height(note))
     page.caption(figure, note)
     for axes, name, (frequency, power) in zip(panels, names, spectra, strict=True):
@@ -57,9 +64,11 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     return figure
 
 
-def _aliased(source: Source, names: Sequence[str]) -> str:
+def _aliased(source: Source, names: Sequence[str], step: float) -> str:
     """Say what samples make of forces and accelerations, which jump in less than a step."""
     if all(scene_facts.channel(source, name).unit not in _ROUGH for name in names):
+        return ""
+    if between_samples.knows(source) and step <= _RESOLVED:
         return ""
     return (
         "Forces and accelerations change faster than their samples: what lies above the highest"
@@ -75,6 +84,12 @@ def _driving_frequency(source: Source) -> float:
 def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float]:
     """Give (n,) values that are equally far apart, and how far [s]."""
     first, last = sampling.window(source, selection)
+    start, stop = between_samples.ends(source, selection)
+    if between_samples.knows(source) and stop > start:
+        count = int(np.clip((stop - start) / _APART, _FEWEST_SAMPLES, _MOST_INSTANTS)) + 1
+        exact = between_samples.at(source, [name], np.linspace(start, stop, count))
+        if exact is not None:
+            return exact[1][name], (stop - start) / (count - 1)
     time, columns = sampling.joined(source, [name], max(first, last - _MOST_SAMPLES), last)
     values = columns[name]
     missing = np.flatnonzero(~np.isfinite(values))

@@ -44,7 +44,10 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     ):
         shown = scale(scene_facts.channel(source, name).unit, values, extremes)
         axes.plot(
-            across.shown(time), values / shown.factor, color=colours.COMPUTED, label="samples"
+            across.shown(time),
+            values / shown.factor,
+            color=colours.COMPUTED,
+            label=sampling.called(source),
         )
         look: page.Look = {"color": colours.MARKED, "label": "extreme between samples"} | page.RING
         axes.plot(across.shown(when), extremes / shown.factor, "o", **look)

@@ -32,7 +32,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             color=colours.COMPUTED,
             linewidth=0.5,
             rasterized=len(time) > page.MOST_VECTOR_POINTS,
-            label=f"samples{sampling.beginning(source, time, selection)}",
+            label=f"{sampling.called(source)}{sampling.beginning(source, time, selection)}",
         )
         axes.plot(x[:1], y[:1], "o", color=colours.MARKED, label="first sample")
         axes.set_ylabel(page.in_two_lines(up.label(name)))

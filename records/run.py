@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats as Floats
+from jointplay.records.between_samples import BetweenSamples
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
@@ -61,6 +62,10 @@ class Source(Protocol):
     def samples(self) -> int:
         """Number of samples."""
 
+    @property
+    def trajectory(self) -> BetweenSamples | None:
+        """Reads the run between its samples; None where only these are known."""
+
     def blocks(
         self, channels: Sequence[str] | None = None, start: int = 0, stop: int | None = None
     ) -> Iterator[Columns]:
@@ -106,6 +111,8 @@ class Dataset:
         The run came to its end.
     certified
         What is known of the errors.
+    trajectory
+        Reads the run between its samples.
     """
 
     attributes: Mapping[str, Any]
@@ -119,6 +126,7 @@ class Dataset:
     joints: Sequence[str] = ()
     complete: bool = True
     certified: CertificateRecord | None = None
+    trajectory: BetweenSamples | None = None
 
     @property
     def samples(self) -> int:

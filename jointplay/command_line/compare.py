@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from jointplay.figures.overlay import Curve
 
 _MOST_PANELS = 6
+_SPANS = 2000
+"""Spans of a curve, each drawn through its smallest and its largest value."""
 
 
 @with_figure_options
@@ -61,7 +63,7 @@ def compare(
         drawn = names[:_MOST_PANELS]
         panels: dict[str, list[Curve]] = {name: [] for name in drawn}
         for job, label in zip(jobs, labels, strict=True):
-            window = job.window(drawn, start, stop)
+            window = job.window(drawn, start, stop, points=_SPANS)
             for name, one in window.channels.items():
                 panels[name].append(Curve(label, one.unit, window.time, one.values))
         output.write_bytes(_drawn(panels, form, page))

@@ -111,6 +111,7 @@ def store_in(folder: Path) -> Path:
 
 def results_in(folder: Path) -> "ResultReader | StudyReader":
     """Return the results in a run's folder: of a simulation, or of a study; or `NotFound`."""
+    from jointplay.local.exact_windows import trajectory_of
     from jointplay.storage.errors import NotAStore
     from jointplay.storage.results.reader import ResultReader
     from jointplay.storage.studies.reader import StudyReader
@@ -120,9 +121,13 @@ def results_in(folder: Path) -> "ResultReader | StudyReader":
     kinds = (partial(StudyReader, store), partial(ResultReader, store))
     for read in kinds if store.is_file() else (partial(growing_results, folder),):
         try:
-            return read()
+            found = read()
         except NotAStore as error:
             why = error
+        else:
+            if isinstance(found, ResultReader):
+                found.trajectory = trajectory_of(found)
+            return found
     raise NotFound(f"{store} holds no results that this version reads: {why}.") from why
 
 

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Path, Query, Response
 from jointplay import figures
 from jointplay.records.channel_choice import NoSuchChannel
 from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
-from jointplay.service.dependencies import NO_PARAMETERS
+from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
 from jointplay.service.fields import BINARY
 from jointplay.service.jobs.schemas import address
 from jointplay.service.problems import RequestRefused, clipped, kinds, problems
@@ -15,6 +15,7 @@ from jointplay.service.results.figure_query import FigureQuery, FigureSelection
 from jointplay.service.results.queries import unknown_channels
 from jointplay.service.results.schemas import FigureLink, Figures
 from jointplay.service.results.stores import ResultsOfJob, ResultsOfThePath
+from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
@@ -57,6 +58,7 @@ def draw_figure(
     name: Annotated[str, Path(description="Name of a figure, or of any channel.")],
     form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
     query: Annotated[FigureQuery, Query()],
+    windows: Annotated[WindowProcess, of_the_application("windows")],
 ) -> Response:
     """Draw a figure of the job's results, also as it runs."""
     selection = cast("FigureSelection", query)
@@ -66,6 +68,7 @@ def draw_figure(
     store = _reader(results)
     if isinstance(store, ResultReader):
         selection.checked()
+        store.trajectory = windows.of(store)
     channels, joints = (
         [] if one is None else one.split(",") for one in (selection.channels, selection.joints)
     )

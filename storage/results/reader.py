@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.between_samples import BetweenSamples
 from jointplay.records.channel import Channel
 from jointplay.records.impact import IMPACT
 from jointplay.records.names import TIME
@@ -42,6 +43,9 @@ class ResultReader(StoreReader):
     NotAStore
         There is no store, or one of a schema that this version does not know.
     """
+
+    trajectory: BetweenSamples | None = None
+    """Reads the run between its samples, if whoever opened it knows how; see `steps`."""
 
     def __init__(self, source: Files | Path, watermark: int | None = None) -> None:
         super().__init__(source)

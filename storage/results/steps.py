@@ -113,6 +113,10 @@ class StoredSteps:
         (last,) = self.read(self.count - 1, self.count)
         return float(last[PERIOD] * self.period + last[TIME] + last[LENGTH])
 
+    def begins(self, steps: Floats) -> Floats:
+        """Return when steps (n, columns) begin, s."""
+        return np.asarray(steps[:, PERIOD] * self.period + steps[:, TIME])
+
     def around(self, start: float, stop: float) -> tuple[int, int]:
         """Find the steps [first, last) that a window needs; `stop` must be within the steps."""
         first = max(self._first_behind(start) - 2, 0)  # the step that ends there, too

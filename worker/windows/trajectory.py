@@ -13,6 +13,10 @@ MOST_STEPS = 40_000
 """Steps of one window: some 0.3 s of computing."""
 MOST_INSTANTS = 200_000
 """Instants of an ideal motion in one window: as long."""
+PARTS = 8
+"""Pieces of a step on a path: no corner is seen between them."""
+EVEN = 10_000
+"""Instants of a path of an ideal motion."""
 ROUNDING = 1e-12
 """Share of a time by which a window may go beyond what is kept."""
 
@@ -54,6 +58,21 @@ class Trajectory:
             return Answer(None, refused=refused)
         ranges = self._ranges(names, float(edges[0]), float(edges[-1]))
         return self._ask(Question(self._job, tuple(names), steps, edges=edges, ranges=ranges))
+
+    def instants(self, start: float, stop: float, most: int) -> Floats | None:
+        """Return times, s: `PARTS` in each step, or even ones of a motion without steps."""
+        refused, steps = self._steps(start, stop, most)
+        if refused:
+            return None
+        if steps is None or self._reader.steps is None:
+            return np.linspace(start, stop, min(most, EVEN))
+        begins = self._reader.steps.begins(steps)
+        begins = np.unique(np.concatenate([[start], begins[(begins > start) & (begins < stop)]]))
+        parts = min(most // (len(begins) + 1), PARTS)
+        if parts < 1:
+            return None
+        lengths = np.diff(np.append(begins, stop))[:, None]
+        return np.append((begins[:, None] + lengths * (np.arange(parts) / parts)).ravel(), stop)
 
     @property
     def _job(self) -> dict[str, object]:

@@ -1,0 +1,35 @@
+"""What a run can say of itself between its samples, whoever computes it."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from jointplay.records.arrays import Floats
+
+
+class Found(Protocol):
+    """An answer, or a sentence that says why there is none."""
+
+    @property
+    def values(self) -> Floats | None:
+        """Numbers; None: refused."""
+
+    @property
+    def refused(self) -> str:
+        """A sentence; empty where there are numbers."""
+
+
+class BetweenSamples(Protocol):
+    """The trajectory of a run, read at any time."""
+
+    @property
+    def reached(self) -> float:
+        """Time up to which it is known, s."""
+
+    def values(self, names: Sequence[str], times: Floats) -> Found:
+        """Give channels (m, names) at ascending times (m,), s."""
+
+    def extremes(self, names: Sequence[str], edges: Floats) -> Found:
+        """Give (bins, names, 4) between edges, s: lowest, its time, highest, its time."""
+
+    def instants(self, start: float, stop: float, most: int) -> Floats | None:
+        """Give times, s, at which a path in a plane looks as it is; None: more than `most`."""

@@ -1,0 +1,98 @@
+"""Pictures and windows of a run in a folder: peaks that samples step over are at their places."""
+
+import numpy as np
+import pytest
+
+import jointplay
+from jointplay import figures
+from jointplay.figures import between_samples, sampling
+from jointplay.figures.kind import Selection
+from jointplay.local.folder_job import results_in
+from jointplay.records.run import inside
+
+FORCE = "A.normal_force"
+PRESS = {"preset": "seven-bar-press"}
+
+
+@pytest.fixture(scope="module")
+def job(tmp_path_factory):
+    """A press whose samples are 4 ms apart: ten impacts."""
+    document = {"kind": "simulate", "scene": PRESS, "duration": 0.06, "output_step": 0.004}
+    folder = tmp_path_factory.mktemp("runs") / "OUT"
+    return jointplay.run(document | {"certificate": False}, output=folder)
+
+
+@pytest.fixture
+def source(job):
+    return results_in(job._folder)
+
+
+@pytest.fixture
+def peak(source):
+    return source.peaks()[FORCE]
+
+
+def test_a_curve_passes_through_every_peak_at_its_place(source, peak):
+    time, force = sampling.over_time(source, FORCE, Selection())
+    assert np.all(np.diff(time) >= 0.0)
+    best = int(np.argmax(force))
+    assert force[best] == pytest.approx(peak.maximum, rel=1e-6)
+    assert time[best] == pytest.approx(peak.maximum_time, abs=1e-9)
+    impacts = sampling.impacts_of(source, "A")
+    impacts = impacts[np.isfinite(impacts["release"])]
+    assert len(impacts) > 3
+    for one in impacts:
+        seen = force[inside(time, one["onset"], one["release"])].max()
+        assert seen == pytest.approx(one["peak_force"], rel=1e-5)
+
+
+def test_no_impact_is_drawn_as_one_between_samples(source):
+    with figures.page.style():
+        (axes,) = figures.draw(source, "contact-force").axes[:1]
+    lines = [found for found in axes.collections if found.get_label().startswith("impacts")]
+    assert [len(one.get_segments()) for one in lines] == [0]
+
+
+def test_a_path_is_as_close_together_as_the_steps(source, peak):
+    names = ("A.penetration", FORCE)
+    time, values = sampling.in_a_plane(source, names, Selection())
+    assert len(time) > 10 * source.samples
+    assert values[FORCE].max() == pytest.approx(peak.maximum, rel=0.01)
+    bent = sampling.path(source, "A", ("A.eccentricity_x", "A.eccentricity_y"), Selection())
+    assert len(bent[0]) == len(time)
+
+
+def test_the_loop_of_one_impact_is_drawn_whatever_the_samples(source):
+    assert figures.render(source, "impact-loop", "svg")[:5] == b"<?xml"
+
+
+def test_a_spectrum_of_forces_reaches_beyond_what_samples_resolve(source):
+    with figures.page.style():
+        drawn = figures.draw(source, "spectrum", Selection(channels=(FORCE,)))
+    (line, *_) = drawn.axes[0].lines
+    assert line.get_xdata().max() > 1e4
+    assert not any("change faster" in text.get_text() for text in drawn.texts)
+
+
+def test_windows_of_a_folder_are_those_of_a_service(job, peak):
+    window = job.window(FORCE, points=100)
+    assert window.between_samples
+    assert window[FORCE].max() == pytest.approx(peak.maximum, rel=1e-6)
+    fine = job.window(FORCE, 0.02, 0.021, step=1e-6)
+    assert len(fine.time) == 1001
+    found = job.results.peaks(0.0, 0.03)[FORCE]
+    assert found.maximum <= peak.maximum * (1.0 + 1e-9)
+
+
+def test_without_steps_a_curve_is_of_samples(tmp_path):
+    document = {"kind": "simulate", "scene": PRESS, "duration": 0.06, "output_step": 0.004}
+    job = jointplay.run(
+        document | {"certificate": False, "steps_limit": 0}, output=tmp_path / "OUT"
+    )
+    source = results_in(job._folder)
+    assert between_samples.curve(source, FORCE, Selection()) is None
+    time, _ = sampling.over_time(source, FORCE, Selection())
+    assert len(time) == source.samples
+    window = job.window(FORCE, points=1000)
+    assert "keeps no steps" in window.note
+    assert window.exact
