@@ -1,5 +1,6 @@
 """A scene as it is named: a preset, a document or the path of one; and its parameters set."""
 
+import os
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
@@ -17,12 +18,14 @@ class NotAScene(ValueError):
 def scene_document(scene: Scene) -> Mapping[str, Any]:
     """Return a scene as a job has it: a preset by name, or the document that was given or named.
 
+    A text that ends in ``.json`` or has a slash in it is a path.
+
     Raises
     ------
     NotAScene
         The file holds something else.
     """
-    if isinstance(scene, str):
+    if isinstance(scene, str) and not (scene.endswith(".json") or "/" in scene or os.sep in scene):
         return {"preset": scene}
     if isinstance(scene, Mapping):
         return scene

@@ -5,6 +5,7 @@ read as infinity; pydantic-core's says nothing of equal keys either.  Service an
 every document through `parse`, so that a job means the same wherever it is given.
 """
 
+import codecs
 import json
 import math
 from typing import NamedTuple, NoReturn
@@ -45,7 +46,7 @@ def parse(text: bytes) -> object:
     Parameters
     ----------
     text
-        The document, UTF-8.
+        The document, UTF-8; a byte-order mark before it is passed over.
 
     Returns
     -------
@@ -57,7 +58,7 @@ def parse(text: bytes) -> object:
     MalformedJson
         With every flaw found (at most 20), each with the pointer of its place.
     """
-    document = _loads(text)
+    document = _loads(text.removeprefix(codecs.BOM_UTF8))
     flaws = _flaws_in(document)
     if flaws:
         raise MalformedJson(*flaws)

@@ -40,6 +40,11 @@ class Connection:
         self, url: str, key: str | None, timeout: float, transport: httpx.BaseTransport | None
     ) -> None:
         self.url = url.rstrip("/")
+        if not self.url.startswith(("http://", "https://")):
+            sentence = (
+                f"{url!r} is not an address such as {DEFAULT_URL}: it has no http:// in front."
+            )
+            raise ClientError(sentence)
         self.headers = {} if key is None else {"Authorization": f"Bearer {key}"}
         try:
             # a proxy from the environment cannot reach this machine's own addresses

@@ -101,6 +101,12 @@ EXITS: Final = {
 }
 """By class of exception; by its name, so that nothing is loaded only to be compared with."""
 
+COMMANDS_FOR: Final = {
+    "GET /v1/jobs": "`jointplay ls`",
+    "GET /v1/scenes": "`jointplay scene list`",
+}
+"""Commands for the requests that a service's sentences name."""
+
 
 def run(arguments: list[str] | None = None) -> int:
     """Run one command and return its exit code; what users cause ends in one line on stderr."""
@@ -150,4 +156,7 @@ def _line_of(error: Exception) -> str | None:
         return None if error.filename is None else f"{error.filename}: {error.strerror}."
     problems = getattr(error, "problems", ()) or getattr(error, "flaws", ())
     listed = [f"{place}: {detail}" if place else detail for place, detail in problems]
-    return "; ".join(listed) or str(error)
+    line = "; ".join(listed) or str(error)
+    for request, command in COMMANDS_FOR.items():
+        line = line.replace(request, command)
+    return line

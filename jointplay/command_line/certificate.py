@@ -1,7 +1,7 @@
 """``jointplay certificate``: how far a result can be believed."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, RESULTS, URL, job_of
@@ -32,14 +32,28 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
 
 
 def _numbers(name: str, value: Any) -> Iterator[tuple[str, str]]:
-    """Yield what is in a document by dotted names; of a list only its length."""
+    """Yield what is in a document by dotted names; a list of objects has one line for each."""
     if isinstance(value, dict):
         for key, one in value.items():
             yield from _numbers(f"{name}.{key}" if name else key, one)
+    elif isinstance(value, list) and any(isinstance(one, dict) for one in value):
+        for place, one in enumerate(value):
+            yield f"{name}.{place}", ", ".join(f"{key} {_word(part)}" for key, part in one.items())
     elif isinstance(value, list):
-        yield name, f"{len(value)} values"
+        yield name, ", ".join(map(_word, value)) or "none"
     else:
-        yield name, f"{value:.7g}" if isinstance(value, float) else str(value)
+        yield name, _word(value)
+
+
+def _word(value: Any) -> str:
+    """Return a number or a word; of a span both ends."""
+    if isinstance(value, list):
+        return " to ".join(map(_word, value))
+    if isinstance(value, float):
+        return f"{value:.7g}"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "unknown" if value is None else str(value)
 
 
 def headlines(job: "Job") -> Iterator[str]:
@@ -54,9 +68,34 @@ def headlines(job: "Job") -> Iterator[str]:
     forces = document.get("forces_until")
     known = "" if forces is None else f", forces to {forces:.4g} s"
     yield f"converged {', '.join(spans)}{known}"
+    if (advice := _advice(job.job, document)) is not None:
+        yield f"advice    {advice}"
     if document["note"] and document.get("lanes"):
         yield f"note      {document['note']}"
     if (found := document.get("exponent")) is not None:
         error = math.inf if found["error"] is None else found["error"]
         spread = f"{found['lowest']:.2g} to {found['highest']:.2g} over {found['windows']} windows"
         yield f"exponent  {found['value']:.3g} ± {error:.2g} 1/s, {spread}"
+
+
+def _advice(job: Mapping[str, Any], document: Mapping[str, Any]) -> str | None:
+    """Return what makes more of the motion known; None where all of it is, or nothing would.
+
+    An error grows as the distance of neighbours does: a tolerance ten times smaller moves the
+    horizon by ln 10 over their exponent, where that is known to be above zero.
+    """
+    if not document.get("lanes") or document["horizon"] >= job["duration"]:
+        return None
+    if job.get("step") is not None:
+        return f"half the step, --step {job['step'] / 2:.3g}, reaches further"
+    tighter = f"--tolerance {job['tolerance'] / 10:.3g}"
+    found = document.get("exponent") or {}
+    rate, error = found.get("value"), found.get("error")
+    if rate is None or error is None or rate <= error:
+        return f"{tighter} reaches further (--accuracy reference furthest); how far, that run tells"
+    gain = math.log(10.0) / rate
+    left = (job["duration"] - document["horizon"]) / gain
+    return (
+        f"{tighter} reaches some {gain:.2g} s further, as neighbours part with {rate:.2g} 1/s;"
+        f" all of it takes {left:.0f} such steps"
+    )

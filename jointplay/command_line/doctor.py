@@ -1,6 +1,6 @@
 """``jointplay doctor``: whether everything that a service, or a run, keeps is as it should be."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -36,8 +36,10 @@ def doctor(
 
     Example: `jointplay doctor .jointplay --dry-run`
     """
+    from jointplay.progress import progress
+
     found = []
-    with _examination(folder) as findings:
+    with progress("doctor") as report, _examination(folder, report) as findings:
         for finding in findings:
             if finding.mend is not None and not dry_run:
                 finding.mend()
@@ -54,8 +56,10 @@ def doctor(
 
 
 @contextmanager
-def _examination(folder: Path) -> "Iterator[Iterable[Finding]]":
-    """Give what is found in a folder, while it is looked for."""
+def _examination(
+    folder: Path, report: Callable[[float, str], None]
+) -> "Iterator[Iterable[Finding]]":
+    """Give what is found in a folder, while it is looked for; `report` hears how far that is."""
     from jointplay.worker.local.folder import JOB_FILE, STORE
 
     if any((folder / name).exists() for name in (JOB_FILE, STORE)):
@@ -75,7 +79,7 @@ def _examination(folder: Path) -> "Iterator[Iterable[Finding]]":
         raise Stopped(line)
     catalogue = Catalogue(settings.catalogue_url)
     try:
-        yield findings(settings, catalogue, (stray_messages,))
+        yield findings(settings, catalogue, (stray_messages,), report)
     finally:
         catalogue.close()
 

@@ -1,11 +1,14 @@
 """A job's document from what was typed: a preset or a file, and the options that change it."""
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.job_options import fields_of
+
+JOB_FILE = "job.json"  # of a run's folder; worker.local.folder names it, too
 
 
 def job_document(
@@ -62,6 +65,10 @@ def _job_of(source: str) -> tuple[dict[str, Any], bool]:
         if "bodies" in document:
             return {"kind": "simulate", "scene": document}, False
         return document, True
+    if path.is_dir():
+        job = path / JOB_FILE
+        what = f"give {job}, or --resume {source}" if job.exists() else "give a job or a scene"
+        raise Stopped(f"{source} is a folder; {what}.")
     if source.endswith(".json") or "/" in source:
         raise Stopped(f"There is no file {source}.")
     return {"kind": "simulate", "scene": {"preset": source}}, False
@@ -76,4 +83,10 @@ def _setting(text: str) -> tuple[str, object]:
     try:
         return name, parse(value.encode())
     except MalformedJson:
-        return name, value  # a word, such as as-published
+        return name, _number_or_word(value)
+
+
+def _number_or_word(text: str) -> object:
+    """Return a number as people write it (.3, 5.), or else the word, such as as-published."""
+    plain = re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", text)
+    return float(text) if plain else text

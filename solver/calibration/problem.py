@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, LimitExceeded, Problem
+from jointplay.records.remarks import without_remarks
 from jointplay.records.suggestions import unknown
 from jointplay.solver.calibration.document import CalibrationJob, CalibrationTarget
 from jointplay.solver.calibration.space import Space, space_of, space_problems
@@ -80,7 +81,7 @@ def admit_calibration(document: object) -> Calibration:
     LimitExceeded
         The calibration is sound but too large; the sentence gives the estimate.
     """
-    job = _parse(document)
+    job = _parse(without_remarks(document))
     check_study(job, tangents=False)
     written, scene, _ = declared(job)
     problems = [*space_problems(job.parameters, scene), *_target_problems(job)]

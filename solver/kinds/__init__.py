@@ -8,6 +8,7 @@ from typing import Annotated, Any, Union
 
 from pydantic import Field
 
+from jointplay.records.remarks import without_remarks
 from jointplay.solver.kinds.accuracy_study import AccuracyStudy
 from jointplay.solver.kinds.bifurcation import Bifurcation
 from jointplay.solver.kinds.documents import job_of, kind_of
@@ -33,7 +34,7 @@ def admit(document: object) -> Admission | Study:
     Parameters
     ----------
     document
-        A client's, parsed from JSON.
+        A client's, parsed from JSON; remarks in it count as nothing.
 
     Returns
     -------
@@ -47,6 +48,7 @@ def admit(document: object) -> Admission | Study:
     LimitExceeded
         The job is sound but too large; the sentence gives the estimate.
     """
+    document = without_remarks(document)
     kind = kind_of(document, KINDS)
     return kind.admit(job_of(document, kind))
 

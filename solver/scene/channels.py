@@ -7,7 +7,7 @@ from jointplay.records.channel import Channel
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import unknown
 from jointplay.solver.scene.clocks import turns
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import Output, Scene
 from jointplay.solver.scene.pairs import has_play, pairs_of
 from jointplay.solver.scene.references import inner_states
 from jointplay.solver.scene.structure import per_structure
@@ -136,11 +136,18 @@ def _outputs(scene: Scene, units: dict[str, str]) -> list[Channel]:
             sentence = unknown("channel", output.channel, units)
             problems.append(Problem(f"/scene/outputs/{index}/channel", sentence))
             continue
-        text = output.help or f"{output.factor:g} * {output.channel} + {output.offset:g}"
+        text = output.help or _formula(output)
         rows.append(Channel(output.name, units[output.channel], text))
     if problems:
         raise InvalidInput(problems)
     return rows
+
+
+def _formula(output: Output) -> str:
+    """Return an output as a formula, such as ``-2 slider.x + 0.1``."""
+    times = {1.0: "", -1.0: "-"}.get(output.factor, f"{output.factor:g} ")
+    offset = f" {'-' if output.offset < 0 else '+'} {abs(output.offset):g}" if output.offset else ""
+    return f"{times}{output.channel}{offset}"
 
 
 def recording(scene: Scene, names: Iterable[str]) -> list[str]:

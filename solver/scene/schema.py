@@ -1,7 +1,9 @@
 """The JSON Schema of a scene, for editors and for programs that write scenes."""
 
+import re
 from typing import Any
 
+from jointplay.records.remarks import REMARKS
 from jointplay.solver.scene.document import Scene
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -12,4 +14,16 @@ def scene_schema() -> dict[str, Any]:
 
     What needs more than one field, as names that must exist, it cannot say: admission does.
     """
-    return {"$schema": DIALECT} | Scene.model_json_schema()
+    return {"$schema": DIALECT} | _with_remarks(Scene.model_json_schema())
+
+
+def _with_remarks(schema: Any) -> Any:
+    """Let every object that takes no other fields have remarks."""
+    if isinstance(schema, list):
+        return [_with_remarks(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {name: _with_remarks(one) for name, one in schema.items()}
+    if found.get("additionalProperties") is False:
+        found["patternProperties"] = {f"^({'|'.join(map(re.escape, REMARKS))})$": {}}
+    return found

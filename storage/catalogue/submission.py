@@ -111,6 +111,9 @@ def _earlier(unit: Unit, request: Request) -> Submitted | None:
         keep = update(tables.job).where(tables.job.c.id == same).values(expires=new.expires)
         unit.execute(keep)
         job = replace(job, expires=new.expires)
+    if job.label is None and new.label is not None:
+        unit.execute(update(tables.job).where(tables.job.c.id == same).values(label=new.label))
+        job = replace(job, label=new.label)
     return Submitted(job, created=False, cached=True)
 
 

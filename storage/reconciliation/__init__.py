@@ -21,7 +21,10 @@ CHECKS: Final[tuple[Check, ...]] = (disk, clock, contradictions, damage, leftove
 
 
 def findings(
-    settings: Settings, catalogue: Catalogue, more: tuple[Check, ...] = ()
+    settings: Settings,
+    catalogue: Catalogue,
+    more: tuple[Check, ...] = (),
+    report: Callable[[float, str], None] = lambda fraction, note: None,
 ) -> Iterator[Finding]:
     """Yield everything that is not as it should be; nothing is mended by it.
 
@@ -31,8 +34,12 @@ def findings(
         Of the installation.
     more
         Further checks, which only other packages can make.
+    report
+        Called before each check with the part of all that are done, and its name.
     """
     flaws = [*unsound(settings, catalogue)]
     yield from flaws
-    for check in () if flaws else (*CHECKS, *more):
+    checks = () if flaws else (*CHECKS, *more)
+    for done, check in enumerate(checks):
+        report(done / len(checks), f"looking at {check.__name__.replace('_', ' ')}")
         yield from check(settings, catalogue)

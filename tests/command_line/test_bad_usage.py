@@ -7,7 +7,9 @@ import pytest
 
 import jointplay as package
 from jointplay import client, figures
+from jointplay.command_line import application
 from jointplay.command_line.application import EXITS
+from jointplay.command_line.job_document import job_document
 from jointplay.records import failure, strict_json
 from jointplay.service import processes
 from jointplay.service.processes.folder_lock import holding
@@ -40,6 +42,10 @@ WRONG = {
     "too many samples": ([*TIMED, "--output-step", "1e-9"], "/output_step"),
     "processes of one simulation": ([*TIMED, "--processes", "2"], "--processes"),
     "no such file": (["run", "missing.json", "-o", "OUT"], "missing.json"),
+    "a folder without a job": (["run", ".", "-o", "OUT"], ". is a folder; give a job or a scene"),
+    "no address at all": (["ls", "--url", "foo"], "it has no http:// in front"),
+    "nothing to resume": (["run", "--resume", "missing"], "missing holds no run"),
+    "more to resume": (["run", "slider-crank", "--resume", "missing"], "beside it there can only"),
     "no such results": (["export", "missing"], "missing"),
     "a folder without results": (["plot", "."], "no results"),
     "unknown format": (["export", "missing", "--format", "xls"], "--format"),
@@ -183,3 +189,19 @@ def test_shells_complete_commands(jointplay, monkeypatch, capsys):
     with pytest.raises(SystemExit):
         jointplay()
     assert capsys.readouterr().out.split() == ["reproduce"]
+
+
+def test_a_folder_of_a_run_is_told_from_its_job(jointplay, tmp_path):
+    (tmp_path / "job.json").write_text("{}")
+    assert f"give {tmp_path / 'job.json'}" in jointplay("run", tmp_path, "-o", "OUT").line()
+
+
+def test_sentences_of_a_service_name_commands():
+    error = client.NotFound("There is no job 'x'; GET /v1/jobs lists the jobs.")
+    assert application._line_of(error) == "There is no job 'x'; `jointplay ls` lists the jobs."
+
+
+@pytest.mark.parametrize(("typed", "read"), [(".3", 0.3), ("5.", 5.0), ("-.1e-3", -1e-4)])
+def test_numbers_are_typed_as_people_write_them(typed, read):
+    job = job_document("pendulum", settings=[f"mass={typed}"], options={})
+    assert job["scene"]["parameters"] == {"mass": read}

@@ -22,10 +22,12 @@ def succeed(catalogue: Catalogue, new: NewJob) -> str:
 
 def test_an_identical_job_is_found_and_not_made_again(catalogue: Catalogue) -> None:
     first = catalogue.submit(NEW, reuse=True)
-    again = catalogue.submit(replace(NEW, label="other"), reuse=True)
+    again = catalogue.submit(replace(NEW, label="mine"), reuse=True)
     assert (first.created, first.cached) == (True, False)
     assert (again.created, again.cached, again.job.id) == (False, True, first.job.id)
-    assert again.job.label is None
+    assert again.job.label == catalogue.get(first.job.id).label == "mine"  # it had none
+    named = catalogue.submit(replace(NEW, label="other"), reuse=True)
+    assert (named.cached, named.job.label) == (True, "mine")
     for other in (
         replace(NEW, digest="e" * 64),
         replace(NEW, solver_version="0.1.0+def"),
