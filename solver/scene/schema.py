@@ -14,7 +14,8 @@ def scene_schema() -> dict[str, Any]:
 
     What needs more than one field, as names that must exist, it cannot say: admission does.
     """
-    return {"$schema": DIALECT} | _with_remarks(Scene.model_json_schema())
+    found: dict[str, Any] = _with_remarks(Scene.model_json_schema())
+    return {"$schema": DIALECT} | found
 
 
 def _with_remarks(schema: Any) -> Any:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from jointplay.command_line import cite
+from jointplay.command_line import certificate, cite
 
 ROOT = Path(__file__).parents[2]
 
@@ -87,6 +87,8 @@ def test_a_certificate_says_until_when_each_channel_is_converged(jointplay, runs
     assert ended.code == 0, ended.err
     assert "energy_residual" in ended.out
     document = json.loads(jointplay("certificate", runs / "a", "--json").out)
+    assert "lanes.0                          tolerance 1e-06, perturbed no, " in ended.out
+    assert f"converged                        0 to {document['horizon']:.7g}" in ended.out
     for name, channel in document["channels"].items():
         assert f"{name:32} until {channel['until']:.6g} s\n" in ended.out
         assert channel["bar"] in document["bars"]
@@ -114,3 +116,19 @@ def test_an_estimate_is_printed_and_nothing_is_queued(jointplay, at, http):
     assert "of one core" in ended.out
     assert "MB" in ended.out
     assert http.get("/v1/jobs").json()["jobs"] == before
+
+
+@pytest.mark.parametrize(
+    ("job", "exponent", "says"),
+    [
+        ({}, {"value": 23.0, "error": 1.0}, "--tolerance 1e-07 reaches some 0.1 s further"),
+        ({}, {"value": 23.0, "error": 30.0}, "--tolerance 1e-07 reaches further"),
+        ({}, None, "how far, that run tells"),
+        ({"step": 1e-4}, None, "--step 5e-05, reaches further"),
+        ({"duration": 0.5}, None, None),
+    ],
+)
+def test_what_is_known_for_a_part_only_comes_with_advice(job, exponent, says):
+    document = {"lanes": [{}], "horizon": 0.5, "exponent": exponent}
+    found = certificate._advice({"tolerance": 1e-6, "duration": 2.0} | job, document)
+    assert found is None if says is None else says in found
