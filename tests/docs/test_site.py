@@ -11,7 +11,7 @@ from jointplay.solver.scene import channels
 from tests.wheel_layout import ROOT, lay_out
 
 LOADED = re.compile(r'<(?:script|img|link|iframe)\b[^>]*\b(?:src|href)="((?:https?:)?//[^"]*)"')
-PAGES = sorted((ROOT / "docs").glob("*.md"))
+PAGES = [page.relative_to(ROOT / "docs") for page in sorted((ROOT / "docs").rglob("*.md"))]
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +27,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_every_page_is_in_the_site_and_in_its_menu(site: Path) -> None:
     menu = (ROOT / "mkdocs.yml").read_text()
     for page in PAGES:
-        assert (site / f"{page.stem}.html").is_file()
-        assert f": {page.name}\n" in menu, page.name
+        assert (site / page.with_suffix(".html")).is_file()
+        assert f": {page.as_posix()}\n" in menu, page
 
 
 def test_nothing_is_loaded_from_another_server(site: Path) -> None:
-    for page in site.glob("*.html"):
+    for page in site.rglob("*.html"):
         assert not LOADED.findall(page.read_text()), page.name
     styles = [path.read_text() for path in site.rglob("*.css")]
     assert not any(re.search(r"url\(['\"]?(https?:)?//", text) for text in styles)
