@@ -15,7 +15,7 @@ _HEADER = "Idempotency-Key"
 
 
 class Repeatable:
-    """A request that may carry a key."""
+    """A request that may carry a key, which no other one may have while it is answered."""
 
     def __init__(self, request: Request, key: str | None) -> None:
         self.path = request.url.path if key else ""
@@ -24,8 +24,8 @@ class Repeatable:
         self._in_flight: dict[str, Repeatable] = request.app.state.in_flight
 
     @contextmanager
-    def key_for(self, fingerprint: str) -> Iterator[SubmissionKey | None]:
-        """Yield what to store with what a document makes; one request at a time has a key.
+    def in_flight(self) -> Iterator[None]:
+        """Hold the key; begun before the document is looked at, as its check may take long.
 
         Raises
         ------
@@ -33,7 +33,7 @@ class Repeatable:
             409 while another request with this key is being answered.
         """
         if self._key is None:
-            yield None
+            yield
             return
         if self._in_flight.setdefault(self._key, self) is not self:  # one step, for all threads
             sentence = "A request with this key is being answered; send it again in a moment."
@@ -41,9 +41,13 @@ class Repeatable:
                 _HEADER, sentence, kinds.KEY_IN_FLIGHT, headers={"Retry-After": "1"}
             )
         try:
-            yield SubmissionKey(self._key, fingerprint)
+            yield
         finally:
             del self._in_flight[self._key]
+
+    def key_for(self, fingerprint: str) -> SubmissionKey | None:
+        """Return what to store with what a document makes."""
+        return None if self._key is None else SubmissionKey(self._key, fingerprint)
 
 
 def fingerprint(path: str, document: object) -> str:

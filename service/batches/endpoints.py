@@ -105,8 +105,9 @@ def submit_batch(
     All are checked first; if any cannot be run, nothing is queued and `errors` points at each
     wrong field by the index of its job, such as `/jobs/17/duration`.
     """
-    found = checker.check(check_batch, body, repeatable.path)
-    with repeatable.key_for(found.fingerprint) as key:
+    with repeatable.in_flight():
+        found = checker.check(check_batch, body, repeatable.path)
+        key = repeatable.key_for(found.fingerprint)
         submitted = catalogue.submit_batch(found.jobs, label=found.label or None, key=key)
     wake_relay(settings.redis_url)
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)

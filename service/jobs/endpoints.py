@@ -75,9 +75,10 @@ def _submit(
     repeatable: Repeatable,
     body: bytes,
 ) -> Submitted:
-    found = checker.check(check_job, body, repeatable.path)
-    (new,) = found.jobs
-    with repeatable.key_for(found.fingerprint) as key:
+    with repeatable.in_flight():
+        found = checker.check(check_job, body, repeatable.path)
+        (new,) = found.jobs
+        key = repeatable.key_for(found.fingerprint)
         submitted = catalogue.submit(new, key, reuse=found.reuse)
     if submitted.created:
         wake_relay(settings.redis_url)

@@ -124,7 +124,7 @@ def _without_job(
     found = "belongs to no job"
     try:
         attributes = verified(sealed)
-        new = _job_in(settings, attributes)
+        new = _job_in(attributes, _expiry(settings, catalogue))
     except (NotAStore, CorruptStore, KeyError, TypeError, AttributeError) as error:
         found += f", and cannot be adopted: {error}"
         return Finding("results", (str(sealed),), found, advice=_READ)
@@ -138,7 +138,15 @@ def _without_job(
     return Finding("results", (str(sealed),), found, "its job was made again", mend=mend)
 
 
-def _job_in(settings: Settings, attributes: Mapping[str, Any]) -> NewJob:
+def _expiry(settings: Settings, catalogue: Catalogue) -> float | None:
+    """Return when an adopted job expires: as if it were submitted now.
+
+    When it was to expire is lost with the catalogue; from its creation on, it may be over.
+    """
+    return None if settings.keep is None else catalogue.clock() + settings.keep
+
+
+def _job_in(attributes: Mapping[str, Any], expires: float | None) -> NewJob:
     """Return the job that results describe, as it was submitted."""
     spec, study = attributes["job"], attributes.get("blocks")
     return NewJob(
@@ -148,6 +156,7 @@ def _job_in(settings: Settings, attributes: Mapping[str, Any]) -> NewJob:
         digest=attributes["digest"],
         solver_version=attributes["solver_version"],
         scene=spec["scene"].get("preset") or spec["scene"].get("name"),
+        expires=expires,
         blocks=tuple((first, count) for first, count in study) if study else ((0, 1),),
         seal=bool(study),
     )

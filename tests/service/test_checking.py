@@ -47,6 +47,14 @@ def test_the_answer_does_not_depend_on_the_process(checker, name):
     assert outcome(checker, document, SHORT) == outcome(checker, document)
 
 
+def test_a_long_document_is_checked_in_another_process(checker):
+    process = checker._processes[check_job]
+    body = json.dumps(JOB).encode()
+    for length, elsewhere in ((SHORT, False), (SHORT + 1, True)):
+        checker.check(check_job, body.ljust(length))
+        assert (process._process is not None) == elsewhere
+
+
 def test_a_document_that_is_no_json_is_refused_alike(checker):
     kinds = []
     for padding in (0, SHORT):

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import httpx
 import pytest
+from sqlalchemy import Engine, event
 
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue import connections
+from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 
@@ -46,6 +48,31 @@ def test_a_catalogue_that_is_held_refuses_what_it_cannot_record(
     assert problem["type"].endswith("unavailable")
     assert problem["detail"] == "The catalogue is held by another program; nothing was recorded."
     assert held_catalogue.get("/v1/jobs").json()["jobs"] == []
+
+
+def test_a_catalogue_whose_disk_is_full_says_so_and_records_nothing(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    catalogue.close()
+
+    @event.listens_for(Engine, "connect")
+    def grow_no_further(connection: sqlite3.Connection, _: object) -> None:
+        connection.execute("PRAGMA max_page_count=1")  # as large as it is
+
+    try:
+        with (
+            serving(create_app(settings)) as url,
+            httpx.Client(base_url=url, trust_env=False, timeout=60) as client,
+        ):
+            answer = client.post("/v1/batches", json={"jobs": [JOB] * 300})
+            assert (answer.status_code, answer.headers["Retry-After"]) == (507, "5")
+            problem = answer.json()
+            assert problem["type"].endswith("disk-full")
+            assert problem["detail"].endswith("no room left on its disk; nothing was recorded.")
+            assert client.get("/v1/jobs").json()["jobs"] == []
+    finally:
+        event.remove(Engine, "connect", grow_no_further)
 
 
 @SUBMISSIONS

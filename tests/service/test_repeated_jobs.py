@@ -102,6 +102,20 @@ def test_a_key_is_free_again_after_a_refused_request(own):
     assert http.post("/v1/jobs", json=JOB, headers=key).status_code == 202
 
 
+def test_a_key_in_flight_is_answered_before_the_document_is_checked(tmp_path):
+    app = create_app(Settings(data=tmp_path / "data"))
+    with serving(app) as url, httpx.Client(base_url=url, trust_env=False) as http:
+        for path, wrong in (("/v1/jobs", JOB | {"duration": -1}), ("/v1/batches", {"jobs": [7]})):
+            headers = {"Idempotency-Key": path}
+            http.get("/healthz")  # it has begun
+            app.state.in_flight[path] = "another request"
+            busy = http.post(path, json=wrong, headers=headers)
+            assert (busy.status_code, busy.headers["Retry-After"]) == (409, "1")
+            del app.state.in_flight[path]
+            assert http.post(path, json=wrong, headers=headers).status_code == 422
+        assert app.state.in_flight == {}
+
+
 def test_of_requests_at_the_same_time_with_one_key_one_makes_a_job(own):
     http, _ = own
     answers = []

@@ -18,17 +18,22 @@ from jointplay.solver.scene.pairs import contact_pairs
 from jointplay.solver.scene.references import tangent_obstacle
 
 
-def limits(scene: Scene, found: Mapping[str, float], sections: int) -> Iterator[str]:
+def limits(scene: Scene, found: Mapping[str, float], sections: int, periods: int) -> Iterator[str]:
     """Yield what indicators cannot tell.
 
     found : the indicators of a point by name, those that were chosen and could be computed.
-    sections : number of sections that they were found from.
+    sections : number of sections that they were found from. periods : whole periods among them,
+    which those at onsets need not have.
     """
     exponent, error = (found.get(name, math.nan) for name in ("lyapunov", "lyapunov_error"))
     if "lyapunov" not in found:
         pass
     elif math.isnan(exponent):
-        obstacle = tangent_obstacle(scene) or "The tangent grew beyond all bounds."
+        obstacle = tangent_obstacle(scene) or (
+            "The tangent grew beyond all bounds."
+            if periods
+            else "It needs a whole period, and the recorded sections lie within one."
+        )
         yield f"there is no exponent: {obstacle[0].lower()}{obstacle[1:].rstrip('.')}"
     elif math.isinf(exponent):
         yield "the exponent is not known: the tangent vanished within a period"

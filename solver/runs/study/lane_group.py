@@ -263,7 +263,8 @@ class LaneGroup:
         found, verdict = indicators_of(
             study.indicators, states, scales, angles, *growths, period, run.settled
         )
-        remarks = limits(study.point_scene(run.point), found, len(states[:MOST_SECTIONS]))
+        sections, periods = len(states[:MOST_SECTIONS]), len(growths[0])
+        remarks = limits(study.point_scene(run.point), found, sections, periods)
         return found, "; ".join(filter(None, [verdict.reason, run.lasting, *remarks]))
 
     def _growths(self, run: PointRun) -> tuple[Floats, Floats]:

@@ -1,5 +1,6 @@
 """Compiling in another process: what comes out is the same, and it can be ended."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,17 @@ def test_a_compilation_that_takes_too_much_memory_is_ended(file: str) -> None:
         watched.watched(lambda: None, 600.0),
     ):
         cache.load(hungry)
+    assert ended.value.code == "compile-memory"
+
+
+def test_a_compilation_that_the_system_ends_is_not_repeated_here(file: str) -> None:
+    elsewhere = f"if os.getpid() != {os.getpid()}:\n    os.kill(os.getpid(), signal.SIGKILL)"
+    killed = f"import os, signal\n\n{elsewhere}  # {file}\n"
+    with (
+        pytest.raises(CompilationTooLong, match="or more than there is") as ended,
+        watched.watched(lambda: None, 600.0),
+    ):
+        cache.load(killed)
     assert ended.value.code == "compile-memory"
 
 

@@ -218,6 +218,19 @@ def test_whole_results_without_a_job_get_one_that_can_be_found(installed: Instal
     assert all(one.mend is None and one.advice for one in left.values())
 
 
+def test_a_job_that_is_made_again_is_kept_as_one_that_is_submitted_now(
+    installed: Installed,
+) -> None:
+    """When it was to expire is lost; that it has expired already nobody would expect."""
+    installed.settings = installed.settings.model_copy(update={"keep": 3600.0})
+    installed.clock.ahead = 86_400.0
+    installed.sql("PRAGMA foreign_keys=ON", "DELETE FROM job")
+    installed.mend()
+    for job in installed.catalogue.every_job():
+        assert job.expires == pytest.approx(installed.clock() + 3600.0, abs=60.0)
+        assert not installed.catalogue.expired(job)
+
+
 def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> None:
     path = installed.sealed("succeeded")
     copy = shutil.copyfile(path, path.with_name(f"{path.name}.bak"))

@@ -13,7 +13,7 @@ from tests.solver.runs.study.test_run import Computed
 def judged(parameters: dict[str, float], record: int, **more: Any) -> tuple[dict[str, float], str]:
     """Return indicators of a press and the grounds of its verdict."""
     scene = {"preset": "seven-bar-press", "parameters": CASE_3 | parameters}
-    job = {"kind": "poincare", "scene": scene, "settle": 1, "record": record, **more}
+    job = {"kind": "poincare", "scene": scene, "settle": 1, "record": record} | more
     end = Computed({"indicators": "all", **job}).ends[0]
     return dict(end.indicators), end.reason
 
@@ -33,6 +33,12 @@ def test_an_indicator_of_too_few_sections_says_why_it_says_nothing(
     assert math.isnan(found["period"]) == (record < 4)
     assert math.isnan(found["flatness"]) == (record < 16)
     assert found["verdict"] == UNDECIDED
+
+
+def test_sections_within_a_period_give_no_exponent_and_say_so() -> None:
+    found, reason = judged({}, 2, settle=0, section={"onset": "A"})
+    assert math.isnan(found["lyapunov"])
+    assert "there is no exponent: it needs a whole period" in reason
 
 
 def test_friction_that_jumps_is_named_where_there_is_no_exponent() -> None:

@@ -1,0 +1,94 @@
+"""The process that answers one question at a time: lost, too slow, asked by too many, ended."""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from tests.waiting import is_alive, until
+
+PROGRAM = """
+import os
+import sys
+import time
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+open("started", "a").write("once\\n")
+with Connection(int(sys.argv[1])) as asking:
+    while True:
+        what, file = asking.recv()
+        if what == "end unless there":
+            known = Path(file).exists()
+            Path(file).touch()
+            if not known:
+                os._exit(0)
+        while what == "wait until there" and not Path(file).exists():
+            time.sleep(0.01)
+        if what == "end":
+            os._exit(0)
+        asking.send(os.getpid())
+"""
+
+
+@pytest.fixture
+def process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[AnsweringProcess]:
+    (tmp_path / "answering_program.py").write_text(PROGRAM)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    made = AnsweringProcess("answering_program", 600.0)
+    yield made
+    made.close()
+
+
+def starts() -> int:
+    return Path("started").read_text().count("once")
+
+
+def test_a_question_that_is_lost_with_the_process_is_asked_once_more(process):
+    assert process.answer(("end unless there", "mark")) == process.answer(("answer", ""))
+    assert starts() == 2
+
+
+def test_a_question_that_ends_the_process_twice_has_no_answer(process):
+    with pytest.raises(NoAnswer):
+        process.answer(("end", ""))
+    assert starts() == 2
+    assert is_alive(process.answer(("answer", "")))
+
+
+def test_an_answer_that_takes_too_long_ends_the_process(process):
+    pid = process.answer(("answer", ""))
+    process.patience = 0.1
+    with pytest.raises(TooSlow):
+        process.answer(("wait until there", "never"))
+    assert not is_alive(pid)
+    assert starts() == 1
+
+
+def test_one_too_many_is_not_kept_waiting(process):
+    answers = []
+
+    def ask():
+        answers.append(process.answer(("wait until there", "go")))
+
+    askers = [threading.Thread(target=ask) for _ in range(8)]
+    for asker in askers:
+        asker.start()
+    until(lambda: process._waiting._value == 0)
+    with pytest.raises(Busy):
+        process.answer(("answer", ""))
+    Path("go").touch()
+    for asker in askers:
+        asker.join()
+    assert len(answers) == 8
+    assert {process.answer(("answer", ""))} == set(answers)
+
+
+def test_a_process_that_is_closed_has_ended_and_another_is_started(process):
+    pid = process.answer(("answer", ""))
+    process.close()
+    assert not is_alive(pid)
+    assert process.answer(("answer", "")) != pid
