@@ -4,6 +4,7 @@ import importlib
 import sys
 
 ALL = (
+    "dense",
     "digests",
     "press",
     "certificate",

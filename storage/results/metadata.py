@@ -65,6 +65,7 @@ def array(
     attributes: Mapping[str, Any],
     *,
     shard: Sequence[int] | None = None,
+    compressor: str = COMPRESSOR,
 ) -> Document:
     """Make the document of one array whose chunks are compressed as `shards.compress` does.
 
@@ -78,10 +79,12 @@ def array(
         Names of the dimensions; units and meaning.
     shard
         Shape of one file, a whole number of chunks; none: a file is a chunk.
+    compressor
+        Name that Blosc knows.
     """
     blosc = {
         "typesize": dtype.itemsize,
-        "cname": COMPRESSOR,
+        "cname": compressor,
         "clevel": COMPRESSION_LEVEL,
         "shuffle": "shuffle",
         "blocksize": 0,

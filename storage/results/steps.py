@@ -58,6 +58,7 @@ class StepsTable(GrowingTable):
             ["step", "column"],
             {"long_name": "accepted steps", "columns": names, "period": self._period},
             shard=[ROWS, len(names)],
+            compressor=shards.FAST,
         )
 
     def _contents(self) -> Iterator[bytes]:
@@ -65,7 +66,7 @@ class StepsTable(GrowingTable):
         chunks = []
         for column in self.pending():
             whole[: len(column)] = column
-            chunks.append(shards.compress(whole))
+            chunks.append(shards.compress(whole, fast=True))
         yield shards.pack(chunks)
 
 

@@ -9,8 +9,9 @@ from jointplay.records.arrays import Floats
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.question import Answer, Question
 
-MOST_STEPS = 40_000
-"""Steps of one window: some 0.3 s of computing."""
+MOST_STEPS = 200_000
+"""Steps of one window, each counted once and a tenth for each channel: some 0.4 s of computing."""
+A_CHANNEL = 0.1
 MOST_INSTANTS = 200_000
 """Instants of an ideal motion in one window: as long."""
 PARTS = 8
@@ -46,22 +47,23 @@ class Trajectory:
         """Return channels (m, names) at ascending times (m,), s: the bits that samples have."""
         if not len(times):
             return Answer(np.empty((0, len(names))))
-        refused, steps = self._steps(float(times[0]), float(times[-1]), len(times))
+        refused, steps = self._steps(names, float(times[0]), float(times[-1]), len(times))
         if refused:
             return Answer(None, refused=refused)
         return self._ask(Question(self._job, tuple(names), steps, times=times))
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Answer:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time."""
-        refused, steps = self._steps(float(edges[0]), float(edges[-1]), 8 * len(edges))
+        start, stop = float(edges[0]), float(edges[-1])
+        refused, steps = self._steps(names, start, stop, 8 * len(edges))
         if refused:
             return Answer(None, refused=refused)
-        ranges = self._ranges(names, float(edges[0]), float(edges[-1]))
+        ranges = self._ranges(names, start, stop)
         return self._ask(Question(self._job, tuple(names), steps, edges=edges, ranges=ranges))
 
     def instants(self, start: float, stop: float, most: int) -> Floats | None:
         """Return times, s: `PARTS` in each step, or even ones of a motion without steps."""
-        refused, steps = self._steps(start, stop, most)
+        refused, steps = self._steps((), start, stop, most)
         if refused:
             return None
         if steps is None or self._reader.steps is None:
@@ -78,7 +80,9 @@ class Trajectory:
     def _job(self) -> dict[str, object]:
         return dict(self._reader.attributes["job"])
 
-    def _steps(self, start: float, stop: float, instants: int) -> tuple[str, Floats | None]:
+    def _steps(
+        self, names: Sequence[str], start: float, stop: float, instants: int
+    ) -> tuple[str, Floats | None]:
         """Return the steps around a window, or a sentence that says why there are none."""
         if start < 0.0 or stop > self.reached * (1.0 + ROUNDING):
             return f"The run has been computed from 0 to {self.reached:.9g} s.", None
@@ -86,9 +90,10 @@ class Trajectory:
             if instants > MOST_INSTANTS:
                 return f"An answer has at most {MOST_INSTANTS} instants; ask for fewer.", None
             return "", None
-        return self._stored_steps(start, stop)
+        most = int(MOST_STEPS / (1.0 + A_CHANNEL * len(names)))
+        return self._stored_steps(start, stop, most)
 
-    def _stored_steps(self, start: float, stop: float) -> tuple[str, Floats | None]:
+    def _stored_steps(self, start: float, stop: float, most: int) -> tuple[str, Floats | None]:
         stored = self._reader.steps
         if stored is None or not stored.count:
             return "The job keeps no steps, only samples; see its field 'steps_limit'.", None
@@ -97,9 +102,9 @@ class Trajectory:
             sentence = f"Steps are kept up to {stored.end:.6g} s, within {limit:g} bytes"
             return f"{sentence}; beyond there are samples. See 'steps_limit'.", None
         first, last = stored.around(start, stop)
-        if last - first > MOST_STEPS:
-            sentence = f"The window has {last - first} steps, and one answer at most {MOST_STEPS}"
-            return f"{sentence}; a shorter one is exact.", None
+        if last - first > most:
+            sentence = f"The window has {last - first} steps, of so many channels at most {most}"
+            return f"{sentence} are read at once; a shorter one is exact.", None
         return "", stored.read(first, last)
 
     def _ranges(self, names: Sequence[str], start: float, stop: float) -> Floats:

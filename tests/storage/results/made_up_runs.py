@@ -20,7 +20,7 @@ SMALL_FILES = Partition(chunk_rows=4, shard_chunks=3, buffer_bytes=2**20)
 PLAIN_FILES = Partition(chunk_rows=4, shard_chunks=1, buffer_bytes=2**20)
 
 
-def made_up_layout(samples, sections, channels=2, partition=SMALL_FILES, attributes=None):
+def made_up_layout(samples, sections, channels=2, partition=SMALL_FILES, attributes=None, steps=()):
     return ResultLayout(
         channels=tuple(
             Channel(f"slider7.q{index}", "m", f"coordinate {index}") for index in range(channels)
@@ -30,6 +30,8 @@ def made_up_layout(samples, sections, channels=2, partition=SMALL_FILES, attribu
         joints=("A", "B"),
         attributes={"job": {"kind": "simulate"}} if attributes is None else attributes,
         partition=partition,
+        steps=steps,
+        steps_period=0.5 if steps else 0.0,
     )
 
 
@@ -48,6 +50,7 @@ class MadeUpRun:
         self.samples = random.normal(size=(self.layout.samples, width))
         self.section_time = np.arange(float(self.layout.sections))
         self.sections = random.normal(size=(self.layout.sections, width))
+        self.steps = random.normal(size=(3 * self.layout.samples, len(self.layout.steps)))
         self.peaks = {
             channel.name: Peak(*random.normal(size=4)) for channel in self.layout.channels
         }
@@ -56,6 +59,7 @@ class MadeUpRun:
         """Append the part from one fraction of the run to another."""
         rows = slice(cut(start, len(self.time)), cut(stop, len(self.time)))
         sections = slice(cut(start, len(self.section_time)), cut(stop, len(self.section_time)))
+        steps = slice(cut(start, len(self.steps)), cut(stop, len(self.steps)))
         impacts = slice(cut(start, len(self.impacts)), cut(stop, len(self.impacts)))
         writer.append(
             rows.start,
@@ -65,6 +69,7 @@ class MadeUpRun:
             self.section_time[sections],
             self.sections[sections],
             self.impacts[impacts],
+            self.steps[steps] if self.layout.steps else None,
         )
 
     def write(self, folder, fractions=(0.0, 1.0)):
