@@ -19,7 +19,7 @@ PAGES = [
     README,
     *(
         (ROOT / "docs" / f"{name}.md").read_text()
-        for name in ("http", "python", "certificate", "accuracy", "laws", "figures")
+        for name in ("http", "python", "certificate", "accuracy", "laws", "figures", "windows")
     ),
 ]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
