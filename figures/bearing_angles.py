@@ -9,8 +9,8 @@ from jointplay.figures.kind import Selection
 from jointplay.records.arrays import Flags, Floats
 from jointplay.records.run import Source, inside
 
-_FEW_SAMPLES = 2.0
-"""Contacts of fewer sample steps are taken from the list of contacts, not from samples."""
+_FEW_INSTANTS = 3
+"""Contacts of fewer instants are taken from the list of contacts, not from forces."""
 
 
 class Loads(NamedTuple):
@@ -32,20 +32,19 @@ def channels(source: Source, joint: str) -> tuple[str, ...]:
 def loads(source: Source, joint: str, selection: Selection, sectors: int) -> Loads:
     """Sum up a journal's loads in a window of time by their angle in the bearing's body.
 
-    Samples count for their share of the time. A contact that lasts less than two sample steps
-    counts with its impulse and its peak force, at the angle where it began: the journal's path
-    between samples is interpolated.
+    Forces count for their share of the time, at every step of the trajectory or at samples where
+    steps are not kept. A contact that holds fewer than three of these instants counts with its
+    impulse and its peak force, at the angle where it began; the journal's path is interpolated.
     """
-    first, last = sampling.window(source, selection)
-    time, values = sampling.joined(source, channels(source, joint), first, last)
+    time, values = sampling.whole(source, channels(source, joint), selection)
     force = np.nan_to_num(values[f"{joint}.normal_force"])
     whole = float(time[-1] - time[0])
     shares = np.gradient(time) if len(time) > 1 else np.zeros(1)
     shares[[0, -1]] *= 0.5
     rows = sampling.impacts_of(source, joint)
     rows = rows[inside(rows["onset"], time[0], time[-1])]
-    lasting = rows["release"] - rows["onset"]
-    short = rows[lasting < _FEW_SAMPLES * whole / max(len(time) - 1, 1)]
+    first, behind = (np.searchsorted(time, rows[name]) for name in ("onset", "release"))
+    short = rows[behind - first < _FEW_INSTANTS]
     sampled = ~_during(time, short["onset"], short["release"]) & (force > 0.0)
     moments = np.concatenate([time[sampled], short["onset"]])
     impulses = np.concatenate([(force * shares)[sampled], short["impulse"]])

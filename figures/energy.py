@@ -30,10 +30,9 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 
 def _draw(source: Source, selection: Selection) -> page.Figure:
     names = _channels(source, selection)
-    first, last = sampling.window(source, selection)
-    time, values = sampling.joined(source, names, first, last)
+    time, values = sampling.whole(source, names, selection)
     curves = _curves(time, values)
-    ledger = _at_the_end(source, time)
+    ledger = _at_the_end(source, selection)
     joules = scale("J", *curves.values())
     across = TimeAxis(source, [time])
     residual = ledger.pop("residual", None)
@@ -68,11 +67,10 @@ def _curves(time: Floats, values: Mapping[str, Floats]) -> dict[str, Floats]:
     return {**given, _GRAVITY: gravity, _KINETIC: kinetic, _REST: rest}
 
 
-def _at_the_end(source: Source, time: Floats) -> dict[str, float]:
+def _at_the_end(source: Source, selection: Selection) -> dict[str, float]:
     """Give the ledger [J] of a whole run by curve, and its residual; nothing of a window."""
     energy = (source.attributes.get("summary") or {}).get("energy")
-    whole = source.complete and len(time) == source.samples
-    if not energy or not whole:
+    if not energy or not source.complete or selection.given():
         return {}
     stored_and_lost = energy["driver_work"] + energy["gravity_work"] - energy["kinetic_change"]
     return {

@@ -1,10 +1,10 @@
-"""Histograms of channels: the density of their samples over time."""
+"""Histograms of channels: the density of their values over time."""
 
 from typing import Final
 
 import numpy as np
 
-from jointplay.figures import colours, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_history import declared
@@ -15,6 +15,8 @@ _BINS: Final = 48
 _FEWEST_SAMPLES: Final = 32
 _MOST_SAMPLES: Final = 2**20
 """Most samples: of a longer window its end is taken, where transients are over."""
+_INSTANTS: Final = 2**15
+"""Instants of a trajectory that is known between samples."""
 _PANEL_HEIGHT: Final = 34.0  # mm
 _NOTHING: Final = "fewer than 32 samples, or no change"
 
@@ -41,6 +43,10 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
 
 def _samples(source: Source, name: str, selection: Selection) -> Floats:
     first, last = sampling.window(source, selection)
+    start, stop = between_samples.ends(source, selection)
+    exact = between_samples.at(source, [name], np.linspace(start, stop, _INSTANTS))
+    if exact is not None:
+        return exact[1][name]
     _, columns = sampling.joined(source, [name], max(first, last - _MOST_SAMPLES), last)
     values = columns[name]
     return values[np.isfinite(values)]

@@ -109,7 +109,7 @@ def _loop(axes: page.Axes, pair: str, contact: Any, depth: Floats, force: Floats
     joules = scale("J", np.array([taken]))
     page.corner_text(
         axes,
-        f"{pair} at {contact['onset']:.6g} s: {taken / joules.factor:.3g} {joules.unit} taken",
+        f"{pair} at {contact['onset']:.6g} s\n{taken / joules.factor:.3g} {joules.unit} taken",
     )
 
 

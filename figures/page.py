@@ -156,9 +156,21 @@ def legend_rows(entries: Sequence[Any] | Mapping[str, Any]) -> int:
 
 
 def legend(figure: Figure, axes: Axes, **look: Any) -> None:
-    """Explain the curves of a panel once for all panels, above them."""
+    """Explain the curves of a panel once for all panels, above them; others add what is theirs."""
     look = {"ncols": LEGEND_COLUMNS, "borderaxespad": 0.2} | look
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", **look)
+    entries: dict[str, Any] = {}
+    for panel in (axes, *figure.axes):
+        for handle, label in zip(*panel.get_legend_handles_labels(), strict=True):
+            if not _is_empty(handle):
+                entries.setdefault(label, handle)
+    figure.legend(entries.values(), entries.keys(), loc="outside upper center", **look)
+
+
+def _is_empty(drawn: Any) -> bool:
+    """Whether a curve has no points, or a bundle of lines no lines."""
+    if hasattr(drawn, "get_segments"):
+        return not len(drawn.get_segments())
+    return hasattr(drawn, "get_xdata") and not len(drawn.get_xdata())
 
 
 def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> None:

@@ -66,6 +66,13 @@ def in_a_plane(source: Source, names: tuple[str, ...], selection: Selection) -> 
     return joined(source, names, max(first, last - MOST_PATH_SAMPLES), last)
 
 
+def whole(source: Source, names: Sequence[str], selection: Selection) -> Columns:
+    """Give times [s] and values of all of a window: as close as steps where these are kept."""
+    first, last = window(source, selection)
+    exact = between_samples.path(source, names, selection, MOST_PATH_SAMPLES)
+    return exact if exact is not None else joined(source, names, first, last)
+
+
 def joined(source: Source, names: Sequence[str], first: int, last: int) -> Columns:
     """Give times [s] and values of channels at samples `first` to `last` - 1, in one piece."""
     parts = list(source.blocks(names, first, last))

@@ -6,6 +6,7 @@ import pytest
 import jointplay
 from jointplay import figures
 from jointplay.figures import between_samples, sampling
+from jointplay.figures.bearing_angles import loads
 from jointplay.figures.kind import Selection
 from jointplay.local.folder_job import results_in
 from jointplay.records.run import inside
@@ -72,6 +73,25 @@ def test_a_spectrum_of_forces_reaches_beyond_what_samples_resolve(source):
     (line, *_) = drawn.axes[0].lines
     assert line.get_xdata().max() > 1e4
     assert not any("change faster" in text.get_text() for text in drawn.texts)
+
+
+def test_the_balance_of_energy_ends_where_the_ledger_does(source):
+    (axes,) = figures.draw(source, "energy").axes
+    curves = [
+        line for line in axes.lines if line.get_marker() == "None" and line.get_label()[0] != "_"
+    ]
+    rings = [line for line in axes.lines if line.get_marker() == "o"]
+    largest = max(np.abs(curve.get_ydata()).max() for curve in curves)
+    assert len(rings) == len(curves) == 4
+    for curve, ring in zip(curves, rings, strict=True):
+        assert curve.get_ydata()[-1] == pytest.approx(ring.get_ydata()[0], abs=1e-3 * largest)
+
+
+def test_a_rose_holds_the_impulse_of_all_contacts(source):
+    whole = loads(source, "A", Selection(), 36).mean.sum() * source.trajectory.reached
+    impacts = sampling.impacts_of(source, "A")
+    ended = impacts[np.isfinite(impacts["release"])]
+    assert whole == pytest.approx(ended["impulse"].sum(), rel=0.02)
 
 
 def test_windows_of_a_folder_are_those_of_a_service(job, peak):
