@@ -14,7 +14,7 @@ SPANS: Final = 1000
 
 
 def knows(source: Source) -> bool:
-    """Whether a run can be read between its samples at all."""
+    """Tell whether a run can be read between its samples at all."""
     return source.trajectory is not None
 
 

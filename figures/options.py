@@ -12,7 +12,7 @@ from jointplay.records.page_option import OPTIONS, Option
 
 @dataclass(frozen=True)
 class Options:
-    """How a figure is put on its page; what is None is chosen for what is drawn.
+    """Options of the page that a figure is drawn on; what is None is chosen for what is drawn.
 
     Parameters
     ----------

@@ -167,7 +167,7 @@ def legend(figure: Figure, axes: Axes, **look: Any) -> None:
 
 
 def _is_empty(drawn: Any) -> bool:
-    """Whether a curve has no points, or a bundle of lines no lines."""
+    """Tell whether a curve has no points, or a bundle of lines no lines."""
     if hasattr(drawn, "get_segments"):
         return not len(drawn.get_segments())
     return hasattr(drawn, "get_xdata") and not len(drawn.get_xdata())

@@ -14,7 +14,7 @@ _LONGEST_UNITS: Final = 100
 
 
 class Option(NamedTuple):
-    """What an option means, and what it may be.
+    """Meaning and range of one option.
 
     Numbers lie from `least` to `most`, in `unit` ("" is that of the axis); words are among
     `choices`; other text has `most` letters at most.
