@@ -16,6 +16,7 @@ from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
+from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
 
@@ -68,7 +69,8 @@ class FolderResults:
         if points is None or last - first <= points:
             return window_of(run, *run.history(names, first, last), note=note)
         time, extremes = run.extremes(names, first, last, points)
-        columns = {name: pair.ravel() for name, pair in extremes.items()}
+        pairs = {n: with_contact_peaks(run, n, time, pair) for n, pair in extremes.items()}
+        columns = {name: pair.ravel() for name, pair in pairs.items()}
         return window_of(run, time.ravel(), columns, exact=False, note=note)
 
     def sections(self, channels: Names) -> Window:

@@ -25,6 +25,7 @@ from jointplay.service.results.queries import (
 from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
 from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, series
+from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 
 router = APIRouter(
@@ -166,7 +167,8 @@ def _overview(
 ) -> schemas.Overview:
     check_points(points, len(names))
     time, found = run.extremes(names, first, last, points)
-    columns = np.stack([found[name] for name in names], axis=1)
+    pairs = [with_contact_peaks(run, name, time, found[name]) for name in names]
+    columns = np.stack(pairs, axis=1)
     return schemas.Overview.model_construct(
         complete=run.complete,
         samples=last - first,

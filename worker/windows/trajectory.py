@@ -9,7 +9,7 @@ from jointplay.records.arrays import Floats
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.question import Answer, Question
 
-MOST_STEPS = 200_000
+MOST_STEPS = 300_000
 """Steps of one window, each counted once and a tenth for each channel: some 0.4 s of computing."""
 A_CHANNEL = 0.1
 MOST_INSTANTS = 200_000

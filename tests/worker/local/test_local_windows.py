@@ -116,3 +116,8 @@ def test_without_steps_a_curve_is_of_samples(tmp_path):
     window = job.window(FORCE, points=1000)
     assert "keeps no steps" in window.note
     assert window.exact
+    overview = job.window(FORCE, points=8)
+    assert not overview.exact
+    assert not overview.between_samples
+    found = overview[FORCE].max()  # contacts are known anyway
+    assert found == pytest.approx(source.peaks()[FORCE].maximum, rel=1e-6)
