@@ -21,6 +21,8 @@ import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, laws, problems, scenes, schemas
+from jointplay.service.access import needs
+from jointplay.service.access.door import Door
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
@@ -28,7 +30,7 @@ from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.prober import Prober
 from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
-from jointplay.service.problems.kinds import INVALID_REQUEST
+from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.windows import WindowProcess
 from jointplay.solver.kinds import KINDS, any_job
@@ -45,15 +47,19 @@ All values are in SI units; the schemas give the unit of every field.  Everythin
 is an RFC 9457 problem document whose `errors` point at the fields.
 """
 _REFERENCE = "#/components/schemas/{model}"
-_RESOURCES = (
-    jointplay.service.jobs.endpoints,
-    events,
-    estimates,
-    jointplay.service.batches.endpoints,
-    jointplay.service.studies.endpoints,
-    jointplay.service.results.endpoints,
-    jointplay.service.results.figures,
-    jointplay.service.zarr.endpoints,
+_JOBS = needs("jobs:read", "jobs:write")
+_RESULTS = needs("results:read")
+_BEHIND_THE_DOOR = (
+    (jointplay.service.jobs.endpoints, _JOBS),
+    (events, _JOBS),
+    (estimates, needs("jobs:write")),
+    (jointplay.service.batches.endpoints, _JOBS),
+    (jointplay.service.studies.endpoints, _RESULTS),
+    (jointplay.service.results.endpoints, _RESULTS),
+    (jointplay.service.results.figures, _RESULTS),
+    (jointplay.service.zarr.endpoints, _RESULTS),
+)
+_OPEN = (
     scenes,
     laws,
     schemas,
@@ -82,6 +88,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         catalogue = Catalogue(settings.catalogue_url)
         catalogue.migrate()
         app.state.catalogue = catalogue
+        app.state.door = Door(catalogue, settings)
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
         app.state.prober = prober = Prober()
@@ -106,7 +113,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = settings
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
-    for resource in _RESOURCES:
+    for resource, key in _BEHIND_THE_DOOR:
+        refusals = problems.problems(*OF_THE_DOOR)
+        app.include_router(resource.router, dependencies=[key], responses=refusals)
+    for resource in _OPEN:
         app.include_router(resource.router)
 
     def openapi() -> dict[str, Any]:

@@ -8,6 +8,7 @@ from fastapi import Depends, Path, Request
 from fastapi.exceptions import RequestValidationError
 
 from jointplay.records.job import is_job_id
+from jointplay.service.access import CallerDependency
 from jointplay.service.checking import Checker
 from jointplay.service.problems import RequestRefused, clipped, kinds
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -53,11 +54,12 @@ def expired(job: Job) -> RequestRefused:
     return RequestRefused(kinds.EXPIRED_JOB, sentence)
 
 
-def _job_of_the_path(catalogue: CatalogueDependency, job_id: JobId) -> Job:
+def _job_of_the_path(
+    catalogue: CatalogueDependency, caller: CallerDependency, job_id: JobId
+) -> Job:
     """Return the job, or refuse with 404 or 410; the id is matched before it is looked up."""
     with suppress(JobNotFound):
-        if is_job_id(job_id):
-            job = catalogue.get(job_id)
+        if is_job_id(job_id) and caller.sees((job := catalogue.get(job_id)).owner):
             if not catalogue.expired(job):
                 return job
             raise expired(job)

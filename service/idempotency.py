@@ -8,6 +8,7 @@ from typing import Annotated
 
 from fastapi import Depends, Header, Request
 
+from jointplay.service.access import CallerDependency
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue.records import SubmissionKey
 
@@ -17,11 +18,12 @@ _HEADER = "Idempotency-Key"
 class Repeatable:
     """A request that may carry a key, which no other one may have while it is answered."""
 
-    def __init__(self, request: Request, key: str | None) -> None:
+    def __init__(self, request: Request, key: str | None, owner: str) -> None:
         self.path = request.url.path if key else ""
         """Where it was sent to, if it carries a key: its `fingerprint` is wanted then."""
         self._key = key
-        self._in_flight: dict[str, Repeatable] = request.app.state.in_flight
+        self._owner = owner
+        self._in_flight: dict[tuple[str, str], Repeatable] = request.app.state.in_flight
 
     @contextmanager
     def in_flight(self) -> Iterator[None]:
@@ -35,7 +37,9 @@ class Repeatable:
         if self._key is None:
             yield
             return
-        if self._in_flight.setdefault(self._key, self) is not self:  # one step, for all threads
+        if (
+            self._in_flight.setdefault((self._owner, self._key), self) is not self
+        ):  # one step, for all threads
             sentence = "A request with this key is being answered; send it again in a moment."
             raise RequestRefused.of_parameter(
                 _HEADER, sentence, kinds.KEY_IN_FLIGHT, headers={"Retry-After": "1"}
@@ -43,11 +47,13 @@ class Repeatable:
         try:
             yield
         finally:
-            del self._in_flight[self._key]
+            del self._in_flight[self._owner, self._key]
 
     def key_for(self, fingerprint: str) -> SubmissionKey | None:
         """Return what to store with what a document makes."""
-        return None if self._key is None else SubmissionKey(self._key, fingerprint)
+        if self._key is None:
+            return None
+        return SubmissionKey(self._key, fingerprint, owner=self._owner)
 
 
 def fingerprint(path: str, document: object) -> str:
@@ -60,6 +66,7 @@ def fingerprint(path: str, document: object) -> str:
 
 async def _repeatable(
     request: Request,
+    caller: CallerDependency,
     idempotency_key: Annotated[
         str | None,
         Header(
@@ -72,7 +79,7 @@ async def _repeatable(
         ),
     ] = None,
 ) -> Repeatable:
-    return Repeatable(request, idempotency_key)
+    return Repeatable(request, idempotency_key, caller.owner)
 
 
 RepeatableRequest = Annotated[Repeatable, Depends(_repeatable)]

@@ -2,7 +2,7 @@
 
 import shutil
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
@@ -41,6 +41,16 @@ class Settings(BaseSettings):
     redis_url: str | None = Field(
         None,
         description="redis://host:port/0 or unix:///path; none: `jointplay serve` starts one.",
+    )
+    keys: Literal["", "none", "required"] = Field(
+        "",
+        description="Whether the API asks for keys; empty: unless it listens on this machine only.",
+    )
+    hosts: str = Field(
+        "",
+        max_length=4096,
+        description="Names, separated by commas, under which an API that asks for no keys may be"
+        " reached beside localhost and its addresses.",
     )
     lease: Hour = Field(30.0, description="A block whose worker is silent this long is lost.")
     heartbeat: Minutes = Field(5.0, description="A worker extends its lease this often.")
@@ -123,6 +133,11 @@ class Settings(BaseSettings):
                 f" JOINTPLAY_HEARTBEAT ({self.heartbeat:g} s)"
             )
         return self
+
+    @property
+    def host_names(self) -> frozenset[str]:
+        """Further names of the API."""
+        return frozenset(name.strip().lower() for name in self.hosts.split(",")) - {""}
 
     def room(self) -> int:
         """Bytes that results may still take on the data folder's disk; 0 or less: none."""

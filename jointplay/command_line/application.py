@@ -8,7 +8,7 @@ from typing import Annotated, Final
 
 import typer
 
-from jointplay.command_line import scene
+from jointplay.command_line import key, scene
 from jointplay.command_line.exits import Exit, Stopped
 
 COMMANDS: Final = (
@@ -74,6 +74,7 @@ def _before_any_command(
 for name in COMMANDS:
     application.command(name)(getattr(import_module(f"jointplay.command_line.{name}"), name))
 application.add_typer(scene.application, name="scene")
+application.add_typer(key.application, name="key")
 
 OBJECTS_BETWEEN_COLLECTIONS = 500_000
 """A command imports and draws: most objects live on, and Python would look at them all, and again,

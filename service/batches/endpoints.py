@@ -1,12 +1,14 @@
 """``/v1/batches``: submit, look at and cancel many jobs at once."""
 
 from contextlib import suppress
+from dataclasses import replace
 from typing import Annotated, Any, Self
 
 from fastapi import APIRouter, Depends, Path, Query, Response
 from pydantic import BaseModel, Field
 
 from jointplay.records.job import is_job_id
+from jointplay.service.access import CallerDependency
 from jointplay.service.body import BatchBody
 from jointplay.service.checking import check_batch
 from jointplay.service.dependencies import (
@@ -74,10 +76,12 @@ class AcceptedBatch(BatchResource):
     job_ids: list[str] = Field(description="Ids of its jobs, in the order of the request.")
 
 
-def _batch_of_the_path(catalogue: CatalogueDependency, batch_id: BatchId) -> Batch:
+def _batch_of_the_path(
+    catalogue: CatalogueDependency, caller: CallerDependency, batch_id: BatchId
+) -> Batch:
     with suppress(BatchNotFound):
-        if is_job_id(batch_id):
-            return catalogue.batch(batch_id)
+        if is_job_id(batch_id) and caller.sees((batch := catalogue.batch(batch_id)).owner):
+            return batch
     sentence = f"There is no batch {clipped(batch_id)!r}."
     raise RequestRefused.of_parameter("batch_id", sentence, kinds.UNKNOWN_BATCH)
 
@@ -98,6 +102,7 @@ def submit_batch(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
+    caller: CallerDependency,
     response: Response,
 ) -> AcceptedBatch:
     """Queue up to 10 000 jobs, or none.
@@ -107,8 +112,10 @@ def submit_batch(
     """
     with repeatable.in_flight():
         found = checker.check(check_batch, body, repeatable.path)
-        key = repeatable.key_for(found.fingerprint)
-        submitted = catalogue.submit_batch(found.jobs, label=found.label or None, key=key)
+        key, owner = repeatable.key_for(found.fingerprint), caller.owner
+        jobs = [replace(job, owner=owner) for job in found.jobs] if owner else found.jobs
+        label = found.label or None
+        submitted = catalogue.submit_batch(jobs, label=label, key=key, owner=owner)
     wake_relay(settings.redis_url)
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]

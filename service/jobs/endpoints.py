@@ -1,10 +1,12 @@
 """``/v1/jobs``: submit, list, look at, cancel and delete jobs."""
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
+from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
 from jointplay.service.checking import Checker, check_job
 from jointplay.service.dependencies import (
@@ -51,6 +53,7 @@ async def submit_job(
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
     patience: PatienceDependency,
+    caller: CallerDependency,
     response: Response,
 ) -> SubmittedJob:
     """Queue a job, or find the one that computes the same.
@@ -60,7 +63,9 @@ async def submit_job(
     equals one that is queued, running or succeeded is not computed again: that one is the answer,
     with 200 and `cached`, unless the document says `"cache": false`.
     """
-    submitted = await run_in_threadpool(_submit, catalogue, checker, settings, repeatable, body)
+    submitted = await run_in_threadpool(
+        _submit, catalogue, checker, settings, repeatable, body, caller.owner
+    )
     job = await patience.finished(submitted.job)
     if submitted.cached or job.state.terminal:
         response.status_code = 200
@@ -74,21 +79,25 @@ def _submit(
     settings: Settings,
     repeatable: Repeatable,
     body: bytes,
+    owner: str,
 ) -> Submitted:
     with repeatable.in_flight():
         found = checker.check(check_job, body, repeatable.path)
         (new,) = found.jobs
         key = repeatable.key_for(found.fingerprint)
-        submitted = catalogue.submit(new, key, reuse=found.reuse)
+        submitted = catalogue.submit(replace(new, owner=owner), key, reuse=found.reuse)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted
 
 
 @router.get("", responses=problems(kinds.INVALID_REQUEST))
-def list_jobs(catalogue: CatalogueDependency, query: Annotated[JobQuery, Query()]) -> JobPage:
+def list_jobs(
+    catalogue: CatalogueDependency, caller: CallerDependency, query: Annotated[JobQuery, Query()]
+) -> JobPage:
     """List jobs, newest first; jobs that arrive in the meantime move no page."""
-    page = catalogue.jobs(limit=query.page_size, after=query.checked_token(), **query.wanted())
+    wanted = query.wanted() | {"owner": None if caller.sees_all else caller.owner}
+    page = catalogue.jobs(limit=query.page_size, after=query.checked_token(), **wanted)
     return JobPage.of(page)
 
 

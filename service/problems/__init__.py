@@ -113,6 +113,7 @@ def header(description: str, *, always: bool = True) -> dict[str, Any]:
 
 _AGAIN = header("Seconds after which to ask again.", always=False)
 _HEADERS: dict[int, dict[str, Any]] = {
+    401: {"headers": {"WWW-Authenticate": header("`Bearer`.")}},
     409: {"headers": {"Retry-After": _AGAIN}},
     416: {"headers": {"Content-Range": header("`bytes */` and the size.")}},
     503: {"headers": {"Retry-After": header("Seconds after which to ask again.")}},

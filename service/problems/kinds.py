@@ -59,6 +59,26 @@ RESPONSE_TOO_LARGE = _kind(
     "The answer would be too large",
     "Ask for fewer channels or a shorter window with `channels`, `start` and `stop`.",
 )
+KEY_MISSING = _kind(
+    "key-missing",
+    401,
+    "A valid key is missing",
+    "Send Authorization: Bearer and a key, which `jointplay key new` makes where the service runs; "
+    "the client and the command line take it from JOINTPLAY_KEY.",
+)
+SCOPE_MISSING = _kind(
+    "scope-missing",
+    403,
+    "The key is not for this",
+    "Use a key that has the scope which the problem's `detail` names.",
+)
+FOREIGN_HOST = _kind(
+    "foreign-host",
+    403,
+    "The request was sent by, or to, another site",
+    "Use the address that the service announced; its administrator can add names with "
+    "JOINTPLAY_HOSTS.",
+)
 UNKNOWN_JOB = _kind("unknown-job", 404, "There is no such job", "List the jobs with GET /v1/jobs.")
 EXPIRED_JOB = _kind(
     "expired-job",
@@ -191,6 +211,8 @@ ALL = {
     for kind in [*globals().values()]
     if isinstance(kind, ProblemKind)
 }
+OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST
+"""Problems of every address that shows or changes jobs."""
 OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED

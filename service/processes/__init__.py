@@ -1,6 +1,5 @@
 """Running the service on one machine: broker, API, relay and workers under one supervisor."""
 
-import ipaddress
 import json
 import logging
 import os
@@ -10,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from jointplay.service.loopback import is_loopback
 from jointplay.service.processes.child import StartFailed, WrongSetting
 from jointplay.service.processes.supervisor import Supervisor
 
@@ -55,23 +55,14 @@ def serve(
             sys.stdout.flush()
             return
         sys.stdout.write(f"jointplay is ready at {url} (data in {data}; Ctrl-C stops it)\n")
-        if not _is_loopback(host):
+        if not is_loopback(host) and os.environ.get("JOINTPLAY_KEYS") == "none":
             sys.stdout.write(
-                "It listens beyond this machine and asks for no password: everyone who can reach"
-                " it can run jobs and read all results.\n"
+                "It listens beyond this machine and asks for no key: everyone who can reach it can"
+                " run jobs and read all results.\n"
             )
         sys.stdout.flush()
 
     Supervisor(host, port, data, workers, parent_pipe).run(announce)
-
-
-def _is_loopback(host: str) -> bool:
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
 
 
 @contextmanager

@@ -7,6 +7,7 @@ import socket
 import uvicorn
 from fastapi import FastAPI
 
+from jointplay.service.access.first_key import require_key_beyond_this_machine
 from jointplay.service.memory import keep_no_free_memory
 
 LONGEST_HEAD = 256 * 1024
@@ -21,6 +22,9 @@ def main() -> None:
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
     arguments = parser.parse_args()
     keep_no_free_memory()
+    inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
+    host = inherited[0].getsockname()[0] if inherited else arguments.host
+    require_key_beyond_this_machine(host)
     configuration = uvicorn.Config(
         _application,
         factory=True,
@@ -32,7 +36,6 @@ def main() -> None:
         timeout_graceful_shutdown=5,
         h11_max_incomplete_event_size=LONGEST_HEAD,
     )
-    inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
     uvicorn.Server(configuration).run(sockets=inherited)
 
 

@@ -18,7 +18,7 @@ from jointplay.storage.catalogue.records import Job
 router = APIRouter(prefix="/v1/jobs/{job_id}/zarr", tags=["results"])
 
 _DOCUMENT: Final = "zarr.json"
-_FOREVER: Final = "public, max-age=31536000, immutable"
+_FOREVER: Final = "max-age=31536000, immutable"
 _TAG: Final = {
     "ETag": header("Strong entity tag of the key's bytes."),
     "Cache-Control": header("`no-cache`, or `immutable` once the job is finished."),
@@ -98,9 +98,10 @@ def show_stored(
 
 
 def _answer(request: Request, key: str, content: Content) -> Response:
+    whose = "private" if "authorization" in request.headers else "public"
     headers = {
         "Accept-Ranges": "bytes",
-        "Cache-Control": _FOREVER if content.final else "no-cache",
+        "Cache-Control": f"{whose}, {_FOREVER}" if content.final else "no-cache",
     }
     media_type = "application/octet-stream"
     asked = request.headers.get("range")

@@ -39,6 +39,7 @@ def submit_batch(
     jobs: Collection[NewJob],
     label: str | None,
     key: SubmissionKey | None,
+    owner: str,
 ) -> SubmittedBatch:
     """Store a batch and all its jobs, or find the one an earlier request made."""
     if key is not None:
@@ -48,9 +49,8 @@ def submit_batch(
             found = select(_job.c.id).where(_job.c.batch == earlier.batch).order_by(_job.c.id)
             known = tuple(unit.execute(found).scalars())
             return SubmittedBatch(find_batch(unit, earlier.batch), known, created=False)
-    unit.execute(
-        insert(tables.batch).values(id=batch_id, label=label, created=unit.now, count=len(jobs))
-    )
+    new_batch = {"id": batch_id, "label": label, "created": unit.now, "count": len(jobs)}
+    unit.execute(insert(tables.batch).values(new_batch | {"owner": owner}))
     members = zip(job_ids, jobs, strict=True)
     while some := [
         (row_of(name, new, unit.now, batch_id), new) for name, new in islice(members, _AT_A_TIME)

@@ -17,6 +17,7 @@ from jointplay.storage.catalogue import (
     disagreements,
     ending,
     holding,
+    keys,
     listing,
     rows,
     schema,
@@ -175,6 +176,7 @@ class Catalogue:
         *,
         label: str | None = None,
         key: SubmissionKey | None = None,
+        owner: str = "",
     ) -> SubmittedBatch:
         """Accept many jobs or none; they survive a power cut once this returns.
 
@@ -196,7 +198,7 @@ class Catalogue:
             identifier, *members = [self._identifiers.next(now) for _ in range(len(jobs) + 1)]
             with self.connections.writing(durable=True) as connection:
                 unit = Unit(connection, now)
-                return batches.submit_batch(unit, identifier, members, jobs, label, key)
+                return batches.submit_batch(unit, identifier, members, jobs, label, key, owner)
 
         return self.connections.repeated(submit)
 
@@ -226,6 +228,14 @@ class Catalogue:
     def expired(self, job: Job) -> bool:
         """Tell whether a job and its results can be read no more."""
         return job.expired(self.clock())
+
+    # Who may ask for it
+
+    key = _reading(keys.find_key)
+    make_key = _durably(keys.make_key)
+    revoke_key = _durably(keys.revoke_key)
+    note_use_of_key = _writing(keys.note_use)
+    all_keys = _reading(keys.all_keys)
 
     # What workers do
 

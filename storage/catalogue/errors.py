@@ -46,6 +46,13 @@ class BatchNotFound(CatalogueError):
         super().__init__(f"there is no batch {batch!r}")
 
 
+class KeyNotFound(CatalogueError):
+    """No key of the service has this id."""
+
+    def __init__(self, key: str) -> None:
+        super().__init__(f"there is no key {key!r}")
+
+
 class KeyReused(CatalogueError):
     """An idempotency key came back with a different request."""
 

@@ -50,7 +50,7 @@ def page_of_jobs(
     statement = select(tables.job).order_by(order).limit(limit + 1)
     if after is not None:
         statement = statement.where(columns.id > after if oldest_first else columns.id < after)
-    for name in ("state", "kind", "label", "scene", "batch"):
+    for name in ("state", "kind", "label", "scene", "batch", "owner"):
         value = getattr(wanted, name)
         if value is not None:
             statement = statement.where(columns[name] == value)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from hashlib import blake2b
+from hashlib import blake2b, sha256
 from typing import Any
 
 from jointplay.records.job import JobError
@@ -79,6 +79,7 @@ class JobRequest:
     batch: str | None = None
     scene: str | None = None  # its name, by which jobs are found
     expires: float | None = None
+    owner: str = ""  # by whose keys it is seen; empty: nobody's
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,7 @@ class NewJob(JobRequest):
     @property
     def number(self) -> int:
         """Sixty-four bits of what is computed, by which units that look for it take turns."""
-        return number_of("computes", self.digest)
+        return number_of("computes", f"{self.digest} {self.owner}")
 
 
 @dataclass(frozen=True)
@@ -105,11 +106,19 @@ class SubmissionKey:
     key: str
     fingerprint: str
     seconds: float = 86_400.0  # how long the key is remembered
+    owner: str = ""  # two owners may use one key
+
+    @property
+    def stored(self) -> str:
+        """The key as it is stored: an owner's with a blank, which no client's own has."""
+        if not self.owner:
+            return self.key
+        return f" {sha256(f'{self.owner} {self.key}'.encode()).hexdigest()}"
 
     @property
     def number(self) -> int:
         """Sixty-four bits of the key, by which units that look for it take turns."""
-        return number_of("key", self.key)
+        return number_of("key", self.stored)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,6 +175,7 @@ class Batch:
     count: int  # jobs
     states: Mapping[JobState, int]  # how many jobs are in each state; every state is there
     fraction: float  # 0..1, every job weighing the same; a job that ended lacks nothing
+    owner: str = ""
 
     @property
     def finished(self) -> bool:
@@ -259,6 +269,7 @@ class JobFilter:
     batch: str | None = None
     since: float | None = None  # from this time on
     before: float | None = None
+    owner: str | None = None
 
 
 @dataclass(frozen=True)

@@ -55,7 +55,7 @@ class Request:
     def names(self) -> set[Hashable]:
         """Return what later requests may find its job by."""
         computes = ("computes", self.new.digest)
-        return {computes} if self.key is None else {computes, ("key", self.key.key)}
+        return {computes} if self.key is None else {computes, ("key", self.key.stored)}
 
 
 def submit(
@@ -131,6 +131,7 @@ _SAME_JOB = (
         tables.job.c.digest == bindparam("digest"),
         tables.job.c.solver_version == bindparam("solver_version"),
         tables.job.c.kind == bindparam("kind"),
+        tables.job.c.owner == bindparam("owner"),
         tables.job.c.state.in_(_REUSED),
         tables.job.c.damaged.is_(None),
         tables.job.c.expires.is_(None) | (tables.job.c.expires > bindparam("now")),
@@ -151,6 +152,7 @@ def same_job(unit: Unit, new: NewJob) -> str | None:
         "digest": new.digest,
         "solver_version": new.solver_version,
         "kind": new.kind,
+        "owner": new.owner,
         "now": unit.now,
     }
     found: str | None = unit.execute(_SAME_JOB, asked).scalar_one_or_none()
@@ -200,7 +202,7 @@ def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
         It was used for another request.
     """
     table = tables.idempotency
-    same_key = table.c.key == key.key
+    same_key = table.c.key == key.stored
     row = unit.execute(select(table).where(same_key)).one_or_none()
     if row is None:
         return None
@@ -222,7 +224,7 @@ def remember_key(
     """Have a key find this job or batch while it is remembered."""
     unit.execute(
         insert(tables.idempotency).values(
-            key=key.key,
+            key=key.stored,
             fingerprint=key.fingerprint,
             job=job,
             batch=batch,

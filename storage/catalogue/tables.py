@@ -78,6 +78,7 @@ job = Table(
     Column("steps", BigInteger),
     Column("removed", Float(53)),
     Column("damaged", Text),
+    Column("owner", String(64), nullable=False, server_default=""),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),
@@ -87,6 +88,7 @@ job = Table(
     Index("ix_job_kind_id", "kind", "id"),
     Index("ix_job_label_id", "label", "id"),
     Index("ix_job_scene_id", "scene", "id"),
+    Index("ix_job_owner_id", "owner", "id"),
     # whose results are to be removed, however many were
     Index("ix_job_removed_expires", "removed", "expires"),
 )
@@ -98,6 +100,7 @@ batch = Table(
     Column("label", Text),
     Column("created", Float(53), nullable=False),
     Column("count", Integer, nullable=False),
+    Column("owner", String(64), nullable=False, server_default=""),
 )
 
 block = Table(
@@ -169,6 +172,21 @@ idempotency = Table(
     Column("created", Float(53), nullable=False),
     Column("expires", Float(53), nullable=False),
     Index("ix_idempotency_expires", "expires"),
+)
+
+# Who may ask the service what; see `storage.catalogue.keys`.
+api_key = Table(
+    "api_key",
+    metadata,
+    Column("id", String(8), primary_key=True),
+    Column("sha256", String(64), nullable=False),
+    Column("owner", String(64), nullable=False),
+    Column("scopes", String(200), nullable=False),
+    Column("note", String(200), nullable=False),
+    Column("created", Float(53), nullable=False),
+    Column("expires", Float(53)),
+    Column("revoked", Float(53)),
+    Column("last_used", Float(53)),
 )
 
 # Which process does what only one should do at a time, and until when.

@@ -108,10 +108,10 @@ def test_a_key_in_flight_is_answered_before_the_document_is_checked(tmp_path):
         for path, wrong in (("/v1/jobs", JOB | {"duration": -1}), ("/v1/batches", {"jobs": [7]})):
             headers = {"Idempotency-Key": path}
             http.get("/healthz")  # it has begun
-            app.state.in_flight[path] = "another request"
+            app.state.in_flight["", path] = "another request"
             busy = http.post(path, json=wrong, headers=headers)
             assert (busy.status_code, busy.headers["Retry-After"]) == (409, "1")
-            del app.state.in_flight[path]
+            del app.state.in_flight["", path]
             assert http.post(path, json=wrong, headers=headers).status_code == 422
         assert app.state.in_flight == {}
 

@@ -1,0 +1,76 @@
+"""The door of the service: which requests it opens to, as whose."""
+
+import logging
+import time
+from collections import OrderedDict
+from typing import Final
+
+from fastapi import Request
+from fastapi.concurrency import run_in_threadpool
+
+from jointplay.service.access import Caller
+from jointplay.service.access.hosts import require_own_host
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import KeyNotFound, Unavailable
+from jointplay.storage.catalogue.keys import Key, id_in
+from jointplay.storage.settings import Settings
+
+_REMEMBERED: Final = 10.0
+"""Seconds after which a key is looked up again: a revoked one opens for so long."""
+_MOST: Final = 1024
+_USE_PERIOD: Final = 60.0  # s; how exactly the last use of a key is known
+_BEARER: Final = "bearer "
+_log = logging.getLogger(__name__)
+
+
+class Door:
+    """Looks at the key of every request, if the service asks for one."""
+
+    def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
+        self._catalogue = catalogue
+        self._asks = settings.keys == "required"
+        self._hosts = settings.host_names
+        self._known: OrderedDict[str, tuple[Key, float]] = OrderedDict()
+
+    async def caller(self, request: Request) -> Caller:
+        """Return who asks, or refuse: 401 without a key that opens, 403 to a foreign page."""
+        if not self._asks:
+            require_own_host(request, self._hosts)
+            return Caller()
+        given = request.headers.get("authorization", "")
+        text = given[len(_BEARER) :].strip() if given.lower().startswith(_BEARER) else ""
+        name = id_in(text)
+        key = None if name is None else await self._key(name)
+        if key is None or not key.is_of(text) or not key.lives(self._catalogue.clock()):
+            raise RequestRefused(
+                kinds.KEY_MISSING,
+                "This service asks for a key that is valid: Authorization: Bearer jp_...",
+                headers={"WWW-Authenticate": 'Bearer realm="jointplay"'},
+            )
+        return Caller(key.owner, key.scopes, key.id)
+
+    async def _key(self, name: str) -> Key | None:
+        known = self._known.get(name)
+        now = time.monotonic()
+        if known is not None and now < known[1]:
+            return known[0]
+        try:
+            key = await run_in_threadpool(self._looked_up, name)
+        except KeyNotFound:
+            self._known.pop(name, None)
+            return None
+        self._known[name] = key, now + _REMEMBERED
+        self._known.move_to_end(name)
+        if len(self._known) > _MOST:
+            self._known.popitem(last=False)
+        return key
+
+    def _looked_up(self, name: str) -> Key:
+        key = self._catalogue.key(name)
+        if key.last_used is None or key.last_used < self._catalogue.clock() - _USE_PERIOD:
+            try:
+                self._catalogue.note_use_of_key(name)
+            except Unavailable as fault:
+                _log.debug("the use of key %s is not noted: %s", name, fault)
+        return key

@@ -1,0 +1,47 @@
+"""Where a request was sent to, and by which page, where no key tells who asks.
+
+A page of the web can have a browser send requests to a service on this machine, as the page's own
+name may be given this machine's address (DNS rebinding). That name is then in Host, and in Origin.
+"""
+
+import ipaddress
+from collections.abc import Collection
+from contextlib import suppress
+from urllib.parse import urlsplit
+
+from fastapi import Request
+
+from jointplay.service.loopback import is_loopback
+from jointplay.service.problems import RequestRefused, clipped, kinds
+
+
+def require_own_host(request: Request, names: Collection[str]) -> None:
+    """Refuse what was sent to a foreign name or by a foreign page; `names` are further own ones.
+
+    An address in place of a name was looked up by nobody.
+    """
+    host, origin = request.headers.get("host", ""), request.headers.get("origin")
+    own = _name_in(host)
+    if not (own in names or is_loopback(own) or _is_address(own)):
+        raise _foreign("Host", host)
+    if origin is not None:
+        page = _name_in(origin)
+        if not (page == own or page in names or is_loopback(page)):
+            raise _foreign("Origin", origin)
+
+
+def _foreign(header: str, given: str) -> RequestRefused:
+    sentence = f"{header} is {clipped(given)!r}, which is no name of this service."
+    return RequestRefused(kinds.FOREIGN_HOST, sentence)
+
+
+def _name_in(given: str) -> str:
+    with suppress(ValueError):
+        return urlsplit(given if "//" in given else f"//{given}").hostname or ""
+    return ""
+
+
+def _is_address(name: str) -> bool:
+    with suppress(ValueError):
+        return bool(ipaddress.ip_address(name))
+    return False
