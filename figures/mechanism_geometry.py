@@ -113,7 +113,8 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         for field, size in (joint.get("clearance") or {}).items()
         if field in ("bearing_radius", "pin_radius", "height")
     ]
-    driven = {driver.get("joint") for driver in scene.get("drivers", {}).values()}
+    motors = scene.get("drivers", {}).values()
+    driven, moved = ({driver.get(of) for driver in motors} for of in ("joint", "body"))
     joints = []
     for name, joint in scene["joints"].items():
         kind = joint["type"]
@@ -133,7 +134,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
         joints.append(
             JointMark(
                 name=name,
-                look=_look(joint, name in driven),
+                look=_look(joint, name in driven or (kind == "revolute" and bodies[1] in moved)),
                 place=world(joint[second]),
                 grounded=GROUND in bodies,
                 axis=axis,

@@ -26,7 +26,7 @@ from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import JournalStart, Scene
-from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic
+from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 
@@ -53,6 +53,10 @@ class AbsoluteMechanism:
         self.bodies = tuple(scene.bodies)
         self.drivers = {d.joint: name for name, d in scene.drivers.items() if d.joint}
         self.turned = {d.body: name for name, d in scene.drivers.items() if d.body}
+        for body in list(self.turned):
+            pin = _pin_on_ground(scene, body)
+            if pin is not None:
+                self.drivers[pin] = self.turned.pop(body)
         self.joints = tuple(
             name
             for name, joint in scene.joints.items()
@@ -235,3 +239,13 @@ class AbsoluteMechanism:
             return x, y
         sine, cosine = sine_cosine(guide.angle)
         return cosine * x - sine * y, sine * x + cosine * y
+
+
+def _pin_on_ground(scene: Scene, body: str) -> str | None:
+    """Return the first ideal pin whose bearing is on the ground and whose journal on a body."""
+    for name, joint in scene.joints.items():
+        if not isinstance(joint, Revolute) or has_play(joint):
+            continue
+        if joint.bearing.startswith(f"{WORLD}.") and joint.journal.startswith(f"{body}."):
+            return name
+    return None

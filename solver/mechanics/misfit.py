@@ -81,12 +81,9 @@ def fighting_drivers(scene: Scene) -> list[str]:
     _, jacobian = arrays(rows, len(pose))
     jacobian = jacobian * scale
     motions = {"revolute": "angle", "prismatic": "along"}
-    driving = {
-        (driver.joint, motions[scene.joints[driver.joint].type])
-        if driver.joint
-        else (name, "angle"): name
-        for name, driver in scene.drivers.items()
-    }
+    driving = {(name, "angle"): name for name in ideal.turned.values()}
+    for joint, name in ideal.drivers.items():
+        driving[joint, motions[scene.joints[joint].type]] = name
     drivers = [driving.get((row.joint, row.part), "") for row in rows]
     joints = jacobian[[not driver for driver in drivers]]
     if rank(joints) < len(joints):

@@ -283,11 +283,11 @@ class ReducedMechanism:
     ) -> dict[str, Scalar]:
         """Return efforts of drivers; those of cut joints are known."""
         efforts: dict[str, Scalar] = {}
-        for name, driver in self.numbers.drivers.items():
-            if name in cut or driver.body is not None:
+        for name in self.numbers.drivers:
+            if name in cut or name in moments:  # the latter turns a body whatever its joint
                 efforts[name] = cut[name] if name in cut else moments[name]
                 continue
-            branch = next(b for b in self.tree.branches if b.joint == driver.joint)
+            branch = next(b for b in self.tree.branches if b.driver == name)
             if branch.kind == "revolute":
                 efforts[name] = moments[branch.joint] if branch.outward else -moments[branch.joint]
             else:

@@ -90,6 +90,10 @@ def spanning_tree(scene: Scene) -> Tree:
                 if there[0] in reached:
                     continue
                 used.add(name)
+                turned_by = turning.get(there[0])
+                driver = drivers.get(name)
+                if turned_by and here[0] == "ground" and outward and isinstance(joint, Revolute):
+                    driver, turned_by = turned_by, None  # the joint's angle is the body's
                 reached.append(there[0])
                 branches.append(
                     Branch(
@@ -100,11 +104,9 @@ def spanning_tree(scene: Scene) -> Tree:
                         parent_point=here[1],
                         body_point=there[1],
                         outward=outward,
-                        coordinates=_coordinates(
-                            there[0], joint, drivers.get(name) or turning.get(there[0])
-                        ),
-                        driver=drivers.get(name),
-                        turned_by=turning.get(there[0]),
+                        coordinates=_coordinates(there[0], joint, driver or turned_by),
+                        driver=driver,
+                        turned_by=turned_by,
                     )
                 )
         waiting = [body for body in waiting if body not in reached]

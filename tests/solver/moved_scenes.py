@@ -56,6 +56,10 @@ def turned(instant: Instant, angle: float) -> Instant:
             if motion.joint == name and joint.type == "revolute":
                 driven[driver] += side * angle
                 document["drivers"][driver]["position"] += side * angle
+    for driver, motion in scene.drivers.items():
+        if motion.body:
+            driven[driver] += angle
+            document["drivers"][driver]["position"] += angle
     return replace(
         instant,
         scene=Scene.model_validate(document),
@@ -79,11 +83,11 @@ def mirrored(instant: Instant) -> Instant:
             changed["angle"] = -joint.angle
         if joint.type == "prismatic":
             changed["axis"] = flip(joint.axis)
-        for driver, motion in scene.drivers.items():
-            if motion.joint == name and joint.type == "revolute":
-                driven[driver] = -driven[driver]
-                for field in ("position", "speed"):
-                    document["drivers"][driver][field] *= -1.0
+    for driver, motion in scene.drivers.items():
+        if motion.joint is None or scene.joints[motion.joint].type == "revolute":
+            driven[driver] = -driven[driver]
+            for field in ("position", "speed"):
+                document["drivers"][driver][field] *= -1.0
     start = document["start"]
     for field in ("angles", "angular_velocities"):
         start[field] = {body: -value for body, value in start[field].items()}

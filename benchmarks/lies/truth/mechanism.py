@@ -83,7 +83,15 @@ def read(scene: Mapping[str, Any]) -> Named:
             place[f"{owner}.{point}"] = len(body)
             body.append(bodies.index(owner) if owner != "ground" else -1)
             arm.append(coordinates)
-    driven = {driver["joint"]: (name, driver) for name, driver in scene["drivers"].items()}
+    pins = {
+        joint["journal"].split(".")[0]: name
+        for name, joint in scene["joints"].items()
+        if joint["type"] == "revolute" and joint["bearing"].startswith("ground.")
+    }
+    driven = {
+        driver.get("joint") or pins[driver["body"]]: (name, driver)
+        for name, driver in scene["drivers"].items()
+    }
     row, motion, rows, drivers = [], [], {}, {}
     for name, joint in scene["joints"].items():
         if has_play(joint):

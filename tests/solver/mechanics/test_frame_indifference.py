@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from jointplay.solver.mechanics.assembly import assemble
 from jointplay.solver.mechanics.motion import Motion
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.clocks import turns
 from jointplay.solver.scene.document import Scene
 from tests.solver.moved_scenes import flip, mirrored, reordered, translated, turn, turned
 from tests.solver.random_mechanisms import instants, near_start, numbers, trees
@@ -64,8 +65,7 @@ def scalars(motion: Motion, scene: Scene, sense: float) -> dict[str, float]:
     """Return what a mirror leaves alone; torques of revolute drivers times `sense`."""
     found = {}
     for name, effort in motion.driver_effort.items():
-        turns = scene.joints[scene.drivers[name].joint].type == "revolute"
-        found[f"{name} effort"] = effort * (sense if turns else 1.0)
+        found[f"{name} effort"] = effort * (sense if turns(scene, scene.drivers[name]) else 1.0)
     for name, contact in motion.contacts.items():
         found[f"{name} F_n"] = contact.normal_force
         found[f"{name} penetration"] = contact.penetration

@@ -1,6 +1,7 @@
 """Laws of nature that the equations of motion keep at any instant, in both formulations."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from jointplay.solver.mechanics.motion import Motion
+from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 from tests.solver.random_mechanisms import closed, instants, near_start, trees
@@ -151,6 +153,20 @@ def test_what_goes_into_contacts_is_the_work_of_their_forces(instant: Instant) -
             assert contact.interaction.force_on_second == (0.0, 0.0)
 
 
+def turning_efforts(scene: Scene, motion: Motion) -> Iterator[tuple[str, float]]:
+    """Yield bodies that drivers turn, and the moments on them, N m."""
+    for name, effort in motion.driver_effort.items():
+        driver = scene.drivers[name]
+        if driver.body is not None:
+            yield driver.body, effort
+            continue
+        joint = scene.joints[driver.joint]
+        for sense, (_, reference) in zip((-1.0, 1.0), ends(joint), strict=True):
+            body = reference.split(".")[0]
+            if body != "ground" and joint.type == "revolute":
+                yield body, sense * effort
+
+
 @given(st.one_of(anywhere, presets_near_start))
 def test_every_body_obeys_newton_and_euler_under_its_joint_forces(instant: Instant) -> None:
     motion = instant.reduced()
@@ -181,12 +197,8 @@ def test_every_body_obeys_newton_and_euler_under_its_joint_forces(instant: Insta
             moment[body] += sense * (arm[0] * on_second[1] - arm[1] * on_second[0])
             if joint.type != "revolute":
                 unknown_moment.add(body)  # a guide or weld also carries a moment, not a channel
-    for name, effort in motion.driver_effort.items():
-        joint = scene.joints[scene.drivers[name].joint]
-        for sense, (_, reference) in zip((-1.0, 1.0), ends(joint), strict=True):
-            body = reference.split(".")[0]
-            if body != "ground" and joint.type == "revolute":
-                moment[body] += sense * effort
+    for body, effort in turning_efforts(scene, motion):
+        moment[body] += effort
     for name in scene.bodies:
         np.testing.assert_allclose(force[name], 0.0, atol=10 * ROUNDING * scale, err_msg=name)
         if name not in unknown_moment:
