@@ -1,6 +1,7 @@
 """A job's results for notebooks: arrays, tables, windows and pictures."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client.errors import FieldProblem, Refused
@@ -11,7 +12,7 @@ from jointplay.records.figure_form import Form
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
-    pass
+    from jointplay.exports.table_columns import Table
 
 Names = str | Sequence[str]
 
@@ -77,6 +78,47 @@ class ReadableJob(TabledJob):
         """
         self._insist_on_points()
         return self.results.study(_listed(observables), _listed(channels), sections)
+
+    def export(
+        self,
+        path: Path | str,
+        table: "Table | None" = None,
+        channels: Names | None = None,
+        start: float | None = None,
+        stop: float | None = None,
+        *,
+        points: int | None = None,
+    ) -> Path:
+        """Write a table to a file, every bit of it, in the form that its suffix names.
+
+        Parameters
+        ----------
+        path
+            Ends in ``.csv``, ``.json``, ``.npz``, ``.mat`` (MATLAB), ``.arrow`` or ``.parquet``;
+            the last two need ``pip install 'jointplay[arrow]'``.
+        table
+            Of a simulation "history" (default), "poincare", "peaks" or "impacts"; of a study
+            "poincare" or "points".
+        channels
+            Names or globs; all if None.
+        start, stop
+            Window of time, s; of a study the first point, and the one before which to end.
+        points
+            Of a history, most pairs of smallest and largest values.
+
+        Returns
+        -------
+        Path
+            Of the file.
+        """
+        from jointplay.exports.table_columns import columns_of
+        from jointplay.records.table_files import encode, form_of
+
+        form_of(path)  # before anything is fetched
+        columns = columns_of(self, table, _listed(channels), start, stop, points)
+        file = Path(path)
+        file.write_bytes(encode(file, columns, complete=self.state == "succeeded"))
+        return file
 
     @property
     def figures(self) -> list[str]:

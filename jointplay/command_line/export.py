@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from jointplay.command_line.exporting import Asked, Form, Table, Text, text_of
-from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of
+from jointplay.command_line.options import DEFAULT_URL, RESULTS, START, STOP, URL, job_of, listed
 
 
 def export(
@@ -33,28 +33,52 @@ def export(
             help="Most pairs of smallest and largest values, as a screen shows them.",
         ),
     ] = None,
-    form: Annotated[Form, typer.Option("--format", help="Text format.")] = "csv",
+    form: Annotated[
+        Form | None,
+        typer.Option("--format", help="Text format; default what FILE ends in, or csv."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="The same as --format json.")] = False,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Default: stdout.")
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="A .csv, .json, .npz, .mat, .arrow or .parquet; default CSV to stdout.",
+        ),
     ] = None,
     url: URL = DEFAULT_URL,
 ) -> None:
-    """Write a table of a job with 17 significant digits: by default channels, or sections.
+    """Write a table of a job, every bit of it: by default channels, or sections.
 
-    Of a sweep, one row a point: its values and the extremes of the channels.
+    What FILE ends in says how.  Of a sweep, one row a point: its values and the extremes of the
+    channels.
 
     Examples: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`,
     `jointplay export OUT --table points -o verdicts.csv`
     """
-    asked = Asked(table, channels, start, stop, points, "json" if as_json else form)
+    text_form = "json" if as_json else form
+    binary = output is not None and text_form is None and _is_binary(output)
+    if text_form is None and output is not None and output.suffix == ".json":
+        text_form = "json"
+    asked = Asked(table, channels, start, stop, points, text_form or "csv")
     asked.check()
     with job_of(results, url) as job:
+        if binary and output is not None:
+            job.export(output, table, listed(channels), start, stop, points=points)
+            return
         text = text_of(job, asked)
         if output is None:
             sys.stdout.writelines(text.pieces)
         else:
             _write(text, output)
+
+
+def _is_binary(output: Path) -> bool:
+    """Tell whether a file is no text, by its name; UnknownForm if it ends in anything else."""
+    from jointplay.records.table_files import form_of
+
+    return bool(form_of(output).SUFFIXES[0] not in (".csv", ".json"))
 
 
 def _write(text: Text, output: Path) -> None:

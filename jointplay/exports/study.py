@@ -65,9 +65,9 @@ def point_lines(
     Whole lines; numbers have 17 significant digits, what is not known is `nan`.  `units` are those
     of indicators and statistics, by name.
     """
-    columns: dict[str, Any] = dict(_words_of_points(source))
+    columns: dict[str, Any] = dict(words_of_points(source))
     columns |= {one.title: source.values[:, at] for at, one in enumerate(source.parameters)}
-    columns |= _columns_of_points(source, channels, units)
+    columns |= columns_of_points(source, channels, units)
     if "reason" in columns:  # sentences have commas
         columns["reason"] = ['"' + one.replace('"', '""') + '"' for one in columns["reason"]]
     yield from csv_lines(["point", *columns], _point_blocks(points, columns), comments)
@@ -107,11 +107,11 @@ def point_json(
     """
     part = slice(points.start, points.stop)
     document = _head(source, points)
-    words = _words_of_points(source)
+    words = words_of_points(source)
     for name in ("verdict", "reason"):
         if name in words:
             document[name] = [json.dumps(words[name][part])]
-    found = _columns_of_points(source, channels, units)
+    found = columns_of_points(source, channels, units)
     columns = {title: json_list([json_numbers(one[part])]) for title, one in found.items()}
     yield from json_object({**document, "columns": json_object(columns)})
     yield "\n"
@@ -143,9 +143,10 @@ def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
     return json_list(lists())
 
 
-def _columns_of_points(
+def columns_of_points(
     source: StudySource, channels: Sequence[str], units: Mapping[str, str]
 ) -> dict[str, Floats]:
+    """Return extremes, indicators and statistics of all points, by title with unit."""
     columns: dict[str, Floats] = {}
     described = {one.name: one.unit for one in source.channels}
     for name in channels:
@@ -163,7 +164,8 @@ def _columns_of_points(
     return columns
 
 
-def _words_of_points(source: StudySource) -> dict[str, list[str]]:
+def words_of_points(source: StudySource) -> dict[str, list[str]]:
+    """Return status, verdict with its reason, and code of a failure of all points."""
     words = {"status": [PointStatus(code).name for code in source.status]}
     if source.verdicts is not None:
         names: NDArray[np.str_] = np.array([*source.verdict_names, ""])

@@ -8,11 +8,12 @@ from fastapi import APIRouter, Query, Response
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.run import inside
+from jointplay.records.table_files import Column
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.problems import RequestRefused, kinds, problems
 from jointplay.service.results import schemas
 from jointplay.service.results.certificate_schema import Certificate
-from jointplay.service.results.forms import AS_FILES, JSON, Column, Form, as_file
+from jointplay.service.results.forms import AS_FILES, JSON, Form, as_file
 from jointplay.service.results.queries import (
     ChannelsQuery,
     HistoryQuery,

@@ -1,0 +1,140 @@
+"""The columns of a job's table: what goes into a file that is not written piece by piece."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from jointplay.exports.study import columns_of_points, words_of_points
+from jointplay.records.channel_choice import choose
+from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.peak import PEAK
+from jointplay.records.run import inside
+from jointplay.records.table_files import Column
+
+if TYPE_CHECKING:
+    from jointplay.client.readable_job import ReadableJob
+    from jointplay.client.window import Window
+    from jointplay.records.study import StudySource
+
+Table = Literal["history", "poincare", "peaks", "impacts", "points"]
+TABLES: Mapping[bool, tuple[Table, ...]] = {
+    False: ("history", "poincare", "peaks", "impacts"),
+    True: ("poincare", "points"),
+}
+"""Tables of a simulation (False) and of a study (True); the first is meant where none is named."""
+Names = Sequence[str] | None
+
+
+class NoSuchTable(ValueError):
+    """The job has no such table; the sentence lists those that it has."""
+
+
+def columns_of(
+    job: "ReadableJob",
+    table: Table | None = None,
+    channels: Names = None,
+    start: float | None = None,
+    stop: float | None = None,
+    points: int | None = None,
+) -> list[Column]:
+    """Return the columns of a table of a job.
+
+    Parameters
+    ----------
+    table
+        By default the history of a simulation, of a study the sections or, without any, points.
+    channels
+        Names or globs; all if None.
+    start, stop
+        Window of time, s; of a study the first point, and the one before which to end.
+    points
+        Of a history, most pairs of smallest and largest values.
+
+    Raises
+    ------
+    NoSuchTable
+        A job of this kind has no such table.
+    """
+    known = TABLES[job.is_study]
+    if table is not None and table not in known:
+        what = "a study" if job.is_study else "a simulation"
+        raise NoSuchTable(f"{what} has no table {table!r}; it has {', '.join(known)}.")
+    if job.is_study:
+        return list(_of_study(job, table, channels, start, stop))
+    if table == "peaks":
+        return list(_of_peaks(job, channels))
+    if table == "impacts":
+        return list(_of_impacts(job, start, stop))
+    if table == "poincare":
+        return list(_of_window(job.results.sections(channels), start, stop))
+    return list(_of_window(job.results.window(channels, start, stop, points), None, None))
+
+
+def _of_window(window: "Window", start: float | None, stop: float | None) -> Iterator[Column]:
+    shown = inside(window.time, start, stop)
+    yield Column("time", "s", window.time[shown])
+    for name, one in window.channels.items():
+        yield Column(name, one.unit, one.values[shown])
+
+
+def _of_peaks(job: "ReadableJob", channels: Names) -> Iterator[Column]:
+    found = job.results.peaks()
+    names = choose(None if channels is None else ",".join(channels), list(found))
+    yield Column("channel", "", np.array(names))
+    yield Column("unit", "", np.array([found[name].unit for name in names]))
+    for part, described in PEAK.items():
+        values = np.array([getattr(found[name], part) for name in names], np.float64)
+        yield Column(part, str(described.get("units", "")), values)
+
+
+def _of_impacts(job: "ReadableJob", start: float | None, stop: float | None) -> Iterator[Column]:
+    found = job.results.impacts()
+    shown = inside(found.onset, start, stop)
+    yield Column("joint", "", np.array(found.joint)[shown])
+    for name, unit in IMPACT_UNITS.items():
+        yield Column(name, unit, getattr(found, name)[shown])
+
+
+def _of_study(
+    job: "ReadableJob",
+    table: Table | None,
+    channels: Names,
+    start: float | None,
+    stop: float | None,
+) -> Iterator[Column]:
+    source = job.study(channels, channels)
+    first, last = int(start or 0), source.points if stop is None else min(int(stop), source.points)
+    if table == "points" or not source.observables:
+        yield from _of_points(source, slice(first, last))
+        return
+    counted = np.arange(source.record) < source.counts[first:last, None]
+    row, section = np.nonzero(counted)
+    yield Column("point", "", first + row)
+    for at, one in enumerate(source.parameters):
+        yield Column(one.name, one.unit, source.values[first + row, at])
+    yield Column("section", "", section)
+    yield Column("time", "s", source.section_times(first, last)[counted])
+    wanted = choose(None if channels is None else ",".join(channels), _names(source.observables))
+    units = {one.name: one.unit for one in source.observables}
+    for name in wanted:
+        yield Column(name, units[name], source.sections(name, first, last)[counted])
+
+
+def _of_points(source: "StudySource", part: slice) -> Iterator[Column]:
+    yield Column("point", "", np.arange(part.start, part.stop))
+    for name, words in words_of_points(source).items():
+        yield Column(name, "", np.array(words[part], np.str_))
+    for at, one in enumerate(source.parameters):
+        yield Column(one.name, one.unit, source.values[part, at])
+    meanings: Mapping[str, Any] = source.attributes.get("meanings", {})
+    units = {name: str(unit) for name, (unit, _) in meanings.items()}
+    for title, values in columns_of_points(source, _names(source.channels), units).items():
+        found = re.fullmatch(r"(.*) \[(.*)\]", title)
+        name, unit = found.groups() if found else (title, "")
+        yield Column(name, unit, values[part])
+
+
+def _names(described: Sequence[Any]) -> list[str]:
+    return [one.name for one in described]

@@ -1,0 +1,38 @@
+"""Arrow's stream: a column a quantity, with its ``unit`` as metadata."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from jointplay.records.table_files.column import Column
+
+SUFFIXES = (".arrows", ".arrow")
+MEDIA_TYPE = "application/vnd.apache.arrow.stream"
+NEEDS = "pyarrow"
+
+
+def encode(columns: Sequence[Column], *, complete: bool) -> bytes:
+    """Return the stream; ``complete`` is metadata of its schema."""
+    import pyarrow  # is there only with the extra
+
+    table = table_of(columns, complete=complete)
+    stream = pyarrow.BufferOutputStream()
+    with pyarrow.ipc.new_stream(stream, table.schema) as writer:
+        writer.write_table(table)
+    return bytes(stream.getvalue())
+
+
+def table_of(columns: Sequence[Column], *, complete: bool) -> Any:
+    """Return a table of pyarrow: doubles, or words."""
+    import pyarrow
+
+    types = [pyarrow.float64() if one.is_number else pyarrow.string() for one in columns]
+    fields = [
+        pyarrow.field(column.label, kind, metadata={"unit": column.unit})
+        for column, kind in zip(columns, types, strict=True)
+    ]
+    schema = pyarrow.schema(fields, metadata={"complete": str(complete).lower()})
+    arrays = [
+        pyarrow.array(column.values if column.is_number else column.values.tolist(), kind)
+        for column, kind in zip(columns, types, strict=True)
+    ]
+    return pyarrow.table(arrays, schema=schema)

@@ -1,0 +1,118 @@
+"""A job's tables in every form of file: the same numbers, bit for bit, and their units."""
+
+import csv
+import io
+import json
+import sys
+
+import numpy as np
+import pyarrow
+import pytest
+from pyarrow import parquet
+from scipy.io import loadmat
+
+import jointplay
+from jointplay import jobs
+from jointplay.records import table_files
+from jointplay.records.table_files import NotInstalled, UnknownForm, form_of
+
+
+@pytest.fixture(scope="module")
+def job(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run") / "OUT"
+    return jointplay.run("slider-crank", clearance=1e-4, duration=0.02, output=folder)
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    described = jobs.bifurcation("slider-crank", "clearance", [1e-4, 2e-4], settle=2, record=3)
+    return jointplay.run(described, output=tmp_path_factory.mktemp("study") / "OUT", processes=1)
+
+
+def of_csv(path):
+    with path.open() as file:
+        titles, *rows = csv.reader(file)
+    columns = zip(*rows, strict=True)
+    named = zip(titles, columns, strict=True)
+    return {title.split(" [")[0]: np.array(one, np.float64) for title, one in named}
+
+
+def of_json(path):
+    columns = json.loads(path.read_bytes())["columns"]
+    return {name: np.array(one["values"], np.float64) for name, one in columns.items()}
+
+
+def of_npz(path):
+    with np.load(path) as found:
+        return {name: found[name] for name in found.files if name not in ("units", "complete")}
+
+
+def of_matlab(path):
+    found = loadmat(path, simplify_cells=True)
+    return {"time": found["time"], "P.normal_force": found["P"]["normal_force"]}
+
+
+def of_arrow(path):
+    return columns_in(pyarrow.ipc.open_stream(io.BytesIO(path.read_bytes())).read_all())
+
+
+def of_parquet(path):
+    return columns_in(parquet.read_table(path))
+
+
+def columns_in(table):
+    assert table.schema.field("time").metadata == {b"unit": b"s"}
+    return {name: table[name].to_numpy() for name in table.column_names}
+
+
+READERS = {".csv": of_csv, ".json": of_json, ".npz": of_npz, ".mat": of_matlab}
+READERS |= {".arrow": of_arrow, ".arrows": of_arrow, ".parquet": of_parquet}
+
+
+def test_every_form_is_read_here():
+    assert set(READERS) == set(table_files.SUFFIXES)
+
+
+@pytest.mark.parametrize("suffix", READERS)
+def test_a_window_is_the_same_in_every_form(job, tmp_path, suffix):
+    window = job.window("P.normal_force", 0.004, 0.012)
+    path = job.export(
+        tmp_path / f"force{suffix}", channels="P.normal_force", start=0.004, stop=0.012
+    )
+    found = READERS[suffix](path)
+    np.testing.assert_array_equal(found["time"], window.time)
+    np.testing.assert_array_equal(found["P.normal_force"], window["P.normal_force"])
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".npz", ".parquet", ".mat"])
+@pytest.mark.parametrize("table", ["peaks", "impacts", "poincare"])
+def test_every_table_of_a_run_goes_into_a_file(job, tmp_path, table, suffix):
+    assert job.export(tmp_path / f"out{suffix}", table).stat().st_size > 100
+
+
+def test_words_and_numbers_of_tables_are_kept(job, study, tmp_path):
+    impacts = parquet.read_table(job.export(tmp_path / "impacts.parquet", "impacts"))
+    assert impacts["joint"].to_pylist() == job.results.impacts().joint
+    np.testing.assert_array_equal(impacts["impulse"].to_numpy(), job.results.impacts().impulse)
+    points = parquet.read_table(study.export(tmp_path / "points.parquet", "points"))
+    assert points["clearance"].to_pylist() == [1e-4, 2e-4]
+    assert points["status"].to_pylist() == ["done", "done"]
+    sections = of_npz(study.export(tmp_path / "sections.npz"))
+    assert sections["point"].tolist() == [0, 0, 0, 1, 1, 1]
+    np.testing.assert_array_equal(sections["time"], study.study().section_times().ravel())
+
+
+def test_what_no_form_is_named_for_is_refused(job, study, tmp_path):
+    with pytest.raises(UnknownForm, match=r"x\.xls: tables are written as \.csv, .* or \.parquet"):
+        job.export(tmp_path / "x.xls")
+    with pytest.raises(ValueError, match="a simulation has no table 'points'; it has history"):
+        job.export(tmp_path / "x.csv", "points")
+    with pytest.raises(ValueError, match="a study has no table 'history'"):
+        study.export(tmp_path / "x.csv", "history")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_form_that_needs_a_package_says_how_to_get_it(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises((NotInstalled, ValueError)):
+        form_of("x.parquet")
