@@ -25,12 +25,13 @@ from jointplay.solver.mechanics.rows import (
 from jointplay.solver.quantities.scalars import Scalar, Scalars, sine_cosine
 from jointplay.solver.scene.cams import CamJoint
 from jointplay.solver.scene.channels import HOLDING
-from jointplay.solver.scene.document import JournalStart, Scene
+from jointplay.solver.scene.document import GuideStart, JournalStart, Scene
 from jointplay.solver.scene.joints import Fixed, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import has_play
 from jointplay.solver.scene.references import ends
 
 CONCENTRIC = JournalStart()
+CENTRED = GuideStart()
 
 
 class AbsoluteMechanism:
@@ -124,19 +125,23 @@ class AbsoluteMechanism:
             joint, motion = self.numbers.joints[name], self._driver(name, driven)
             (_, here), (_, there) = ends(joint)
             first, second = self.marker(here, q, v), self.marker(there, q, v)
+            start = self.scene.start.guides.get(name, CENTRED)
+            aside = RESTING._replace(value=start.offset)
             if isinstance(joint, Prismatic):
+                angle = joint.angle + start.tilt if start.tilt else joint.angle
                 rows += guided_rows(
-                    name, first, second, self.axis(joint, first), joint.angle, motion
+                    name, first, second, self.axis(joint, first), angle, aside, motion
                 )
                 continue
             if isinstance(joint, PinInSlot):
                 x, y = self.axis(joint, first)
-                rows.append(projection_row(name, "normal", (-y, x), RESTING, first, second))
+                rows.append(projection_row(name, "normal", (-y, x), aside, first, second))
                 continue
             if isinstance(joint, CamJoint):
-                rows.append(
-                    lifted_row(name, first, second, lift(joint, self.ends((here, there), q, v)))
-                )
+                found = lift(joint, self.ends((here, there), q, v))
+                if start.offset:
+                    found = found._replace(value=found.value - start.offset)
+                rows.append(lifted_row(name, first, second, found))
                 continue
             rows += self._coincidence(name, first, second)
             if isinstance(joint, Fixed):

@@ -64,11 +64,12 @@ def guided_rows(
     second: Marker,
     axis: Pair,
     angle: Scalar,
+    aside: Derivatives,
     motion: Derivatives | None,
 ) -> list[Row]:
-    """Return the rows of a slider: it stays on the axis and at its angle, and moves as driven."""
+    """Return the rows of a slider: it stays beside the axis, at its angle, and moves as driven."""
     normal = (-axis[1], axis[0])
-    rows = [projection_row(name, "normal", normal, RESTING, first, second)]
+    rows = [projection_row(name, "normal", normal, aside, first, second)]
     rows.append(angle_row(name, first, second, RESTING._replace(value=angle)))
     if motion is not None:
         rows.append(projection_row(name, "along", axis, motion, first, second))

@@ -55,10 +55,22 @@ class JournalStart(Strict):
     rate: Annotated[list[Velocity], Field(min_length=2, max_length=2)] | None = None
 
 
+class GuideStart(Strict):
+    """A start of a slider, a pin or a follower off the middle of its play.
+
+    `offset` is how far its point is to the left of the axis, or of a follower away from its
+    profile; `tilt` the angle of a slider's body less that of the centred one.
+    """
+
+    offset: Length = 0.0
+    tilt: Angle = 0.0
+
+
 class Start(Strict):
     """The beginning of Newton's iteration on the geometry, and what the constraints leave free.
 
-    Journals start concentric unless `joints` says where; positions and velocities are those of the
+    Journals start concentric unless `joints` says where; sliders, pins in slots and followers in
+    the middle of their play unless `guides` does; positions and velocities are those of the
     mechanism that holds them there, but for a body whose velocity is given: its journal may move in
     its bearing from the start, and its slider move and turn in its guide. Angles choose between the
     assemblies that a mechanism allows, and so do places of points of bodies, in the world, as read
@@ -73,6 +85,7 @@ class Start(Strict):
         Field(max_length=64),
     ] = {}
     joints: Annotated[dict[Name, JournalStart], Field(max_length=128)] = {}
+    guides: Annotated[dict[Name, GuideStart], Field(max_length=128)] = {}
 
 
 class Target(Strict):

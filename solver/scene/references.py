@@ -9,7 +9,7 @@ from jointplay.records.suggestions import unknown
 from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.scene.cam_profiles import cam_problems
 from jointplay.solver.scene.cams import CamJoint
-from jointplay.solver.scene.document import Scene
+from jointplay.solver.scene.document import GuideStart, Scene
 from jointplay.solver.scene.drivers import Driver, MovingDriver
 from jointplay.solver.scene.joints import Fixed, Gear, Joint, PinInSlot, Prismatic, Revolute
 from jointplay.solver.scene.pairs import contact_pairs, has_play
@@ -131,9 +131,27 @@ def _start(scene: Scene) -> Iterator[Problem]:
         elif not isinstance(scene.joints[name], Revolute):
             yield Problem(
                 f"/start/joints/{name}",
-                f"Joint '{name}' is no journal in a bearing: what it guides starts centred; leave"
-                " it out, and give a velocity of the body instead.",
+                f"Joint '{name}' is no journal in a bearing; say where what it guides starts in"
+                " 'guides', by its 'offset' (m) and its 'tilt' (rad).",
             )
+    for name, guided in start.guides.items():
+        yield from _guided(scene, f"/start/guides/{name}", name, guided)
+
+
+def _guided(scene: Scene, place: str, name: str, start: GuideStart) -> Iterator[Problem]:
+    """Yield what is wrong with the start of what a joint with play guides."""
+    joint = scene.joints.get(name)
+    if joint is None:
+        yield Problem(place, unknown("joint", name, scene.joints))
+    elif isinstance(joint, Revolute):
+        yield Problem(place, f"'{name}' is a journal; say where it starts in 'joints'.")
+    elif not has_play(joint):
+        yield Problem(
+            place,
+            f"Joint '{name}' has no clearance, so its parts have one place; leave it out.",
+        )
+    elif start.tilt != 0.0 and not isinstance(joint, Prismatic):
+        yield Problem(f"{place}/tilt", f"What joint '{name}' guides may turn; leave the tilt out.")
 
 
 def _parameters(scene: Scene) -> Iterator[Problem]:

@@ -157,7 +157,17 @@ BAD: dict[str, tuple[dict[str, Any], str, list[str]]] = {
             "/start/joints": {"guide": {"eccentricity": [0.0, 1e-3]}},
         },
         "/start/joints/guide",
-        ["what it guides starts centred", "give a velocity of the body"],
+        ["no journal in a bearing", "starts in 'guides', by its 'offset' (m)"],
+    ),
+    "a start of a guide without play": (
+        {"/joints/guide": GUIDE, "/start/guides": {"guide": {"offset": 1e-3}}},
+        "/start/guides/guide",
+        ["has no clearance", "leave it out"],
+    ),
+    "a start of a journal in a guide": (
+        {"/joints/B/clearance": PLAY, "/start/guides": {"B": {"offset": 1e-4}}},
+        "/start/guides/B",
+        ["'B' is a journal; say where it starts in 'joints'."],
     ),
     "a cam that is no cam after a turn": (
         {"/joints/cam": FACE | {"profile": WAVE | {"frequency": 1.5}}},

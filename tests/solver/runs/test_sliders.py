@@ -56,6 +56,19 @@ def test_a_block_that_turns_is_thrown_back_by_two_opposite_corners() -> None:
     assert one["impulse"] == pytest.approx(inertia * spin / arm, rel=5e-3)
 
 
+def test_a_block_starts_where_it_is_put_and_strikes_so_much_sooner() -> None:
+    speed, offset, tilt = 0.5, 4e-4, 2e-3
+    scene = thrown(block(restitution=1.0, friction=SMOOTH), 0.3, speed)
+    scene["start"]["guides"] = {"guide": {"offset": offset, "tilt": tilt}}
+    found = run(scene, 0.003, tolerance=1e-8)
+    assert found["block.y"][0] == pytest.approx(offset, rel=1e-12)
+    assert found["block.theta"][0] == pytest.approx(tilt, rel=1e-12)
+    # the first corner is l sin(a) / 2 - h (1 - cos(a)) / 2 higher than the centred one
+    higher = LENGTH / 2.0 * math.sin(tilt) - HEIGHT / 2.0 * (1.0 - math.cos(tilt))
+    first = found.contacts("guide.corner_1")[0]
+    assert first["onset"] == pytest.approx((CLEARANCE - offset - higher) / speed, rel=1e-7)
+
+
 @pytest.mark.parametrize(
     "scene",
     ["block", "bead", pytest.param("swinging", marks=pytest.mark.long)],
