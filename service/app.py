@@ -20,17 +20,19 @@ import jointplay.service.results.endpoints
 import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from jointplay.service import estimates, events, health, laws, problems, scenes, schemas
+from jointplay.service import estimates, events, health, laws, metrics, problems, scenes, schemas
 from jointplay.service.access import needs
 from jointplay.service.access.door import Door
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.jobs.waiting import Watcher
+from jointplay.service.metrics import registry_of
 from jointplay.service.prober import Prober
 from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
+from jointplay.service.readiness import Readiness
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.windows import WindowProcess
 from jointplay.solver.kinds import KINDS, any_job
@@ -58,6 +60,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),
     (jointplay.service.zarr.endpoints, _RESULTS),
+    (metrics, needs("metrics")),
 )
 _OPEN = (
     scenes,
@@ -89,6 +92,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         catalogue.migrate()
         app.state.catalogue = catalogue
         app.state.door = Door(catalogue, settings)
+        app.state.readiness = Readiness(catalogue, settings)
+        app.state.registry = registry_of(catalogue)
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
         app.state.prober = prober = Prober()

@@ -1,16 +1,17 @@
 """``/healthz``: the process lives; ``/readyz``: it can take and answer requests."""
 
 import logging
-import os
-from typing import Literal
+from typing import Annotated, Literal
 
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 from sqlalchemy.exc import SQLAlchemyError
 
-from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import kinds, problems, unavailable
+from jointplay.service.readiness import Readiness
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.places.fitness import Unfit
 
 router = APIRouter(tags=["health"])
 _log = logging.getLogger(__name__)
@@ -29,16 +30,17 @@ async def is_alive() -> Health:
 
 
 @router.get("/readyz", responses=problems(kinds.UNAVAILABLE))
-def is_ready(catalogue: CatalogueDependency, settings: SettingsDependency) -> Health:
-    """Answer whether the catalogue can be read and the results' folder be written.
+def is_ready(readiness: Annotated[Readiness, of_the_application("readiness")]) -> Health:
+    """Write to the catalogue and to the data folder, and read it again.
 
     Redis is not asked: jobs are accepted without it, and start when it is back.
     """
     try:
-        catalogue.ping()
+        readiness.prove()
     except (Unavailable, SQLAlchemyError, RuntimeError) as error:
-        _log.warning("the catalogue does not answer", exc_info=error)
-        raise unavailable("The catalogue does not answer.", 5) from error
-    if not os.access(settings.data, os.R_OK | os.W_OK):
-        raise unavailable("The results' folder cannot be written.", 5)
+        _log.warning("the catalogue does not do as asked", exc_info=error)
+        raise unavailable("The catalogue cannot be written.", 5) from error
+    except (OSError, Unfit) as error:
+        _log.warning("results cannot be stored", exc_info=error)
+        raise unavailable("Results cannot be stored.", 5) from error
     return Health()

@@ -14,6 +14,7 @@ from sqlalchemy.exc import DBAPIError
 from jointplay.storage.catalogue import (
     adoption,
     batches,
+    census,
     disagreements,
     ending,
     holding,
@@ -267,6 +268,7 @@ class Catalogue:
     adopt = _durably(adoption.adopt)
     newest_event = _reading(listing.newest_event)
     known_blocks = _reading(listing.known_blocks)
+    census = _reading(census.census)
     leader = _reading(upkeep.leader)
     take_lead = _writing(upkeep.take_lead)
     release_lead = _writing(upkeep.release_lead)

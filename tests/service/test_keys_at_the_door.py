@@ -18,7 +18,7 @@ from tests.service_in_thread import Worker, serving
 
 SWING = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 USUAL = ["jobs:write", "jobs:read", "results:read"]
-OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/laws", "/v1/schemas", "/problems", "/metrics")
+OPEN = ("/healthz", "/readyz", "/v1/scenes", "/v1/laws", "/v1/schemas", "/problems")
 IDS = {
     "job_id": "",
     "batch_id": "",

@@ -1,0 +1,90 @@
+"""``/metrics``: what Prometheus asks for, of the catalogue and of this process."""
+
+import time
+from collections.abc import Iterator
+from threading import Lock
+from typing import Annotated, Any, Final
+
+from fastapi import APIRouter, Depends, Request, Response
+from prometheus_client import CollectorRegistry, PlatformCollector, ProcessCollector
+from prometheus_client.exposition import CONTENT_TYPE_LATEST, generate_latest
+from prometheus_client.metrics_core import GaugeMetricFamily, Metric
+from prometheus_client.registry import Collector
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.census import Census
+from jointplay.storage.catalogue.records import JobState
+
+router = APIRouter(include_in_schema=False)
+_REMEMBERED: Final = 5.0
+"""Seconds for which the catalogue is not counted again, whoever asks."""
+
+
+class Counted(Collector):
+    """The catalogue's numbers."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        self._catalogue = catalogue
+        self._turn = Lock()
+        self._known: tuple[float, Census] | None = None
+
+    def collect(self) -> Iterator[Metric]:
+        """Yield a family of numbers each; `storage.catalogue.errors.Unavailable` may be raised."""
+        found = self._census()
+        yield _family("jobs", "Jobs that have not ended.", "state", found.jobs)
+        queues = found.waiting.items()
+        blocks = {name: queue.blocks for name, queue in queues}
+        yield _family("blocks_waiting", "Blocks that no worker has taken.", "queue", blocks)
+        longest = {name: queue.longest for name, queue in queues}
+        said = "Time that the first block of a queue has waited."
+        yield _family("longest_wait_seconds", said, "queue", longest)
+        yield _single("blocks_running", "Blocks that a worker has.", found.running)
+        yield _single("blocks_overdue", "Blocks whose lease ran out.", found.overdue)
+        said = "Workers that blocks which have not ended lost in a row."
+        yield _single("losses", said, found.losses)
+        said = "Wake-ups that were sent and not answered yet."
+        yield _single("wake_ups_on_the_way", said, found.on_the_way)
+        ahead = self._catalogue.clock() - time.time()
+        said = "Clock of the catalogue less that of this machine."
+        yield _single("clock_ahead_seconds", said, ahead)
+
+    def describe(self) -> list[Metric]:
+        """Return nothing: registering shall not ask the catalogue."""
+        return []
+
+    def _census(self) -> Census:
+        with self._turn:
+            if self._known is None or time.monotonic() > self._known[0] + _REMEMBERED:
+                self._known = time.monotonic(), self._catalogue.census()
+            return self._known[1]
+
+
+def registry_of(catalogue: Catalogue) -> CollectorRegistry:
+    """Return what is shown at `/metrics`."""
+    registry = CollectorRegistry()
+    registry.register(Counted(catalogue))
+    ProcessCollector(registry=registry)
+    PlatformCollector(registry=registry)
+    return registry
+
+
+def _single(name: str, said: str, value: float) -> Metric:
+    return GaugeMetricFamily(f"jointplay_{name}", said, value=value)
+
+
+def _family(name: str, said: str, label: str, values: Any) -> Metric:
+    family = GaugeMetricFamily(f"jointplay_{name}", said, labels=[label])
+    for key, value in values.items():
+        family.add_metric([key.value if isinstance(key, JobState) else key], value)
+    return family
+
+
+async def _registry(request: Request) -> CollectorRegistry:
+    found: CollectorRegistry = request.app.state.registry
+    return found
+
+
+@router.get("/metrics")
+def show_metrics(registry: Annotated[CollectorRegistry, Depends(_registry)]) -> Response:
+    """Show the numbers in the text format that Prometheus reads."""
+    return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)

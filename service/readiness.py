@@ -1,0 +1,61 @@
+"""Whether a service can store and read, found out by doing it."""
+
+import errno
+import os
+import socket
+import time
+from threading import Lock
+from typing import Final
+
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.places.fitness import require_fit
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.settings import Settings
+
+_PLACE_PERIOD: Final = 30.0  # s; five requests to another server
+_AT_ONCE: Final = 0.0  # s that this process leads: the next one that proves it may write, too
+
+
+class Readiness:
+    """Writes and reads, for one at a time."""
+
+    def __init__(self, catalogue: Catalogue, settings: Settings) -> None:
+        self._catalogue, self._settings = catalogue, settings
+        self._name = f"{socket.gethostname()}:{os.getpid()}"
+        self._turn = Lock()
+        self._place_proved: float | None = None
+
+    def prove(self) -> None:
+        """Store something in the catalogue and in the data folder; ask the place for results.
+
+        Raises
+        ------
+        jointplay.storage.catalogue.errors.Unavailable, RuntimeError
+            The catalogue cannot be written, or has another schema.
+        OSError
+            The data folder, or the place, cannot be written.
+        """
+        with self._turn:
+            self._catalogue.ping()
+            self._catalogue.take_lead("readiness", self._name, _AT_ONCE)
+            self._write()
+            if not isinstance(self._settings.place, Folder):
+                self._try_place()
+
+    def _write(self) -> None:
+        data = self._settings.data
+        path = data / "running" / f".{os.getpid()}.trial"
+        if not data.is_dir():
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(data))
+        path.parent.mkdir(exist_ok=True)
+        try:
+            path.write_bytes(b"trial")
+            if path.read_bytes() != b"trial":
+                raise OSError(errno.EIO, os.strerror(errno.EIO), str(path))
+        finally:
+            path.unlink(missing_ok=True)
+
+    def _try_place(self) -> None:
+        if self._place_proved is None or time.monotonic() > self._place_proved + _PLACE_PERIOD:
+            require_fit(self._settings.place)
+            self._place_proved = time.monotonic()

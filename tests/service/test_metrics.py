@@ -1,0 +1,98 @@
+"""What Prometheus is shown, and whether the service says that it is ready."""
+
+import shutil
+from pathlib import Path
+
+import httpx
+import pytest
+from prometheus_client.parser import text_string_to_metric_families
+
+from jointplay.service import metrics
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.settings import Settings
+from tests.service_in_thread import serving
+
+NEW = NewJob("simulate", {}, "d" * 64, "1")
+
+
+@pytest.fixture(autouse=True)
+def forgetful(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(metrics, "_REMEMBERED", 0.0)
+
+
+def shown(answer: httpx.Response) -> dict[str, float]:
+    """Read it as Prometheus does; names are those of a number with its label."""
+    assert answer.status_code == 200
+    return {
+        " ".join([sample.name, *sample.labels.values()]): sample.value
+        for family in text_string_to_metric_families(answer.text)
+        for sample in family.samples
+    }
+
+
+def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path)
+    with (
+        serving(create_app(settings)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
+        before = shown(http.get("/metrics"))
+        assert before["jointplay_jobs queued"] == before["jointplay_blocks_running"] == 0
+        catalogue = Catalogue(settings.catalogue_url)
+        jobs = [catalogue.submit(NEW).job.id for _ in range(5)]
+        for job in jobs[:3]:
+            assert catalogue.claim_block(f"{job}-0", "worker", 0.0 if job == jobs[0] else 60.0)
+        catalogue.release(f"{jobs[2]}-0", 1)
+        catalogue.mark_published((f"{jobs[3]}-0",), 20.0)
+        found = shown(http.get("/metrics"))
+        assert found["jointplay_jobs queued"] == 2
+        assert found["jointplay_jobs running"] == 3
+        assert found["jointplay_blocks_waiting jobs"] == 2
+        assert found["jointplay_blocks_waiting recovered"] == 1
+        assert found["jointplay_longest_wait_seconds jobs"] >= 0
+        assert found["jointplay_blocks_running"] == 2
+        assert found["jointplay_blocks_overdue"] == 1
+        assert found["jointplay_wake_ups_on_the_way"] == 1
+        assert abs(found["jointplay_clock_ahead_seconds"]) < 1
+        assert found["process_resident_memory_bytes"] > 1e6
+        assert catalogue.reap(3).requeued == (f"{jobs[0]}-0",)
+        assert shown(http.get("/metrics"))["jointplay_losses"] == 1
+        catalogue.close()
+
+
+def test_numbers_need_a_key_for_them(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    keys = {scope: catalogue.make_key("ada", [scope], "", None)[0] for scope in ("metrics",)}
+    keys["results:read"] = catalogue.make_key("ada", ["results:read"], "", None)[0]
+    with serving(create_app(settings)) as url:
+        answers = {
+            scope: httpx.get(
+                f"{url}/metrics",
+                headers={"Authorization": key and f"Bearer {key}"},
+                trust_env=False,
+            ).status_code
+            for scope, key in (keys | {"": ""}).items()
+        }
+    assert answers == {"metrics": 200, "results:read": 403, "": 401}
+    catalogue.close()
+
+
+def test_ready_is_who_can_write(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path / "data")
+    with (
+        serving(create_app(settings)) as url,
+        httpx.Client(base_url=url, trust_env=False, timeout=60) as http,
+    ):
+        assert http.get("/readyz").status_code == 200
+        assert not list((tmp_path / "data" / "running").iterdir())
+        shutil.rmtree(tmp_path / "data" / "running")
+        (tmp_path / "data" / "running").write_text("a file where a folder has to be")
+        answer = http.get("/readyz")
+        assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
+        assert answer.json()["detail"] == "Results cannot be stored."
+        (tmp_path / "data" / "running").unlink()
+        assert http.get("/readyz").status_code == 200
