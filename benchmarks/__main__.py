@@ -24,6 +24,7 @@ ALL = (
     "memory",
     "hostile",
     "start",
+    "first_hour",
     "compilation",
     "results_store",
     "results_http",

@@ -1,8 +1,7 @@
 """Time to a first result: the first run after installation, and the second one.
 
-The first compiles everything into an empty cache and draws the figures; the second is a whole
-process again, from the interpreter's start to its end: imports, one revolution of the press, the
-stored results, the figures.
+The first compiles everything into an empty cache; the second is a whole process again, from the
+interpreter's start to its end: imports, one revolution of the press, the stored results.
 """
 
 import os
@@ -35,7 +34,7 @@ def main() -> None:
         cache = str(Path(folder) / "cache")
         first = run(cache, Path(folder) / "first")
         seconds = [run(cache, Path(folder) / f"again{i}") for i in range(REPEATS)]
-    print(f"first run, kernels compiled, figures drawn   {first:6.2f} s")
+    print(f"first run, kernels compiled                  {first:6.2f} s")
     print(
         f"further runs, median of {REPEATS}                    {statistics.median(seconds):6.2f} s"
     )

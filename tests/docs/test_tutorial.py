@@ -12,7 +12,9 @@ from jointplay.command_line.application import run
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "tutorial.md").read_text()
-BLOCKS = re.findall(r"^```(json|bash|text)\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"^```(json|bash|text)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+IDEAL = PAGE.partition("## 5.")[0]
+"""Steps that compile nothing; equations with play take half a minute of processor time."""
 CLOSE = 1e-3
 """Relative: what other processors may change of printed numbers."""
 
@@ -40,12 +42,12 @@ def alike(word: str, other: str) -> bool:
         return word == other
 
 
-def test_its_commands_print_its_numbers_and_draw_its_figures(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def followed(page: str, capsys: pytest.CaptureFixture[str]) -> int:
+    """Do what a page says in this folder; return how many of its lines were printed."""
     scene: Any = {}
     printed = ""
     told = 0
-    for language, text in BLOCKS:
+    for language, text in BLOCK.findall(page):
         if language == "json":
             scene = merged(scene, json.loads(text))
             Path("mine.json").write_text(json.dumps(scene))
@@ -60,6 +62,18 @@ def test_its_commands_print_its_numbers_and_draw_its_figures(tmp_path, monkeypat
             for line in text.splitlines():
                 assert said(line, printed), f"{line}\n--- not in ---\n{printed}"
                 told += 1
-    assert told >= 6
+    return told
+
+
+def test_its_first_steps_print_its_numbers(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert followed(IDEAL, capsys) == 3
+    assert Path("mine.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.long
+def test_all_of_its_commands_print_its_numbers_and_draw_its_figures(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert followed(PAGE, capsys) == 6
     figures = {path.name for path in Path("figures").iterdir()}
     assert {"contact-force.png", "orbit.png", "swing.pdf", "bifurcation.png"} <= figures
