@@ -148,7 +148,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
                 for body in adrift
             ]
         )
-    _check_gears(scene, tree, assembly)
+    _check_gears(scene, assembly)
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
         _check_redundant(scene, assembly)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
@@ -156,22 +156,18 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     return tree, assembly
 
 
-def _check_gears(scene: Scene, tree: Tree, assembly: Assembly) -> None:
-    """Refuse (InvalidInput) a gear of a body that drivers turn: its angle is known up to turns."""
-    turned: set[str] = set()
-    for branch in tree.branches:
-        prescribed = branch.turned_by or (branch.driver and branch.kind == "revolute")
-        own = f"{branch.body}.theta" in tree.coordinates
-        if not own and (prescribed or branch.parent in turned):
-            turned.add(branch.body)
+def _check_gears(scene: Scene, assembly: Assembly) -> None:
+    """Refuse (InvalidInput) gears where nothing is left to move: poses are followed by turns."""
+    if assembly.freedom_with_play:
+        return
     for name, gear in scene.gears.items():
         bodies = {body for _, body in coupled(scene, gear)}
-        if not assembly.freedom or bodies & turned:
-            raise InvalidInput.at(
-                f"/scene/gears/{name}",
-                f"Drivers turn what the gear '{name}' couples ({', '.join(sorted(bodies))}); leave"
-                " the gear out and drive both joints, or turn it by a torque instead.",
-            )
+        raise InvalidInput.at(
+            f"/scene/gears/{name}",
+            f"Drivers turn what the gear '{name}' couples ({', '.join(sorted(bodies))}), and"
+            " nothing else is left to move; leave the gear out and drive both joints, or turn it by"
+            " a torque instead.",
+        )
 
 
 def _redundant_while_held(scene: Scene, assembly: Assembly) -> bool:

@@ -175,7 +175,7 @@ def _gear_row(kinematics: Kinematics, name: str) -> ClosingRow:
     bias: Scalar = 0.0
     for factor, body in coupled(kinematics.numbers, gear):
         frame = kinematics.carried[body]
-        value, rate = value + factor * frame.angle, rate + factor * frame.spin
+        value, rate = value + factor * kinematics.whole_angle(body), rate + factor * frame.spin
         bias = bias + factor * frame.spin_bias
         for coordinate, share in frame.spin_partials.items():
             partials[coordinate] = partials.get(coordinate, 0.0) + factor * share

@@ -7,6 +7,7 @@ coordinates and of the drivers, its acceleration Σ partial_i u̇_i + bias.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Orientations, Pair, unit
@@ -47,12 +48,15 @@ class Kinematics:
         position: Mapping[str, Scalar],
         speed: Mapping[str, Scalar],
         driven: Mapping[str, Scalar],
+        wound: Mapping[str, Scalar] = MappingProxyType({}),
     ) -> None:
         """Walk the tree.
 
-        `position` and `speed` by coordinate name; `driven` the clock of each driver.
+        `position` and `speed` by coordinate name; `driven` the clock of each driver; `wound` whole
+        turns of bodies that the angles of drivers leave out, rad.
         """
         self.tree = tree
+        self.wound = wound
         self.numbers = numbers
         self.orientations = Orientations()
         self.position = position
@@ -64,6 +68,11 @@ class Kinematics:
         self.carried: dict[str, Carried] = {WORLD: ground}
         for branch in tree.branches:
             self.carried[branch.body] = self._carry(branch)
+
+    def whole_angle(self, body: str) -> Scalar:
+        """Return the angle of a body, whole turns included, rad."""
+        angle = self.carried[body].angle
+        return angle + self.wound[body] if body in self.wound else angle
 
     def arm(self, body: str, point: str) -> FrameVector:
         """Return the vector from a body's reference point to a named point."""

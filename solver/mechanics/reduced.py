@@ -40,10 +40,9 @@ class ReducedMechanism:
         wound: Mapping[str, Scalar] = NOTHING,
     ) -> None:
         """`driven`: all clocks; `wound`: whole turns of bodies that drivers turn, rad."""
-        self.wound = wound
         self.tree = tree
         self.numbers = numbers
-        self.kinematics = Kinematics(tree, numbers, position, speed, driven)
+        self.kinematics = Kinematics(tree, numbers, position, speed, driven, wound)
 
     def motion(
         self,
@@ -109,12 +108,8 @@ class ReducedMechanism:
             (end_rate + start_rate.scaled(-1.0)).world(),
             (k.carried[here].spin, k.carried[there].spin),
             (k.orientations.cosine_sine[here], k.orientations.cosine_sine[there]),
-            (self._angle(here), self._angle(there)),
+            (k.whole_angle(here), k.whole_angle(there)),
         )
-
-    def _angle(self, body: str) -> Scalar:
-        angle = self.kinematics.carried[body].angle
-        return angle + self.wound[body] if body in self.wound else angle
 
     def _accelerations(self, loads: Loads) -> list[Scalar]:
         """Solve M q̈ = Q."""

@@ -111,9 +111,9 @@ class Fixed(Strict):
 class Gear(Strict):
     """Gears or a belt: the second joint's angle is `ratio` times the first's, plus `offset`.
 
-    Both joints are revolute, not driven; an angle is the journal body's less the bearing body's. An
-    external pair of wheels with radii R_1 and R_2 has the ratio -R_1 / R_2, a belt or an internal
-    one R_1 / R_2.
+    Both joints are revolute; a driver may turn one, if something else is left to move. An angle is
+    the journal body's less the bearing body's. An external pair of wheels with radii R_1 and R_2
+    has the ratio -R_1 / R_2, a belt or an internal one R_1 / R_2.
     """
 
     first: Name

@@ -219,7 +219,6 @@ def _points(
 
 
 def _gear(scene: Scene, place: str, gear: Gear) -> Iterator[Problem]:
-    driven = {driver.joint: name for name, driver in scene.drivers.items()}
     for field, name in (("first", gear.first), ("second", gear.second)):
         joint = scene.joints.get(name)
         if joint is None:
@@ -229,12 +228,6 @@ def _gear(scene: Scene, place: str, gear: Gear) -> Iterator[Problem]:
                 f"{place}/{field}",
                 f"The bodies of joint '{name}' do not turn against each other: it is"
                 f" {joint.type}; couple revolute joints.",
-            )
-        elif name in driven:
-            yield Problem(
-                f"{place}/{field}",
-                f"Joint '{name}' is driven by '{driven[name]}' already; leave the gear out and"
-                " drive the other joint, too.",
             )
     if gear.first == gear.second:
         yield Problem(f"{place}/second", f"A gear couples two joints, and '{gear.second}' is one.")
