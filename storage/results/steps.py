@@ -118,6 +118,10 @@ class StoredSteps:
         """Return when steps (n, columns) begin, s."""
         return np.asarray(steps[:, PERIOD] * self.period + steps[:, TIME])
 
+    def begin(self, step: int) -> float:
+        """Return when one step begins, s."""
+        return float(self._begins(step, 1)[0])
+
     def around(self, start: float, stop: float) -> tuple[int, int]:
         """Find the steps [first, last) that a window needs; `stop` must be within the steps."""
         first = max(self._first_behind(start) - 2, 0)  # the step that ends there, too

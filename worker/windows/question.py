@@ -1,7 +1,10 @@
 """A question for values or extremes of a trajectory: all that an answer needs, as plain data."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from jointplay.records.arrays import Floats
 
@@ -34,3 +37,13 @@ class Answer:
     """The last steps did not end where the run went on, bit for bit: another processor rounds."""
     refused: str = ""
     """A sentence, where the steps cannot be made again here."""
+
+
+def together(answers: Sequence[Answer]) -> Answer:
+    """Return the answers to the pieces of a window as one; a refusal if any is one."""
+    found = []
+    for one in answers:
+        if one.values is None:
+            return one
+        found.append(one.values)
+    return Answer(np.concatenate(found), rounded=any(one.rounded for one in answers))

@@ -1,16 +1,21 @@
 """A stored run read at any time: finds the steps that a window needs, and asks for the rest."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.storage.results.reader import ResultReader
-from jointplay.worker.windows.question import Answer, Question
+from jointplay.worker.windows.pieces import between, folded
+from jointplay.worker.windows.question import Answer, Question, together
 
-MOST_STEPS = 300_000
-"""Steps of one window, each counted once and a tenth for each channel: some 0.4 s of computing."""
+AT_ONCE = 200_000
+"""Steps of one question, each counted once and a tenth for each channel: 0.3 s of computing."""
+MOST_PIECES = 12
+"""Questions of one window: others' are answered between them."""
 A_CHANNEL = 0.1
 MOST_INSTANTS = 200_000
 """Instants of an ideal motion in one window: as long."""
@@ -47,25 +52,44 @@ class Trajectory:
         """Return channels (m, names) at ascending times (m,), s: the bits that samples have."""
         if not len(times):
             return Answer(np.empty((0, len(names))))
-        refused, steps = self._steps(names, float(times[0]), float(times[-1]), len(times))
-        if refused:
-            return Answer(None, refused=refused)
-        return self._ask(Question(self._job, tuple(names), steps, times=times))
+        pieces = self._pieces(names, float(times[0]), float(times[-1]), len(times))
+        if isinstance(pieces, str):
+            return Answer(None, refused=pieces)
+        behind = np.searchsorted(times, [high for _, high in pieces], side="right")
+        behind[-1] = len(times)
+        answers = []
+        for first, last in pairwise([0, *behind]):
+            if last > first:
+                steps = self._steps(float(times[first]), float(times[last - 1]))
+                question = Question(self._job, tuple(names), steps, times=times[first:last])
+                answers.append(self._ask(question))
+        return together(answers)
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Answer:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time."""
         start, stop = float(edges[0]), float(edges[-1])
-        refused, steps = self._steps(names, start, stop, 8 * len(edges))
-        if refused:
-            return Answer(None, refused=refused)
+        pieces = self._pieces(names, start, stop, 8 * len(edges))
+        if isinstance(pieces, str):
+            return Answer(None, refused=pieces)
         ranges = self._ranges(names, start, stop)
-        return self._ask(Question(self._job, tuple(names), steps, edges=edges, ranges=ranges))
+        answers, begins = [], []
+        for low, high in pieces:
+            parts = edges if len(pieces) == 1 else between(edges, low, high)
+            steps = self._steps(low, high)
+            asked = Question(self._job, tuple(names), steps, edges=parts, ranges=ranges)
+            answers.append(self._ask(asked))
+            begins.append(parts[:-1])
+        found = together(answers)
+        if found.values is None:
+            return found
+        return replace(found, values=folded(edges, np.concatenate(begins), found.values))
 
     def instants(self, start: float, stop: float, most: int) -> Floats | None:
         """Return times, s: `PARTS` in each step, or even ones of a motion without steps."""
-        refused, steps = self._steps((), start, stop, most)
-        if refused:
+        pieces = self._pieces((), start, stop, most)
+        if isinstance(pieces, str) or len(pieces) > 1:
             return None
+        steps = self._steps(start, stop)
         if steps is None or self._reader.steps is None:
             return np.linspace(start, stop, min(most, EVEN))
         begins = self._reader.steps.begins(steps)
@@ -80,32 +104,35 @@ class Trajectory:
     def _job(self) -> dict[str, object]:
         return dict(self._reader.attributes["job"])
 
-    def _steps(
+    def _pieces(
         self, names: Sequence[str], start: float, stop: float, instants: int
-    ) -> tuple[str, Floats | None]:
-        """Return the steps around a window, or a sentence that says why there are none."""
+    ) -> list[tuple[float, float]] | str:
+        """Return the times between which steps are read at once, or why there are none."""
         if start < 0.0 or stop > self.reached * (1.0 + ROUNDING):
-            return f"The run has been computed from 0 to {self.reached:.9g} s.", None
+            return f"The run has been computed from 0 to {self.reached:.9g} s."
         if self._reader.attributes.get("exact") == "motion":
-            if instants > MOST_INSTANTS:
-                return f"An answer has at most {MOST_INSTANTS} instants; ask for fewer.", None
-            return "", None
-        most = int(MOST_STEPS / (1.0 + A_CHANNEL * len(names)))
-        return self._stored_steps(start, stop, most)
-
-    def _stored_steps(self, start: float, stop: float, most: int) -> tuple[str, Floats | None]:
+            too_many = instants > MOST_INSTANTS
+            refusal = f"An answer has at most {MOST_INSTANTS} instants; ask for fewer."
+            return refusal if too_many else [(start, stop)]
         stored = self._reader.steps
         if stored is None or not stored.count:
-            return "The job keeps no steps, only samples; see its field 'steps_limit'.", None
+            return "The job keeps no steps, only samples; see its field 'steps_limit'."
         if stop > stored.end * (1.0 + ROUNDING):
             limit = self._reader.attributes["job"].get("steps_limit", 0)
             sentence = f"Steps are kept up to {stored.end:.6g} s, within {limit:g} bytes"
-            return f"{sentence}; beyond there are samples. See 'steps_limit'.", None
+            return f"{sentence}; beyond there are samples. See 'steps_limit'."
+        at_once = int(AT_ONCE / (1.0 + A_CHANNEL * len(names)))
         first, last = stored.around(start, stop)
-        if last - first > most:
-            sentence = f"The window has {last - first} steps, of so many channels at most {most}"
-            return f"{sentence} are read at once; a shorter one is exact.", None
-        return "", stored.read(first, last)
+        if last - first > MOST_PIECES * at_once:
+            sentence = f"The window has {last - first} steps; of {len(names)} channels at most"
+            return f"{sentence} {MOST_PIECES * at_once} are read. A shorter one is exact."
+        cuts = [stored.begin(k) for k in range(first + at_once, last, at_once)]
+        return list(pairwise([start, *(cut for cut in cuts if start < cut < stop), stop]))
+
+    def _steps(self, start: float, stop: float) -> Floats | None:
+        """Return the steps around a piece of a window; None: the motion needs none."""
+        stored = self._reader.steps
+        return None if stored is None else stored.read(*stored.around(start, stop))
 
     def _ranges(self, names: Sequence[str], start: float, stop: float) -> Floats:
         """Return the range (names,) of each channel, against which extremes are sharp."""

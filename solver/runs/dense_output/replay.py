@@ -18,6 +18,8 @@ from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
 
 LANE = 0
+BEHIND = 1e-6
+"""Share of the last step by which an instant may be behind it: rounding of its time."""
 LOOKED_AT = 8
 """Steps whose ends are compared with what follows."""
 
@@ -91,7 +93,10 @@ class Replay:
         """
         found = self.find(steps, moments)
         if len(found) and found[-1] == len(steps):
-            raise ValueError("the steps end before the last instant")
+            late = float(np.prod(moments[-1])) - float(self.ends(steps[-1:])[0])
+            if late > BEHIND * steps[-1, LENGTH]:
+                raise ValueError("the steps end before the last instant")
+            found = np.minimum(found, len(steps) - 1)
         rows = np.empty((len(moments), self.kernel.row.width))
         bundle = self._bundle
         states_in_steps(

@@ -10,6 +10,7 @@ from jointplay.figures.bearing_angles import loads
 from jointplay.figures.kind import Selection
 from jointplay.local.folder_job import results_in
 from jointplay.records.run import inside
+from jointplay.worker.windows import trajectory
 
 FORCE = "A.normal_force"
 PRESS = {"preset": "seven-bar-press"}
@@ -102,6 +103,23 @@ def test_windows_of_a_folder_are_those_of_a_service(job, peak):
     assert len(fine.time) == 1001
     found = job.results.peaks(0.0, 0.03)[FORCE]
     assert found.maximum <= peak.maximum * (1.0 + 1e-9)
+
+
+def test_a_long_window_is_read_in_pieces_with_the_same_result(source, monkeypatch):
+    names = [FORCE, "slider7.x", "crank1.theta"]
+    edges, times = np.linspace(0.0, 0.06, 41), np.linspace(0.0, 0.06, 777)
+    whole = source.trajectory.extremes(names, edges), source.trajectory.values(names, times)
+    monkeypatch.setattr(trajectory, "AT_ONCE", 50)
+    extremes, values = (
+        source.trajectory.extremes(names, edges),
+        source.trajectory.values(names, times),
+    )
+    assert np.array_equal(values.values, whole[1].values)
+    close = np.abs(extremes.values - whole[0].values)[:, :, ::2].max(axis=(0, 1))
+    assert np.all(close <= 1e-6 * 2186.0)
+    assert np.all(np.diff(extremes.values[:, 0, 3]) > 0.0)
+    monkeypatch.setattr(trajectory, "MOST_PIECES", 2)
+    assert "A shorter one is exact" in source.trajectory.extremes(names, edges).refused
 
 
 def test_without_steps_a_curve_is_of_samples(tmp_path):
