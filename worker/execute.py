@@ -18,7 +18,12 @@ from jointplay.solver.kernels.watched import (
     CompilationUnwanted,
 )
 from jointplay.solver.kinds import Admission
-from jointplay.solver.runs.dense_output.columns import needs_no_steps, period_of_steps, step_columns
+from jointplay.solver.runs.dense_output.columns import (
+    methods,
+    needs_no_steps,
+    period_of_steps,
+    step_columns,
+)
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
@@ -229,7 +234,7 @@ def layout_of(admission: Admission) -> ResultLayout:
             "solver_version": SOLVER_VERSION,
             "period": admission.period,
             "section_note": admission.section_note,
-            **({"exact": "motion"} if needs_no_steps(admission) else {}),
+            **({"exact": "motion"} if needs_no_steps(admission) else {"methods": methods()}),
         },
         steps=step_columns(admission),
         steps_period=period_of_steps(admission),

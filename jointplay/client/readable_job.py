@@ -88,6 +88,7 @@ class ReadableJob(TabledJob):
         stop: float | None = None,
         *,
         points: int | None = None,
+        step: float | None = None,
     ) -> Path:
         """Write a table to a file, every bit of it, in the form that its suffix names.
 
@@ -105,6 +106,8 @@ class ReadableJob(TabledJob):
             Window of time, s; of a study the first point, and the one before which to end.
         points
             Of a history, most pairs of smallest and largest values.
+        step
+            Of a history, time between instants, s.
 
         Returns
         -------
@@ -115,7 +118,7 @@ class ReadableJob(TabledJob):
         from jointplay.records.table_files import encode, form_of
 
         form_of(path)  # before anything is fetched
-        columns = columns_of(self, table, _listed(channels), start, stop, points)
+        columns = columns_of(self, table, _listed(channels), start, stop, points, step)
         file = Path(path)
         file.write_bytes(encode(file, columns, complete=self.state == "succeeded"))
         return file

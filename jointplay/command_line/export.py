@@ -33,6 +33,10 @@ def export(
             help="Most pairs of smallest and largest values, as a screen shows them.",
         ),
     ] = None,
+    step: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="Values so far apart, between samples, too."),
+    ] = None,
     form: Annotated[
         Form | None,
         typer.Option("--format", help="Text format; default what FILE ends in, or csv."),
@@ -55,17 +59,18 @@ def export(
     channels.
 
     Examples: `jointplay export OUT --channels slider7.x,A.normal_force --stop 0.1 -o press.csv`,
+    `jointplay export OUT --start 0.02 --stop 0.03 --step 1e-6 -o impact.csv`,
     `jointplay export OUT --table points -o verdicts.csv`
     """
     text_form = "json" if as_json else form
     binary = output is not None and text_form is None and _is_binary(output)
     if text_form is None and output is not None and output.suffix == ".json":
         text_form = "json"
-    asked = Asked(table, channels, start, stop, points, text_form or "csv")
+    asked = Asked(table, channels, start, stop, points, text_form or "csv", step)
     asked.check()
     with job_of(results, url) as job:
         if binary and output is not None:
-            job.export(output, table, listed(channels), start, stop, points=points)
+            job.export(output, table, listed(channels), start, stop, points=points, step=step)
             return
         text = text_of(job, asked)
         if output is None:

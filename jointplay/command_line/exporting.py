@@ -27,6 +27,7 @@ class Asked(NamedTuple):
     stop: float | None
     points: int | None
     form: Form
+    step: float | None = None
 
     def check(self) -> None:
         """Refuse windows that are none, with `Stopped`."""
@@ -35,8 +36,11 @@ class Asked(NamedTuple):
                 raise Stopped(f"{option} {time}: give a time in seconds.")
         if self.start is not None and self.stop is not None and self.start > self.stop:
             raise Stopped(f"--stop {self.stop:g} is before --start {self.start:g}; swap them.")
-        if self.points is not None and self.table not in (None, "history"):
-            raise Stopped(f"--points is of a history; {self.table} is written as it is.")
+        for option, asked in (("--points", self.points), ("--step", self.step)):
+            if asked is not None and self.table not in (None, "history"):
+                raise Stopped(f"{option} is of a history; {self.table} is written as it is.")
+        if self.step is not None and (self.points is not None or not self.step > 0.0):
+            raise Stopped("--step is a time in seconds between instants, without --points.")
 
 
 class Text(NamedTuple):
@@ -59,8 +63,8 @@ def text_of(job: "Job", asked: Asked) -> Text:
         return _rows(job, asked)
     if asked.table == "poincare":
         return _channels(job.results.sections(channels).dataset(), asked)
-    if asked.points is not None:
-        window = job.window(channels, asked.start, asked.stop, points=asked.points)
+    if asked.points is not None or asked.step is not None:
+        window = job.window(channels, asked.start, asked.stop, points=asked.points, step=asked.step)
         asked = asked._replace(channels=None, start=None, stop=None)
         return _channels(window.dataset(), asked)
     return _channels(job.results.source(channels, asked.start, asked.stop), asked)
@@ -86,7 +90,7 @@ def _rows(job: "Job", asked: Asked) -> Text:
     from jointplay.command_line.peaks import impact_lines, impact_rows, peak_lines, peak_rows
 
     if asked.table == "peaks":
-        peaks = job.results.peaks()
+        peaks = job.results.peaks(asked.start, asked.stop)
         names = _chosen(asked.channels, list(peaks))
         rows, lines = peak_rows({name: peaks[name] for name in names}), peak_lines
     else:
@@ -103,8 +107,8 @@ def _study(job: "Job", asked: Asked) -> Text:
     wanted = listed(asked.channels)
     source = job.study(wanted, wanted)
     chosen = _point_range(source.points, asked.start, asked.stop)
-    if asked.points is not None:
-        raise Stopped("--points is of simulations; this is a study.")
+    if asked.points is not None or asked.step is not None:
+        raise Stopped("--points and --step are of simulations; this is a study.")
     of_points = asked.table == "points" or not source.observables
     offered = source.channels if of_points else source.observables
     names = _chosen(asked.channels, [one.name for one in offered])
@@ -135,7 +139,7 @@ def _point_range(points: int, start: float | None, stop: float | None) -> range:
 def _comments(source: "Source | StudySource") -> list[str]:
     comments = [] if source.complete else ["incomplete: the job runs, or failed or was cancelled"]
     if not source.attributes.get("exact", True):
-        comments.append("smallest and largest values of groups of samples, two rows a group")
+        comments.append("smallest and largest values of spans of time, two rows a span")
     return comments
 
 

@@ -38,6 +38,7 @@ def columns_of(
     start: float | None = None,
     stop: float | None = None,
     points: int | None = None,
+    step: float | None = None,
 ) -> list[Column]:
     """Return the columns of a table of a job.
 
@@ -51,6 +52,8 @@ def columns_of(
         Window of time, s; of a study the first point, and the one before which to end.
     points
         Of a history, most pairs of smallest and largest values.
+    step
+        Of a history, time between instants, s.
 
     Raises
     ------
@@ -64,12 +67,12 @@ def columns_of(
     if job.is_study:
         return list(_of_study(job, table, channels, start, stop))
     if table == "peaks":
-        return list(_of_peaks(job, channels))
+        return list(_of_peaks(job, channels, start, stop))
     if table == "impacts":
         return list(_of_impacts(job, start, stop))
     if table == "poincare":
         return list(_of_window(job.results.sections(channels), start, stop))
-    return list(_of_window(job.results.window(channels, start, stop, points), None, None))
+    return list(_of_window(job.results.window(channels, start, stop, points, step), None, None))
 
 
 def _of_window(window: "Window", start: float | None, stop: float | None) -> Iterator[Column]:
@@ -79,8 +82,10 @@ def _of_window(window: "Window", start: float | None, stop: float | None) -> Ite
         yield Column(name, one.unit, one.values[shown])
 
 
-def _of_peaks(job: "ReadableJob", channels: Names) -> Iterator[Column]:
-    found = job.results.peaks()
+def _of_peaks(
+    job: "ReadableJob", channels: Names, start: float | None, stop: float | None
+) -> Iterator[Column]:
+    found = job.results.peaks(start, stop)
     names = choose(None if channels is None else ",".join(channels), list(found))
     yield Column("channel", "", np.array(names))
     yield Column("unit", "", np.array([found[name].unit for name in names]))

@@ -74,6 +74,9 @@ def test_local_results_are_exported_bit_for_bit(jointplay, press, tmp_path):
     time, columns = ResultReader(press / "results.zarr.zip").history(["slider7.vx"])
     assert (table[:, 0] == time).all()
     assert (table[:, header.index("slider7.vx [m/s]")] == columns["slider7.vx"]).all()
+    window = ("--start", "0.01", "--stop", "0.011", "--step", "1e-5")
+    assert jointplay("export", press, "--channels", "slider7.vx", *window, "-o", file).code == 0
+    assert len(file.read_text().splitlines()) == 1 + 101
     near = jointplay("export", press, "--channels", "slider7.vX")
     assert near.code == 2
     assert "slider7.vx" in near.line()

@@ -6,9 +6,9 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, SimulationFailed
+from jointplay.solver.integrators import METHODS
 from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.kinds import Admission, parse
-from jointplay.solver.runs.dense_output.columns import method_of
 from jointplay.solver.runs.dense_output.exact_motion import ExactMotion
 from jointplay.solver.runs.dense_output.replay import Replay
 from jointplay.worker.windows.question import Answer, Question
@@ -25,7 +25,10 @@ def answer(question: Question) -> Answer:
         if question.steps is None:
             return Answer(_of_motion(_motion(_Document(question.job)), question))
         (number,) = np.unique(question.steps[:, -1])
-        replay = _replay(_Document(question.job), method_of(number))
+        method = dict(enumerate(question.methods)).get(int(number))
+        if method is None or method not in METHODS:
+            return Answer(None, refused=f"This version of the solver has no method {method!r}.")
+        replay = _replay(_Document(question.job), method)
         steps = np.ascontiguousarray(question.steps[:, :-1])
         if steps.shape[1] != replay.width:
             return Answer(None, refused="This version of the solver makes other steps.")

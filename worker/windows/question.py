@@ -23,6 +23,8 @@ class Question:
     """(m,) ascending, s."""
     edges: Floats | None = None
     """(bins + 1,) ascending, s."""
+    methods: tuple[str, ...] = ()
+    """By the numbers that the last column of steps has."""
     ranges: Floats | None = None
     """(names,) range of each channel in its run; 0 where it is not known."""
 

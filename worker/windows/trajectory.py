@@ -14,7 +14,7 @@ from jointplay.worker.windows.question import Answer, Question, together
 
 AT_ONCE = 200_000
 """Steps of one question, each counted once and a tenth for each channel: 0.3 s of computing."""
-MOST_PIECES = 12
+MOST_PIECES = 4
 """Questions of one window: others' are answered between them."""
 A_CHANNEL = 0.1
 MOST_INSTANTS = 200_000
@@ -61,7 +61,7 @@ class Trajectory:
         for first, last in pairwise([0, *behind]):
             if last > first:
                 steps = self._steps(float(times[first]), float(times[last - 1]))
-                question = Question(self._job, tuple(names), steps, times=times[first:last])
+                question = self._question(names, steps, times=times[first:last])
                 answers.append(self._ask(question))
         return together(answers)
 
@@ -76,7 +76,7 @@ class Trajectory:
         for low, high in pieces:
             parts = edges if len(pieces) == 1 else between(edges, low, high)
             steps = self._steps(low, high)
-            asked = Question(self._job, tuple(names), steps, edges=parts, ranges=ranges)
+            asked = self._question(names, steps, edges=parts, ranges=ranges)
             answers.append(self._ask(asked))
             begins.append(parts[:-1])
         found = together(answers)
@@ -100,9 +100,10 @@ class Trajectory:
         lengths = np.diff(np.append(begins, stop))[:, None]
         return np.append((begins[:, None] + lengths * (np.arange(parts) / parts)).ravel(), stop)
 
-    @property
-    def _job(self) -> dict[str, object]:
-        return dict(self._reader.attributes["job"])
+    def _question(self, names: Sequence[str], steps: Floats | None, **asked: Floats) -> Question:
+        attributes = self._reader.attributes
+        methods = tuple(attributes.get("methods", ()))
+        return Question(dict(attributes["job"]), tuple(names), steps, methods=methods, **asked)
 
     def _pieces(
         self, names: Sequence[str], start: float, stop: float, instants: int

@@ -10,17 +10,21 @@ from jointplay.solver.scene.references import inner_states
 
 METHOD = "method"
 """Last column: number of the method that made the step; see `number_of`."""
-_NUMBERS = {name: number for number, name in enumerate(sorted(METHODS))}
+
+
+def methods() -> list[str]:
+    """Return the methods in the order of their numbers; stores keep it, for rosters grow."""
+    return sorted(METHODS)
 
 
 def number_of(method: str) -> float:
     """Return the number that steps of a method have in their last column."""
-    return float(_NUMBERS[method])
+    return float(methods().index(method))
 
 
 def method_of(number: float) -> str:
     """Return the method whose steps have a number."""
-    return sorted(METHODS)[int(number)]
+    return methods()[int(number)]
 
 
 def needs_no_steps(admission: Admission) -> bool:

@@ -109,7 +109,7 @@ def test_a_long_window_is_read_in_pieces_with_the_same_result(source, monkeypatc
     names = [FORCE, "slider7.x", "crank1.theta"]
     edges, times = np.linspace(0.0, 0.06, 41), np.linspace(0.0, 0.06, 777)
     whole = source.trajectory.extremes(names, edges), source.trajectory.values(names, times)
-    monkeypatch.setattr(trajectory, "AT_ONCE", 50)
+    monkeypatch.setattr(trajectory, "AT_ONCE", 150)
     extremes, values = (
         source.trajectory.extremes(names, edges),
         source.trajectory.values(names, times),
