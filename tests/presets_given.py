@@ -18,6 +18,7 @@ REQUIRED: dict[str, dict[str, float]] = {
 }
 COMPILED_AT_LENGTH = {
     "seven-bar-press-fitted",  # as the press but for the exponent and the slip velocity
+    "seven-bar-press-punching",  # as the press but for a force
     "seven-bar-test-bed",  # nearly as the press
     "four-bar",  # as the slider-crank
     "n-four-bar",  # as the double four-bar, but longer

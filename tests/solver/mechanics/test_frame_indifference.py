@@ -177,6 +177,7 @@ def test_every_preset_closes_to_rounding_with_the_freedom_it_should_have(name: s
     expected = {
         "seven-bar-press": (0, 4),
         "seven-bar-press-fitted": (0, 4),
+        "seven-bar-press-punching": (0, 4),
         "slider-crank": (0, 2),
         "bouncing-journal": (1, 3),
         "pendulum": (1, 1),

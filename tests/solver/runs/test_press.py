@@ -112,3 +112,18 @@ def test_no_short_opening_is_lost_between_step_ends(tolerance: float) -> None:
     assert found["release"][3] == pytest.approx(0.0260530, abs=1e-6)
     assert found["onset"][4] == pytest.approx(0.0262791, abs=1e-6)
     assert found["approach_rate"][4] == pytest.approx(0.002766, rel=1e-2)
+
+
+def test_the_cranks_give_the_punch_its_power_on_the_way_down_alone() -> None:
+    ideal, punching = (
+        run(name, 2.0, parameters={"clearance": 0.0}, output_step=2e-3)
+        for name in ("seven-bar-press", "seven-bar-press-punching")
+    )
+    idle, loaded = (run["drive1.power"] + run["drive4.power"] for run in (ideal, punching))
+    force, speed = punching["punch.force"], punching["slider7.vx"]
+    np.testing.assert_allclose(loaded - idle, force * speed, rtol=0.0, atol=1e-9 * 2000.0)
+    assert 1900.0 < force.max() < 2200.0  # a spline through its values swings a little over them
+    assert not force[speed < 0.0].any()
+    # once a revolution, over the sheet's 8 mm: a trapezium 6 mm wide at half its height
+    work = np.trapezoid(force * speed, punching.time)
+    assert work == pytest.approx(2000.0 * 6e-3, rel=0.03)

@@ -201,6 +201,7 @@ def test_both_formulations_give_the_same_run_across_periods_and_their_ledgers_cl
     duration = {
         "seven-bar-press": 0.05,
         "seven-bar-press-fitted": 0.05,
+        "seven-bar-press-punching": 0.05,
         "slider-crank": 0.003,
         "bouncing-journal": 0.03,
         "pendulum": 3.0,

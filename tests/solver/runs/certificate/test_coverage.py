@@ -19,6 +19,7 @@ OTHERS = {
     "n-four-bar": 0.6,
     "quick-return": 0.1,
     "seven-bar-press-fitted": 0.2,
+    "seven-bar-press-punching": 0.2,
     "seven-bar-test-bed": 0.05,
 }
 """Presets of no case, and how long each runs, s; where four-bars lie flat, at 0.71 s, the finest
