@@ -1,5 +1,6 @@
 """Extremes or statistics over the parameters of a sweep: curves over one, a map over two."""
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -26,8 +27,10 @@ _FIRST_PANELS = 4
 _PANEL_HEIGHT = 30.0  # mm
 _SINGLE_HEIGHT = 50.0
 _MAP_HEIGHT = 46.0
-_FEWEST_TICKS = 3
-"""Numbers along a colour bar."""
+_THIRDS = (1.0 / 6.0, 1.0 / 2.0, 5.0 / 6.0)
+"""Places of three long numbers along a colour bar."""
+_MOST_LETTERS = 14
+"""Letters of its numbers in all that stand apart."""
 _CONSTANT = 1e-9
 """Cells that differ by less of their value are the same."""
 _MOST_NUMBERS = 60
@@ -88,7 +91,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
     for panels, row in zip(grid, rows, strict=True):
         for axes, (which, values) in zip(panels, row.panels.items(), strict=True):
             if up:
-                label = page.in_two_lines(f"{which} {row.label}".strip())
+                label = f"{which}\n{row.label}".strip()
                 _map(figure, axes, values / row.shown.factor, label, across, up[0])
                 continue
             _curve(axes, values / row.shown.factor, across)
@@ -188,10 +191,13 @@ def _number(bar: Colorbar, values: np.ma.MaskedArray[Any, Any]) -> None:
         return
     for most in (3, 4, 5, 6):
         ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-        inside = [tick for tick in ticks if low <= tick <= high]
-        if len(inside) >= _FEWEST_TICKS:
+        inside = [float(tick) for tick in ticks if low <= tick <= high]
+        if len(inside) >= len(_THIRDS):
             break
-    bar.set_ticks(inside)
+    if sum(len(f"{tick:.6g}") for tick in inside) > _MOST_LETTERS or len(inside) < len(_THIRDS):
+        decimals = -math.floor(math.log10((high - low) * _THIRDS[0]))
+        inside = [round(low + share * (high - low), decimals) for share in _THIRDS]
+    bar.set_ticks(inside, labels=[f"{tick:.6g}".replace("-", "−") for tick in inside])
 
 
 SWEEP = StudyFigure(

@@ -287,3 +287,17 @@ def test_exponents_alone_are_drawn_with_their_verdicts():
         figures.draw(bifurcation(points=3), "exponents")
     with pytest.raises(NotDrawable, match="over one parameter"):
         figures.draw(one_point(), "exponents")
+
+
+def test_every_colour_bar_has_three_numbers_or_says_that_all_are_the_same():
+    figure = drawn_with(sweep((8, 6)), "sweep", None)
+    bars = [axes for axes in figure.axes if axes.get_gid() == page.WITHOUT_SCALE]
+    assert len(bars) == 4
+    for bar in bars:
+        low, high = sorted(bar.get_xlim())
+        shown = [
+            label.get_text()
+            for place, label in zip(bar.get_xticks(), bar.get_xticklabels(), strict=True)
+            if low <= place <= high
+        ]
+        assert len(shown) >= 3 or shown == ["0 everywhere"]
