@@ -8,7 +8,8 @@ from jointplay.solver.runs.dense_output.columns import most_steps, step_columns
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.solver.runs.study.run import StudyRun
 from jointplay.solver.runs.work_precision.run import WorkPrecisionRun
-from tests.presets_given import compiled, given
+from jointplay.solver.scene import presets
+from tests.presets_given import given
 
 LONG = {
     "andrews-squeezer": 0.3,
@@ -34,7 +35,17 @@ def estimated(http, job):
     return answer.json()
 
 
-@pytest.mark.parametrize("name", compiled())
+SAMPLED = ("bouncing-journal", "pendulum", "seven-bar-press")
+"""One of contacts without a period, one of none, one of both."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name in SAMPLED else pytest.param(name, marks=pytest.mark.long)
+        for name in presets.names()
+    ],
+)
 def test_an_estimate_is_right_within_a_factor_of_two(http, name):
     job = {"kind": "simulate", "scene": given(name), "duration": LONG.get(name, 30.0)}
     estimate = estimated(http, job)

@@ -107,7 +107,7 @@ def test_a_run_has_the_same_bits_alone_and_in_any_lane(alone: list[dict[str, byt
     assert shuffled == [alone[i] for i in order]
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(st.lists(st.integers(1, 60), min_size=1, max_size=8))
 def test_slicing_does_not_change_a_bit(budgets: list[int]) -> None:
     three = [PROBLEMS[0], PROBLEMS[2], PROBLEMS[7]]
