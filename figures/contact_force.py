@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.figures import colours, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
@@ -15,6 +15,7 @@ from jointplay.records.run import Source, inside
 _PANEL_HEIGHT = 34.0  # mm
 _REACHED = 0.99
 """Share of a contact's peak force at which a curve shows it."""
+_POINTS_OF_A_SPAN = 2
 _MOST_IMPACTS = 4000
 """Lines drawn for impacts a joint: the strongest ones."""
 
@@ -68,16 +69,22 @@ def _between_samples(
     rows = sampling.impacts_of(source, joint)
     rows = rows[inside(rows["onset"], selection.start, selection.stop)]
     rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
-    rows = rows[_missed(rows, *curve)]
+    beside = _POINTS_OF_A_SPAN if between_samples.knows(source) else 0
+    rows = rows[_missed(rows, *curve, beside)]
     rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]
     return rows["onset"], rows["peak_force"]
 
 
-def _missed(rows: NDArray[Any], time: Floats, force: Floats) -> Flags:
-    """Tell of each contact whether the curve stays below its peak."""
+def _missed(rows: NDArray[Any], time: Floats, force: Floats, beside: int) -> Flags:
+    """Tell of each contact whether the curve stays below its peak.
+
+    `beside` : points before and after it that count, where a stronger contact in the same span may
+    be drawn in its stead.
+    """
     first = np.searchsorted(time, rows["onset"], side="left")
     behind = np.searchsorted(time, rows["release"], side="right")
-    highest = [force[a:b].max(initial=0.0) for a, b in zip(first, behind, strict=True)]
+    places = zip(np.maximum(first - beside, 0), behind + beside, strict=True)
+    highest = [force[a:b].max(initial=0.0) for a, b in places]
     return np.asarray(np.array(highest) < _REACHED * rows["peak_force"], dtype=bool)
 
 
