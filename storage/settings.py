@@ -52,6 +52,12 @@ class Settings(BaseSettings):
         description="Names, separated by commas, under which an API that asks for no keys may be"
         " reached beside localhost and its addresses.",
     )
+    rate: float = Field(
+        0.0, ge=0, le=1e6, description="Requests a second of one owner of keys; 0: any number."
+    )
+    most_live: int = Field(
+        0, ge=0, le=10**9, description="Jobs of one owner that have not ended; 0: any number."
+    )
     lease: Hour = Field(30.0, description="A block whose worker is silent this long is lost.")
     heartbeat: Minutes = Field(5.0, description="A worker extends its lease this often.")
     progress_period: Minutes = Field(

@@ -10,6 +10,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.access import Caller
 from jointplay.service.access.hosts import require_own_host
+from jointplay.service.access.rates import Rates
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import KeyNotFound, Unavailable
@@ -31,10 +32,14 @@ class Door:
         self._catalogue = catalogue
         self._asks = settings.keys == "required"
         self._hosts = settings.host_names
+        self._rates = Rates(settings.rate)
         self._known: OrderedDict[str, tuple[Key, float]] = OrderedDict()
 
     async def caller(self, request: Request) -> Caller:
-        """Return who asks, or refuse: 401 without a key that opens, 403 to a foreign page."""
+        """Return who asks, or refuse.
+
+        With 401 without a key that opens, 403 to a foreign page, 429 to whoever asks too often.
+        """
         if not self._asks:
             require_own_host(request, self._hosts)
             return Caller()
@@ -48,6 +53,7 @@ class Door:
                 "This service asks for a key that is valid: Authorization: Bearer jp_...",
                 headers={"WWW-Authenticate": 'Bearer realm="jointplay"'},
             )
+        self._rates.count(key.owner)
         return Caller(key.owner, key.scopes, key.id)
 
     async def _key(self, name: str) -> Key | None:

@@ -6,7 +6,8 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
-from jointplay.service.access import CallerDependency
+from jointplay.service.access import Caller, CallerDependency
+from jointplay.service.access.rates import require_quota
 from jointplay.service.body import JobBody
 from jointplay.service.checking import Checker, check_job
 from jointplay.service.dependencies import (
@@ -64,7 +65,7 @@ async def submit_job(
     with 200 and `cached`, unless the document says `"cache": false`.
     """
     submitted = await run_in_threadpool(
-        _submit, catalogue, checker, settings, repeatable, body, caller.owner
+        _submit, catalogue, checker, settings, repeatable, body, caller
     )
     job = await patience.finished(submitted.job)
     if submitted.cached or job.state.terminal:
@@ -79,13 +80,14 @@ def _submit(
     settings: Settings,
     repeatable: Repeatable,
     body: bytes,
-    owner: str,
+    caller: Caller,
 ) -> Submitted:
     with repeatable.in_flight():
         found = checker.check(check_job, body, repeatable.path)
         (new,) = found.jobs
         key = repeatable.key_for(found.fingerprint)
-        submitted = catalogue.submit(replace(new, owner=owner), key, reuse=found.reuse)
+        require_quota(caller, catalogue, settings, 1, key)
+        submitted = catalogue.submit(replace(new, owner=caller.owner), key, reuse=found.reuse)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted

@@ -116,6 +116,7 @@ _HEADERS: dict[int, dict[str, Any]] = {
     401: {"headers": {"WWW-Authenticate": header("`Bearer`.")}},
     409: {"headers": {"Retry-After": _AGAIN}},
     416: {"headers": {"Content-Range": header("`bytes */` and the size.")}},
+    429: {"headers": {"Retry-After": header("Seconds after which to ask again.")}},
     503: {"headers": {"Retry-After": header("Seconds after which to ask again.")}},
 }
 """Headers of the problems that have a status."""

@@ -72,6 +72,19 @@ SCOPE_MISSING = _kind(
     "The key is not for this",
     "Use a key that has the scope which the problem's `detail` names.",
 )
+TOO_MANY_REQUESTS = _kind(
+    "too-many-requests",
+    429,
+    "These are too many requests",
+    "Wait for the seconds that Retry-After gives; the client does so by itself. Wait for jobs with "
+    "?wait=30 or events, and send many jobs as a batch.",
+)
+QUOTA_EXCEEDED = _kind(
+    "quota-exceeded",
+    403,
+    "These would be too many jobs at a time",
+    "Wait until some jobs have ended, or cancel some; the number is in the problem's `detail`.",
+)
 FOREIGN_HOST = _kind(
     "foreign-host",
     403,
@@ -211,12 +224,21 @@ ALL = {
     for kind in [*globals().values()]
     if isinstance(kind, ProblemKind)
 }
-OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST
+OF_THE_DOOR = KEY_MISSING, SCOPE_MISSING, FOREIGN_HOST, TOO_MANY_REQUESTS
 """Problems of every address that shows or changes jobs."""
 OF_A_JOB = UNKNOWN_JOB, EXPIRED_JOB
 """Problems of every address of a job."""
 OF_A_BODY = MALFORMED_JSON, BODY_TOO_LARGE, NOT_JSON, INVALID_JOB, LIMIT_EXCEEDED
-OF_SUBMISSIONS = *OF_A_BODY, KEY_REUSED, KEY_IN_FLIGHT, INVALID_REQUEST, UNAVAILABLE, DISK_FULL
+OF_SUBMISSIONS = (
+    *OF_A_BODY,
+    KEY_REUSED,
+    KEY_IN_FLIGHT,
+    INVALID_REQUEST,
+    UNAVAILABLE,
+    DISK_FULL,
+    SCOPE_MISSING,
+    QUOTA_EXCEEDED,
+)
 OF_STORES = (
     *OF_A_JOB,
     WRONG_KIND,

@@ -210,6 +210,7 @@ class Catalogue:
     attempts = _reading(listing.attempts_of)
     events = _reading(listing.events_of)
     statuses = _reading(listing.statuses_of)
+    is_answered = _reading(submission.is_answered)
     identical = _reading(submission.same_job)
     request_cancel = _durably(submission.request_cancel)
     cancel_batch = _durably(batches.cancel_batch)
@@ -236,6 +237,7 @@ class Catalogue:
     make_key = _durably(keys.make_key)
     revoke_key = _durably(keys.revoke_key)
     note_use_of_key = _writing(keys.note_use)
+    live_jobs = _reading(listing.live_jobs)
     all_keys = _reading(keys.all_keys)
 
     # What workers do

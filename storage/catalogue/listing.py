@@ -16,6 +16,7 @@ from jointplay.storage.catalogue.records import (
     Job,
     JobFilter,
     JobPage,
+    JobState,
     JobStatus,
 )
 
@@ -115,6 +116,13 @@ def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
         ).where(columns.id.in_(jobs))
     )
     return tuple(JobStatus(*row) for row in rows)
+
+
+def live_jobs(unit: Unit, owner: str) -> int:
+    """Count the jobs of an owner that have not ended."""
+    live = tables.job.c.state.in_([state for state in JobState if not state.terminal])
+    of_owner = select(func.count()).select_from(tables.job).where(live, tables.job.c.owner == owner)
+    return int(unit.execute(of_owner).scalar_one())
 
 
 def newest_event(unit: Unit) -> float | None:

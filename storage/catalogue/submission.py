@@ -214,6 +214,15 @@ def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
     return row
 
 
+def is_answered(unit: Unit, key: SubmissionKey | None) -> bool:
+    """Return whether a request with this key was answered, and is still remembered."""
+    if key is None:
+        return False
+    table = tables.idempotency
+    known = (table.c.key == key.stored) & (table.c.expires > unit.now)
+    return unit.execute(select(table.c.key).where(known)).one_or_none() is not None
+
+
 def remember_key(
     unit: Unit,
     key: SubmissionKey,

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 import httpx
 import numpy as np
@@ -183,6 +184,48 @@ def test_clients_send_it(guarded: Guarded) -> None:
         assert answer.headers["Cache-Control"].startswith("private")
     with Client(guarded.url) as client, pytest.raises(ClientError, match="key"):
         client.job(guarded.job)
+
+
+def test_whoever_asks_too_often_is_told_when_to_come_back(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", rate=0.5)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("ada") as ada, guarded.as_("bob") as bob:
+            answers = [ada.get("/v1/jobs") for _ in range(12)]  # two windows at most
+            refused = [answer for answer in answers if answer.status_code == 429]
+            assert len(refused) >= 2
+            assert 1 <= int(refused[0].headers["Retry-After"]) <= 10
+            assert "more than 5 requests in 10 s" in refused[0].json()["detail"]
+            assert bob.get("/v1/jobs").status_code == 200
+    catalogue.close()
+
+
+def test_an_owner_has_so_many_jobs_at_a_time(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", most_live=3)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("ada") as ada, guarded.as_("root", "admin") as root:
+            batch = {"jobs": [SWING, SWING]}
+            assert ada.post("/v1/batches", json=batch).status_code == 202
+            refused = ada.post("/v1/batches", json=batch)
+            assert refused.status_code == 403
+            assert refused.json()["type"] == "/problems/quota-exceeded"
+            assert "has 2 jobs that have not ended, and may have 3" in refused.json()["detail"]
+            again = {"Idempotency-Key": "again"}
+            last, same = (
+                ada.post("/v1/jobs", json=SWING | {"cache": False}, headers=again) for _ in "ab"
+            )
+            assert (last.status_code, same.status_code) == (202, 202)
+            assert same.json()["id"] == last.json()["id"]
+            assert ada.post("/v1/jobs", json=SWING | {"cache": False}).status_code == 403
+            assert root.post("/v1/batches", json=batch).status_code == 202
+            ada.post(f"/v1/jobs/{last.json()['id']}/cancel")
+            assert ada.post("/v1/jobs", json=SWING | {"cache": False}).status_code == 202
+    catalogue.close()
 
 
 @pytest.mark.parametrize(
