@@ -1,12 +1,21 @@
 """The mechanism at a pose: bodies with their points, joints, and which of them have clearance."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from jointplay.figures import page, sampling, saving, scene_facts
 from jointplay.figures.adjustment import drawn
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
-from jointplay.figures.mechanism_geometry import Geometry, Pose, geometry
+from jointplay.figures.mechanism_cams import cam_curves, draw_cams
+from jointplay.figures.mechanism_elements import (
+    circles,
+    draw_elements,
+    draw_wheels,
+    elements,
+    wheels,
+)
+from jointplay.figures.mechanism_geometry import Pose, geometry
 from jointplay.figures.mechanism_labels import draw_labels
 from jointplay.figures.mechanism_marks import draw_bodies, draw_gravity, draw_joints, draw_rails
 from jointplay.figures.options import Options
@@ -41,7 +50,7 @@ def draw_mechanism(
     """
     if missing := [name for name in scene["bodies"] if name not in pose]:
         raise NotDrawable(f"The pose does not say where {', '.join(missing)} is.")
-    return drawn(lambda: _draw(geometry(scene, pose)), options)
+    return drawn(lambda: _draw(scene, pose), options)
 
 
 def render_mechanism(
@@ -52,7 +61,11 @@ def render_mechanism(
         return saving.save(draw_mechanism(scene, pose, options), form)
 
 
-def _draw(shape: Geometry) -> page.Figure:
+def _draw(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
+    shape, curves, gears = geometry(scene, pose), cam_curves(scene, pose), wheels(scene, pose)
+    wide = [curve for pair in curves for curve in pair] + [c for g in gears for c in circles(g)]
+    more = [(x, y) for curve in wide for x, y in curve.T.tolist()]
+    shape = replace(shape, fixed_points=(*shape.fixed_points, *more))
     (left, right), (low, high) = shape.extent
     metres = scale("m", shape.corners)
     margin = _MARGIN * max(right - left, high - low)
@@ -69,8 +82,11 @@ def _draw(shape: Geometry) -> page.Figure:
     ):
         set_limits((middle - span / 2.0) / metres.factor, (middle + span / 2.0) / metres.factor)
     draw_rails(axes, shape, metres.factor)
+    draw_cams(axes, curves, metres.factor)
+    draw_wheels(axes, gears, metres.factor)
     draw_bodies(axes, shape, metres.factor)
     draw_joints(axes, shape, metres.factor)
+    draw_elements(axes, elements(scene, pose), shape.size, metres.factor)
     points = frame * 72.0 / 25.4  # of a printer
     draw_labels(axes, shape, metres.factor, points / width)
     draw_gravity(axes, shape)
@@ -96,7 +112,7 @@ def _draw_first(source: Source, selection: Selection) -> page.Figure:
     at = {name: float(values[0]) for name, values in row.items()}
     scene = scene_facts.scene(source)
     pose = {one: (at[f"{one}.x"], at[f"{one}.y"], at[f"{one}.theta"]) for one in scene["bodies"]}
-    return _draw(geometry(scene, pose))
+    return _draw(scene, pose)
 
 
 MECHANISM = RunFigure(

@@ -99,14 +99,6 @@ class Geometry:
 
 def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
     """Place everything that the scene document names."""
-
-    def world(reference: str) -> Point:
-        body, _, point = reference.partition(".")
-        if body == GROUND:
-            x, y = scene.get("ground", {}).get("points", {})[point]
-            return float(x), float(y)
-        return _placed(pose[body], scene["bodies"][body]["points"][point])
-
     bearings = [
         size
         for joint in scene["joints"].values()
@@ -135,7 +127,7 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
             JointMark(
                 name=name,
                 look=_look(joint, name in driven or (kind == "revolute" and bodies[1] in moved)),
-                place=world(joint[second]),
+                place=world(scene, pose, joint[second]),
                 grounded=GROUND in bodies,
                 axis=axis,
                 bodies=bodies,
@@ -144,14 +136,22 @@ def geometry(scene: Mapping[str, Any], pose: Pose) -> Geometry:
     return Geometry(
         bodies={
             name: {
-                point: _placed(pose[name], place) for point, place in body.get("points", {}).items()
+                point: placed(pose[name], place) for point, place in body.get("points", {}).items()
             }
             for name, body in scene["bodies"].items()
         },
         centres={name: (pose[name][0], pose[name][1]) for name in scene["bodies"]},
         joints=tuple(joints),
         gravity=tuple(scene.get("gravity") or (0.0, 0.0)),
-        fixed_points=tuple(joint.place for joint in joints if joint.grounded),
+        fixed_points=(
+            *(joint.place for joint in joints if joint.grounded),
+            *(
+                world(scene, pose, element[end])
+                for element in (scene.get("forces") or {}).values()
+                for end in ("first", "second")
+                if element["type"] == "spring-damper"
+            ),
+        ),
         smallest_extent=_BEARINGS_ACROSS * max(bearings, default=1.0 / _BEARINGS_ACROSS),
     )
 
@@ -166,7 +166,17 @@ def _look(joint: Mapping[str, Any], driven: bool) -> str:
     return "driven joint" if driven else "ideal joint"
 
 
-def _placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Point:
+def world(scene: Mapping[str, Any], pose: Pose, reference: str) -> Point:
+    """Return where a named point is, m."""
+    body, _, point = reference.partition(".")
+    if body == GROUND:
+        x, y = scene.get("ground", {}).get("points", {})[point]
+        return float(x), float(y)
+    return placed(pose[body], scene["bodies"][body]["points"][point])
+
+
+def placed(pose: tuple[float, float, float], point: tuple[float, float]) -> Point:
+    """Return where a point of a body is, m, from its place in the body's axes."""
     x, y, angle = pose
     cosine, sine = math.cos(angle), math.sin(angle)
     return x + cosine * point[0] - sine * point[1], y + sine * point[0] + cosine * point[1]

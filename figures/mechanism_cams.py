@@ -1,0 +1,90 @@
+"""Outlines of cams, from the profiles of a scene document, with the faces and rollers they move."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from jointplay.figures import page
+from jointplay.figures.mechanism_geometry import GROUND, Pose, placed
+from jointplay.figures.scene_facts import PLAY
+from jointplay.records.arrays import Floats
+
+ANGLES = np.linspace(0.0, 2.0 * math.pi, 361)
+FOLLOWERS = ("flat-follower", "roller-follower")
+_FACE = 0.6
+"""Half the length of a face that is drawn, in means of the profile."""
+
+
+def cam_curves(scene: Mapping[str, Any], pose: Pose) -> list[tuple[Floats, Floats]]:
+    """Return the outline of each cam, (2, angles) m, and that of what it moves."""
+    found = []
+    for joint in scene["joints"].values():
+        if joint["type"] not in FOLLOWERS:
+            continue
+        clearance = joint.get("clearance") or {}
+        lash = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
+        value = _profile(joint["profile"], ANGLES)
+        slope = np.gradient(value, ANGLES, edge_order=2)
+        (cam, centre), (follower, point) = (joint[end].split(".") for end in ("cam", "follower"))
+        away = np.stack([np.cos(ANGLES), np.sin(ANGLES)])
+        aside = np.stack([-np.sin(ANGLES), np.cos(ANGLES)])
+        if joint["type"] == "flat-follower":
+            outline = (value - lash) * away + slope * aside
+            x, y = joint["normal"]
+            across = np.array([-y, x]) / math.hypot(x, y) * _FACE * float(value.mean())
+            moved = np.stack([-across, across], axis=1)
+        else:
+            normal = value * away - slope * aside
+            inside = joint["roller_radius"] + lash
+            outline = value * away - inside * normal / np.hypot(*normal)
+            moved = joint["roller_radius"] * away
+        found.append(
+            (_world(scene, pose, cam, centre, outline), _world(scene, pose, follower, point, moved))
+        )
+    return found
+
+
+def draw_cams(axes: page.Axes, curves: list[tuple[Floats, Floats]], metre: float) -> None:
+    """Draw cams as faces with an edge, and what they move as a line."""
+    for outline, moved in curves:
+        axes.fill(
+            *(outline / metre), facecolor="#DDDDDD", edgecolor="#404040", linewidth=0.8, zorder=1
+        )
+        axes.plot(*(moved / metre), color="#404040", linewidth=1.2, zorder=3)
+
+
+def _world(scene: Mapping[str, Any], pose: Pose, body: str, point: str, curve: Floats) -> Floats:
+    """Place a curve about a body's point, (2, points) m in the body's axes, in the world."""
+    if body == GROUND:
+        x, y = scene["ground"]["points"][point]
+        return np.asarray(curve + np.array([[x], [y]]))
+    x, y = scene["bodies"][body]["points"][point]
+    there = [placed(pose[body], (x + dx, y + dy)) for dx, dy in curve.T.tolist()]
+    return np.array(there).T
+
+
+def _profile(function: Mapping[str, Any], angles: Floats) -> Floats:
+    """Evaluate the profile of a checked scene: those of its functions that repeat, m."""
+    kind = function["type"]
+    if kind == "sinusoidal":
+        wave = np.sin(function["frequency"] * angles + function.get("phase", 0.0))
+        return np.asarray(function.get("offset", 0.0) + function["amplitude"] * wave)
+    if kind == "table":
+        from scipy.interpolate import CubicSpline
+
+        knots = np.array(function["knots"])
+        spline = CubicSpline(knots, function["values"], bc_type="periodic")
+        return np.asarray(spline(knots[0] + np.mod(angles - knots[0], knots[-1] - knots[0])))
+    if kind == "piecewise-polynomial":
+        knots = np.array(function["knots"])
+        inside = knots[0] + np.mod(angles - knots[0], knots[-1] - knots[0])
+        piece = np.clip(np.searchsorted(knots, inside, side="right") - 1, 0, len(knots) - 2)
+        values = [
+            np.polynomial.polynomial.polyval(x - knots[k], function["coefficients"][k])
+            for x, k in zip(inside, piece, strict=True)
+        ]
+        return np.array(values)
+    first = function.get("value", (function.get("coefficients") or [function.get("start", 0.0)])[0])
+    return np.full_like(angles, first)

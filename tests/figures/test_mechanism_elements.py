@@ -1,0 +1,79 @@
+"""Springs, forces, gears and cams in the picture of a mechanism: where they are."""
+
+import math
+
+import numpy as np
+import pytest
+
+from jointplay import figures
+from jointplay.figures.mechanism_cams import cam_curves
+from jointplay.figures.mechanism_elements import Wheels, circles, elements
+
+RADIUS, ECCENTRICITY, ROLLER = 0.03, 0.01, 0.008
+KNOTS = np.linspace(0.0, 2.0 * math.pi, 64)
+PITCH = -ECCENTRICITY * np.sin(KNOTS) + np.sqrt(
+    (RADIUS + ROLLER) ** 2 - (ECCENTRICITY * np.cos(KNOTS)) ** 2
+)
+WAVE = {"type": "sinusoidal", "offset": RADIUS, "amplitude": -ECCENTRICITY, "frequency": 1.0}
+TABLE = {"type": "table", "knots": KNOTS.tolist(), "values": [*PITCH[:-1], PITCH[0]]}
+PAIR = {"first": "ground.S", "second": "tappet.F"}
+SCENE = {
+    "ground": {"points": {"O": [0.0, 0.0], "S": [0.0, 0.2]}},
+    "bodies": {
+        "shaft": {"points": {"O": [0.0, 0.0]}},
+        "tappet": {"points": {"F": [0.0, -0.02]}},
+    },
+    "joints": {
+        "O": {"type": "revolute", "bearing": "ground.O", "journal": "shaft.O"},
+        "P": {"type": "revolute", "bearing": "ground.S", "journal": "tappet.F"},
+    },
+    "gears": {"mesh": {"first": "O", "second": "P", "ratio": -3.0}},
+    "forces": {
+        "spring": {"type": "spring-damper"} | PAIR,
+        "push": {"type": "force", "magnitude": -2.0, "direction": [0.0, 5.0]} | PAIR,
+        "motor": {"type": "motor"} | PAIR,
+    },
+}
+POSE = {"shaft": (0.0, 0.0, 0.7), "tappet": (0.0, 0.05, 0.0)}
+FOLLOWERS = {
+    "flat": {"type": "flat-follower", "profile": WAVE, "normal": [0.0, 1.0]},
+    "roller": {"type": "roller-follower", "profile": TABLE, "roller_radius": ROLLER},
+}
+
+
+@pytest.mark.parametrize("shape", FOLLOWERS)
+def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
+    joint = FOLLOWERS[shape] | {"cam": "shaft.O", "follower": "tappet.F"}
+    ((outline, moved),) = cam_curves(SCENE | {"joints": {"cam": joint}}, POSE)
+    # the circle's centre is below the shaft's, and turns with it
+    centre = ECCENTRICITY * np.array([math.sin(0.7), -math.cos(0.7)])
+    # slopes are differences of neighbours 1 degree apart, at the ends one-sided
+    reach = np.hypot(*(outline - centre[:, None]))
+    np.testing.assert_allclose(reach, RADIUS, rtol=0.0, atol=2e-5)
+    np.testing.assert_allclose(moved.mean(axis=1), [0.0, 0.03], atol=1e-3)
+
+
+def test_elements_stand_where_their_points_are() -> None:
+    spring, push, motor = elements(SCENE, POSE)
+    assert (spring.first, spring.second) == ((0.0, 0.2), (0.0, pytest.approx(0.03)))
+    assert push.direction == pytest.approx((0.0, -1.0))
+    assert (spring.direction, motor.direction) == (None, None)
+
+
+def test_wheels_side_by_side_touch_and_a_belt_has_no_circles() -> None:
+    one, two = circles(Wheels((0.0, 0.0), (0.4, 0.0), -3.0))
+    # the second turns three times as fast: a third as large
+    assert one[0].max() == pytest.approx(0.3)
+    assert two[0].min() == pytest.approx(0.3)
+    assert circles(Wheels((0.0, 0.0), (0.4, 0.0), 2.0)) == []
+
+
+def test_all_of_it_is_drawn_within_the_frame() -> None:
+    joint = FOLLOWERS["flat"] | {"cam": "shaft.O", "follower": "tappet.F"}
+    scene = SCENE | {"joints": SCENE["joints"] | {"cam": joint}}
+    (axes,) = figures.draw_mechanism(scene, POSE).axes
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    for line in axes.lines:
+        x, y = np.array(line.get_xdata(), float), np.array(line.get_ydata(), float)
+        assert left <= x.min() <= x.max() <= right
+        assert low <= y.min() <= y.max() <= high
