@@ -149,15 +149,15 @@ def test_the_problem_that_the_documentation_shows_is_the_one_that_is_sent(http):
 
 def test_the_documentation_gives_the_limits_that_hold():
     documentation = (Path(__file__).parents[2] / "docs" / "http.md").read_text()
-    assert f"A body of {LARGEST_BODY // 2**20} MiB" in documentation
+    assert f"| a body | {LARGEST_BODY // 2**20} MiB" in documentation
     assert f"of a batch {LARGEST_BATCH // 2**20} MiB" in documentation
-    assert f"JSON of {DEEPEST} levels" in documentation
+    assert f"| its JSON | {DEEPEST} levels" in documentation
     assert MOST_VALUES == 1_000_000
     assert "one million values" in documentation
     assert (LONGEST_RUN, MOST_SAMPLES, MOST_BYTES) == (1e6, 10**8, 10**10)
     assert "a million periods, 10⁸ samples, 10 GB" in documentation
     assert (MOST_POINTS, MOST_PERIODS) == (100_000, 1e8)
-    assert "100 000\npoints and 10⁸ periods" in documentation
+    assert "100 000 points, 10⁸ periods" in documentation
 
 
 def test_the_documentation_lists_every_address(openapi):
