@@ -20,7 +20,7 @@ from tests.wheel_layout import ROOT, lay_out
 
 GROUPS = (
     *("faults", "solver/runs", "command_line", "solver", "service"),
-    *("figures", "worker", "seams", "storage", "deployment"),
+    *("figures", "worker", "seams", "storage", "deployment", "page"),
 )
 """Folders of tests with a process of their own, the longest first, so that none is left alone at
 the end: some wait, some compute. All other tests share one: each process imports for two seconds.

@@ -16,6 +16,7 @@ def test_the_press_moves_two_clicks_after_the_first_visit(browsing, url):
         assert re.search(r"#/job/[0-9A-Z]{26}$", page.url)
         page.get_by_text("succeeded", exact=True).wait_for()
         assert page.get_by_role("img", name="Journal of joint A in its bearing").is_visible()
+        page.locator(".uplot").nth(4).wait_for()
         assert page.locator(".uplot").count() == 5
 
 
