@@ -21,8 +21,9 @@ import jointplay.service.results.figures
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, laws, metrics, problems, scenes, schemas
-from jointplay.service.access import needs
+from jointplay.service.access import links, needs
 from jointplay.service.access.door import Door
+from jointplay.service.access.signed import SignedLinks
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
 from jointplay.service.jobs.submission import FIELDS
@@ -60,6 +61,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),
     (jointplay.service.zarr.endpoints, _RESULTS),
+    (links, _RESULTS),
     (metrics, needs("metrics")),
 )
 _OPEN = (
@@ -116,6 +118,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.settings = settings
+    app.add_middleware(SignedLinks)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)
     for resource, key in _BEHIND_THE_DOOR:

@@ -11,6 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay.service.access import Caller
 from jointplay.service.access.hosts import require_own_host
 from jointplay.service.access.rates import Rates
+from jointplay.service.access.signed import SIGNED, Link
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import KeyNotFound, Unavailable
@@ -43,6 +44,9 @@ class Door:
         if not self._asks:
             require_own_host(request, self._hosts)
             return Caller()
+        link = request.scope.get(SIGNED)
+        if link is not None:
+            return await self._of_link(link)
         given = request.headers.get("authorization", "")
         text = given[len(_BEARER) :].strip() if given.lower().startswith(_BEARER) else ""
         name = id_in(text)
@@ -55,6 +59,16 @@ class Door:
             )
         self._rates.count(key.owner)
         return Caller(key.owner, key.scopes, key.id)
+
+    async def _of_link(self, link: Link) -> Caller:
+        key = await self._key(link.key)
+        now = self._catalogue.clock()
+        if key is None or not key.lives(now) or not link.is_signed_by(key, now):
+            sentence = "This link has expired, or its key was revoked, or it was changed."
+            challenge = {"WWW-Authenticate": 'Bearer realm="jointplay"'}
+            raise RequestRefused(kinds.KEY_MISSING, sentence, headers=challenge)
+        self._rates.count(key.owner)
+        return Caller(key.owner, key.scopes & {"results:read", "admin"}, key.id)
 
     async def _key(self, name: str) -> Key | None:
         known = self._known.get(name)

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path, Request, Response
 
+from jointplay.service.access.signed import SIGNED
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, header, kinds, problems
@@ -98,7 +99,8 @@ def show_stored(
 
 
 def _answer(request: Request, key: str, content: Content) -> Response:
-    whose = "private" if "authorization" in request.headers else "public"
+    guarded = "authorization" in request.headers or SIGNED in request.scope
+    whose = "private" if guarded else "public"
     headers = {
         "Accept-Ranges": "bytes",
         "Cache-Control": f"{whose}, {_FOREVER}" if content.final else "no-cache",

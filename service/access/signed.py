@@ -1,0 +1,81 @@
+"""Signed links: an address that opens one job's stored arrays to whoever has it, without a header.
+
+The token in the path names the job, the moment when the link ends, and the key that signed it. It
+lasts no longer than the key. It stands in the path since stock Zarr clients put the keys of a store
+behind the path of its address, and drop or misplace a query.
+"""
+
+import hmac
+import struct
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from binascii import Error
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Final, Self
+
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from jointplay.records.job import is_job_id
+from jointplay.storage.catalogue.keys import Key
+
+PREFIX: Final = "/v1/shared/"
+SIGNED: Final = "jointplay.signed"
+"""Where the scope of a request has its `Link`."""
+_SIGNED: Final = struct.Struct(">26sQ8s")  # job, end as epoch seconds, id of the key
+_LONGEST: Final = 4 * (_SIGNED.size + sha256().digest_size) // 3 + 4
+
+
+@dataclass(frozen=True)
+class Link:
+    """What a token says; nothing of it is true before `is_signed_by` says so."""
+
+    job: str
+    until: int
+    key: str
+    signature: bytes = b""
+
+    @classmethod
+    def of(cls, token: str) -> Self | None:
+        """Return what a token says; none if it is no token."""
+        if len(token) > _LONGEST:
+            return None
+        try:
+            content = urlsafe_b64decode(token + "=" * (-len(token) % 4))
+            job, until, key = _SIGNED.unpack(content[: _SIGNED.size])
+            link = cls(job.decode("ascii"), until, key.decode("ascii"), content[_SIGNED.size :])
+        except (Error, struct.error, ValueError):
+            return None
+        return link if is_job_id(link.job) else None
+
+    def signed_by(self, key: Key) -> str:
+        """Return the token of this link."""
+        content = self._content() + self._signature(key)
+        return urlsafe_b64encode(content).decode().rstrip("=")
+
+    def is_signed_by(self, key: Key, now: float) -> bool:
+        """Whether this key signed it, and it has not ended."""
+        same = hmac.compare_digest(self._signature(key), self.signature)
+        return same and now < self.until
+
+    def _signature(self, key: Key) -> bytes:
+        return hmac.digest(bytes.fromhex(key.sha256), self._content(), "sha256")
+
+    def _content(self) -> bytes:
+        return _SIGNED.pack(self.job.encode(), self.until, self.key.encode())
+
+
+class SignedLinks:
+    """Leads ``/v1/shared/TOKEN/zarr/...`` to the stored arrays of the job that a token names."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on, at its job's address; the door looks at the link itself."""
+        if scope["type"] == "http" and scope["path"].startswith(PREFIX):
+            token, slash, behind = scope["path"][len(PREFIX) :].partition("/")
+            link = Link.of(token)
+            if link is not None and (behind + slash).startswith("zarr/"):
+                path = f"/v1/jobs/{link.job}/{behind}"
+                scope = {**scope, "path": path, "raw_path": path.encode(), SIGNED: link}
+        await self._app(scope, receive, send)
