@@ -13,7 +13,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
-from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.mechanics.assembly import assemble, shortest_link
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
@@ -24,6 +24,7 @@ from jointplay.solver.scene.periods import (
     Period,
     characteristic_time,
     common_period,
+    drivers_period,
     section_offset,
 )
 
@@ -114,7 +115,8 @@ class Simulate(Kind[SimulateJob]):
 def _admission(
     job: SimulateJob, filled: dict[str, Any], scene: Scene, channels: tuple[Channel, ...]
 ) -> Admission:
-    period = common_period(scene)
+    moves = assemble(scene).freedom_with_play > 0
+    period = common_period(scene) if moves else drivers_period(scene)
     samples = sample_count(job.duration, filled["output_step"])
     sections = section_count(scene, period, job)
     return Admission(

@@ -12,7 +12,7 @@ from jointplay.solver.scene.parameters import targeted_paths
 NumberOf = Callable[[str, float], Scalar]
 """Turns the number at a JSON pointer of the scene into a scalar."""
 
-LEFT_OUT = frozenset({"start", "parameters", "reported"})
+LEFT_OUT = frozenset({"start", "period", "parameters", "reported"})
 FOLDED = {"points": (0.0,), "axis": None}
 """Geometry that shapes the equations unless a declared parameter may change it: exact zeros among
 the coordinates of points, any component of an axis."""
@@ -27,8 +27,8 @@ def view(scene: Scene, number: NumberOf = plain_number) -> Scene:
     """Return a scene whose numbers went through `number`; nothing of it is checked again.
 
     Values that decide the form of the equations (an exactly zero coordinate, friction switched
-    off, the exponent 1.5) stay plain floats, so that they are folded away. The start, parameters
-    and reported values are left out.
+    off, the exponent 1.5) stay plain floats, so that they are folded away. The start, the period,
+    parameters and reported values are left out.
     """
     seen = _View(number, targeted_paths(scene)).of_model(scene, "", LEFT_OUT)
     return cast(Scene, seen)

@@ -149,6 +149,15 @@ class Scene(Strict):
     description: Annotated[str, Field(max_length=2000)] = ""
     source: Annotated[str, Field(max_length=500)] = ""
     gravity: Annotated[list[Acceleration], Field(min_length=2, max_length=2)] = [0.0, 0.0]
+    period: Annotated[
+        float | None,
+        Field(
+            gt=0.0,
+            le=1e6,
+            description="time between sections where what drives the scene does not repeat",
+            json_schema_extra={"unit": "s"},
+        ),
+    ] = None
     ground: Ground = Ground()
     bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
     joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]

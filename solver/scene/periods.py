@@ -26,9 +26,19 @@ class Period:
 
     seconds: float | None
     note: str = ""
+    given: bool = False
+    """True where the scene gives it, because its drivers have none in common."""
 
 
 def common_period(scene: Scene) -> Period:
+    """Return the period of a scene's drivers, else the one that it gives itself, if any."""
+    own = drivers_period(scene)
+    if own.seconds is None and scene.period is not None:
+        return Period(scene.period, own.note, given=True)
+    return own
+
+
+def drivers_period(scene: Scene) -> Period:
     """Return the least time after which every driven angle is back; signs do not matter."""
     speeds: list[float] = []
     for name, driver in scene.drivers.items():
@@ -51,7 +61,7 @@ def common_period(scene: Scene) -> Period:
 
 
 def first_speed(scene: Scene) -> float:
-    """Return 2 pi over the period of the first driver that has one, rad/s; 1 if none has."""
+    """Return 2 pi over the period of the first driver that has one, else the scene's; else 1."""
     for driver in scene.drivers.values():
         if isinstance(driver, MovingDriver):
             if 0.0 < driver.motion.period < math.inf:
@@ -61,7 +71,7 @@ def first_speed(scene: Scene) -> float:
     for element in timed(scene).values():
         if element.course is not None and 0.0 < element.course.period < math.inf:
             return 2.0 * math.pi / element.course.period
-    return 1.0
+    return 1.0 if scene.period is None else 2.0 * math.pi / scene.period
 
 
 def driven_speed(scene: Scene, lever: float, until: float) -> float:

@@ -48,8 +48,9 @@ def bind(lane: Lane, problem: LaneProblem, like: Lane | None = None) -> None:
             number(lane, lane.tangents, scene)
     length = shortest_link(scene)
     unit = characteristic_time(scene, length)
-    common = common_period(scene).seconds
-    _clock(lane, problem, common or unit, common is not None)
+    period = common_period(scene)
+    common = period.seconds is not None and not period.given
+    _clock(lane, problem, period.seconds or unit, common)
     _limit(lane, problem, length, unit)
     _scale(lane, problem, length, unit)
     if problem.start is None:

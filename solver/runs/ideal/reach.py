@@ -11,7 +11,7 @@ from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.scene.channels import BODY
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.pairs import contact_pairs
-from jointplay.solver.scene.periods import common_period
+from jointplay.solver.scene.periods import drivers_period
 
 QUANTITIES = tuple(quantity for quantity, _, _ in BODY)
 SLACK = 0.01
@@ -66,7 +66,7 @@ def motion_reach(scene: Scene) -> MotionReach | None:
 
     So it is with a mechanism that moves freely, has no period, or comes to a dead point.
     """
-    period = common_period(scene).seconds
+    period = drivers_period(scene).seconds
     if period is None:
         return None
     try:

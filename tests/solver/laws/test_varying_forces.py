@@ -126,6 +126,22 @@ def test_a_duration_beyond_a_refused_course_is_refused() -> None:
     assert "given from 0 to 1, but time, s, goes from 0 to 5" in problem.detail
 
 
+def test_a_scene_that_never_repeats_gives_its_own_period() -> None:
+    rising = {"type": "ramp", "end": 1.0, "length": 0.7}
+    scene = pushed(rising, {"quantity": "time"}) | {"period": 0.25}
+    found = run(scene, 2.0, tolerance=1e-9)
+    np.testing.assert_allclose(found.section_time, 0.25 * np.arange(9), rtol=0.0, atol=1e-12)
+    # behind the ramp it is 2 N + 2 N on 1 kg
+    speed = found.sections["block.vx"][-4:]
+    np.testing.assert_allclose(np.diff(speed), 4.0 * 0.25, rtol=1e-9)
+    alone = run(pushed(rising, {"quantity": "time"}), 2.0, tolerance=1e-9)
+    assert not len(alone.section_time)
+    # the same motion, but for the times at which local time begins anew
+    assert found.last("block.x") == pytest.approx(alone.last("block.x"), rel=1e-12)
+    admitted = admit({"kind": "poincare", "scene": scene, "settle": 1, "record": 4})
+    assert admitted.period == 0.25
+
+
 def test_the_period_is_that_of_driver_and_force_together() -> None:
     # 5 and 3 rad/s repeat together after 2 pi
     assert common_period(scene_of(laden())).seconds == pytest.approx(2.0 * np.pi, rel=1e-12)
