@@ -11,6 +11,8 @@ from jointplay.figures.kind import Selection
 from jointplay.local.folder_job import results_in
 from jointplay.records.run import inside
 from jointplay.worker.windows import trajectory
+from jointplay.worker.windows.evaluate import answer
+from jointplay.worker.windows.question import Question
 
 FORCE = "A.normal_force"
 PRESS = {"preset": "seven-bar-press"}
@@ -120,6 +122,35 @@ def test_a_long_window_is_read_in_pieces_with_the_same_result(source, monkeypatc
     assert np.all(np.diff(extremes.values[:, 0, 3]) > 0.0)
     monkeypatch.setattr(trajectory, "MOST_PIECES", 2)
     assert "A shorter one is exact" in source.trajectory.extremes(names, edges).refused
+
+
+def asked(source, change):
+    """Return the answer to a question whose steps were changed, as by another machine."""
+    steps = source.steps.read(0, source.steps.count)
+    change(steps)
+    attributes = source.attributes
+    methods, edges = tuple(attributes["methods"]), np.linspace(0.0, 0.06, 101)
+    return answer(Question(attributes["job"], (FORCE,), steps, edges=edges, methods=methods))
+
+
+def test_steps_of_another_machine_are_read_and_said_to_be_and_others_are_refused(source):
+    speed = source.steps.columns.index("link2.theta")
+
+    def rounded(steps):
+        steps[1:, speed] *= 1.0 + 1e-15
+
+    def of_another_scene(steps):
+        steps[:, speed] += 0.01 * np.arange(len(steps))
+
+    def of_no_method(steps):
+        steps[:, -1] = 77.0
+
+    assert not asked(source, lambda steps: None).rounded
+    found = asked(source, rounded)
+    assert found.rounded
+    assert found.values is not None
+    assert "other steps" in asked(source, of_another_scene).refused
+    assert "no method" in asked(source, of_no_method).refused
 
 
 def test_without_steps_a_curve_is_of_samples(tmp_path):
