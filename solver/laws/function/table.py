@@ -37,7 +37,8 @@ class Table(Function):
     value must be its first; ``refused`` ends the run there. Ends have no slope, unless it repeats.
 
     Source: de Boor 1978, A Practical Guide to Splines, chapter IV; Fritsch and Butland 1984, SIAM
-    Journal on Scientific and Statistical Computing 5:300 (the weights; not yet checked).
+    Journal on Scientific and Statistical Computing 5:300, with Brodlie's weights, those of SLATEC's
+    DPCHIM and of SciPy's PchipInterpolator.
     """
 
     type: Literal["table"]
