@@ -36,6 +36,8 @@ class Branches(NamedTuple):
     """Sets of start angles that were tried; none of a mechanism with many bodies."""
     held: list[str]
     """Coordinates that were held, for example ``crank.theta``."""
+    places: list[dict[str, tuple[float, float]]]
+    """Centre of mass of each body in each of them, m."""
 
 
 def branches(scene: Scene) -> Branches:
@@ -62,9 +64,12 @@ def branches(scene: Scene) -> Branches:
         dict(zip(ideal.bodies, np.remainder(p[2::3] + np.pi, 2.0 * np.pi) - np.pi, strict=True))
         for p in poses
     ]
-    return Branches(
-        found, tried, [name for name, is_held in zip(names, held, strict=True) if is_held]
-    )
+    places = [
+        dict(zip(ideal.bodies, zip(p[0::3].tolist(), p[1::3].tolist(), strict=True), strict=True))
+        for p in poses
+    ]
+    kept = [name for name, is_held in zip(names, held, strict=True) if is_held]
+    return Branches(found, tried, kept, places)
 
 
 def _held(ideal: AbsoluteMechanism, pose: Floats, driven: dict[str, float], scale: Floats) -> Flags:

@@ -7,6 +7,7 @@ import pytest
 from jointplay.solver.scene import presets
 from tests.command_line.four_bar import four_bar
 from tests.presets_given import REQUIRED
+from tests.solver.cams import follower, pitch_table, valve
 
 
 @pytest.mark.parametrize("name", presets.names())
@@ -29,6 +30,16 @@ def test_a_shown_document_can_be_checked_with_parameters_set(jointplay, tmp_path
     ended = jointplay("scene", "check", file, "--set", "clearence=1e-4")
     assert ended.code == 2
     assert "clearence" in ended.line()
+
+
+def test_assemblies_are_told_apart_by_where_bodies_are(jointplay, tmp_path):
+    file = tmp_path / "valve.json"
+    file.write_text(json.dumps(valve(follower("roller", pitch_table(24), lash=1e-4))))
+    lines = jointplay("scene", "check", file).out.splitlines()
+    assert lines[-2:] == [
+        "assemblies             2 found from 25 starts",
+        "                       another: tappet at 0, -0.028 m",
+    ]
 
 
 @pytest.mark.parametrize("form", ["png", "svg"])

@@ -37,6 +37,7 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
         "ideal_redundant": assembly.redundant,
         "residual": assembly.residual,
         "assemblies": found.angles,
+        "places": found.places,
         "held": found.held,
         "period": None if admission is None else admission.period,
         "channels": None if admission is None else len(admission.channels),
@@ -65,15 +66,23 @@ def _lines(scene: AssembledScene, joints: list[str], found: "Branches") -> Itera
     lines["assemblies"] = f"{len(found.angles)} found from {found.tried + 1} starts{held}"
     for name, value in lines.items():
         yield f"{name:22} {value}"
-    for angles in found.angles[1:]:
-        apart = {
-            body: angle
+    largest = max((math.hypot(*at) for one in found.places for at in one.values()), default=0.0)
+    for angles, places in zip(found.angles[1:], found.places[1:], strict=True):
+        turned = [
+            f"{body} {angle:.4g}"
             for body, angle in angles.items()
             if abs(math.sin((angle - found.angles[0][body]) / 2)) > ALIKE
-        }
-        turned = ", ".join(f"{body} {angle:.4g}" for body, angle in apart.items())
-        yield f"{'':22} another: {turned} rad"
+        ]
+        # a body that slides to another place; what turns tells enough where there is such
+        moved = [
+            f"{body} at {round(x, 12):.4g}, {round(y, 12):.4g}"
+            for body, (x, y) in places.items()
+            if math.dist((x, y), found.places[0][body]) > ALIKE * largest
+        ]
+        told = f"{', '.join(turned)} rad" if turned else f"{', '.join(moved)} m"
+        yield f"{'':22} another: {told}"
 
 
 ALIKE = 1e-6
-"""Sine of half the difference of two angles below which they are shown as one."""
+"""Sine of half the difference of two angles, and share of the largest distance from the origin of
+that of two places, below which they are shown as one."""
