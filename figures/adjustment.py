@@ -11,6 +11,8 @@ from jointplay.figures.quantity import showing
 
 _TITLE_HEIGHT = 5.0  # mm
 _TITLE_SIZE = 8.0  # points
+_MARGIN = 0.02
+"""White beside values, in their span."""
 _ROUNDING = 1e-9
 """A span of an axis below this, in the unit shown or in its values, is rounding."""
 _MILLIMETRES_AN_INCH = 25.4
@@ -102,7 +104,13 @@ def _rescale(axes: page.Axes, which: Literal["x", "y"], scale: str) -> None:
 
 def _limit(axes: page.Axes, which: str, low: float | None, high: float | None) -> None:
     axis = getattr(axes, f"{which}axis")
-    before = axis.get_view_interval()
+    before = sorted(axis.get_view_interval())
+    if axis.get_scale() == "linear":  # the margin beyond values follows what is shown of them
+        first, last = getattr(axes.dataLim, f"interval{which}")
+        if low is None and high is not None and before[0] < first < high:
+            before[0] = max(before[0], first - _MARGIN * (high - first))
+        if high is None and low is not None and low < last < before[1]:
+            before[1] = min(before[1], last + _MARGIN * (last - low))
     low, high = (old if new is None else new for old, new in zip(before, (low, high), strict=True))
     if axis.get_scale() == "log" and low <= 0.0:
         sentence = "The axis is logarithmic; its ends lie above zero."

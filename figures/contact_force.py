@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.figures import between_samples, colours, page, sampling, scene_facts
+from jointplay.figures import colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
@@ -27,19 +27,21 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 
 def _draw(source: Source, selection: Selection) -> page.Figure:
     joints = scene_facts.chosen_pairs(source, selection)
-    curves = [sampling.over_time(source, f"{joint}.normal_force", selection) for joint in joints]
+    named = [
+        sampling.named_over_time(source, f"{joint}.normal_force", selection) for joint in joints
+    ]
+    curves = [(time, force) for time, force, _ in named]
     step = _sample_step(source, selection)
     impacts = [
         _between_samples(source, joint, selection, step, curve)
-        for joint, curve in zip(joints, curves, strict=True)
+        for joint, curve in zip(joints, named, strict=True)
     ]
     newtons = scale("N", *(force for _, force in curves), *(force for _, force in impacts))
     across = TimeAxis(source, [time for time, _ in curves])
-    label = sampling.called(source)
     explained = bool(across.unconverged) or any(len(onset) for onset, _ in impacts)
     figure, panels = page.stack([_PANEL_HEIGHT] * len(joints), explained)
-    for axes, joint, (time, force), (onset, peak) in zip(
-        panels, joints, curves, impacts, strict=True
+    for axes, joint, (time, force, label), (onset, peak) in zip(
+        panels, joints, named, impacts, strict=True
     ):
         axes.plot(across.shown(time), force / newtons.factor, color=colours.COMPUTED, label=label)
         look: page.Look = {"color": colours.MARKED, "linewidth": 0.5, "zorder": 1.5}
@@ -63,14 +65,15 @@ def _sample_step(source: Source, selection: Selection) -> float:
 
 
 def _between_samples(
-    source: Source, joint: str, selection: Selection, step: float, curve: tuple[Floats, Floats]
+    source: Source, joint: str, selection: Selection, step: float, curve: tuple[Floats, Floats, str]
 ) -> tuple[Floats, Floats]:
     """Give onset [s] and peak force [N] of the contacts that are too short for the curve."""
     rows = sampling.impacts_of(source, joint)
     rows = rows[inside(rows["onset"], selection.start, selection.stop)]
     rows = rows[rows["release"] - rows["onset"] < 2.0 * step]
-    beside = _POINTS_OF_A_SPAN if between_samples.knows(source) else 0
-    rows = rows[_missed(rows, *curve, beside)]
+    time, force, label = curve
+    beside = _POINTS_OF_A_SPAN if label == sampling.TRAJECTORY else 0
+    rows = rows[_missed(rows, time, force, beside)]
     rows = rows[np.argsort(-rows["peak_force"], kind="stable")[:_MOST_IMPACTS]]
     return rows["onset"], rows["peak_force"]
 

@@ -1,7 +1,7 @@
 """Values for the screen: as many as a figure can show, smooth between samples where they may be."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ MOST_SAMPLES: Final = 4000
 """Above, a curve over time is drawn through the extremes of equal spans: four a pixel."""
 MOST_PATH_SAMPLES: Final = 50_000
 """Above, a curve in a plane shows its end only; it has no order that extremes would keep."""
+TRAJECTORY: Final = "trajectory"
+SAMPLES: Final = "samples"
+"""Names of curves in legends."""
 NO_SAMPLES: Final = "There are no samples in this window of time; widen it."
 _MOST_ARCS: Final = 12
 """Pieces of an arc: no corner is seen between them."""
@@ -41,20 +44,31 @@ def over_time(source: Source, name: str, selection: Selection) -> tuple[Floats, 
 
     Extremes of the trajectory where it is known between samples, else those of the samples.
     """
+    time, values, _ = named_over_time(source, name, selection)
+    return time, values
+
+
+def named_over_time(
+    source: Source, name: str, selection: Selection
+) -> tuple[Floats, Floats, Literal["trajectory", "samples"]]:
+    """Give what `over_time` does, and what the curve is made of."""
     first, last = window(source, selection)
     exact = between_samples.curve(source, name, selection)
     if exact is not None:
-        return exact
+        return *exact, TRAJECTORY
     span = max(2 * (last - first) // MOST_SAMPLES, 1)
     parts = [
         extremes(time, columns[name], span) for time, columns in source.blocks([name], first, last)
     ]
-    return np.concatenate([part[0] for part in parts]), np.concatenate([p[1] for p in parts])
+    joined = np.concatenate([part[0] for part in parts]), np.concatenate([p[1] for p in parts])
+    return *joined, SAMPLES
 
 
-def called(source: Source) -> str:
-    """Say what a curve is made of."""
-    return "trajectory" if between_samples.knows(source) else "samples"
+def called(source: Source, selection: Selection, time: Floats) -> str:
+    """Say what a path is made of: as many instants as samples are samples."""
+    first, last = window(source, selection)
+    known = between_samples.knows(source) and len(time) != min(last - first, MOST_PATH_SAMPLES)
+    return TRAJECTORY if known else SAMPLES
 
 
 def in_a_plane(source: Source, names: tuple[str, ...], selection: Selection) -> Columns:

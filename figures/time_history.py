@@ -32,22 +32,23 @@ def declared(source: Source, selection: Selection) -> tuple[str, ...]:
 def _draw(source: Source, selection: Selection) -> page.Figure:
     """Draw channels below one another over the same time, with extremes that samples miss."""
     names = declared(source, selection)
-    curves = [sampling.over_time(source, name, selection) for name in names]
+    named = [sampling.named_over_time(source, name, selection) for name in names]
+    curves = [(time, values) for time, values, _ in named]
     missed = [
         _missed_extremes(source, name, curve) for name, curve in zip(names, curves, strict=True)
     ]
     across = TimeAxis(source, [time for time, _ in curves])
     explained = bool(across.unconverged) or any(len(time) for time, _ in missed)
     figure, panels = page.stack([_PANEL_HEIGHT] * len(names), explained)
-    for axes, name, (time, values), (when, extremes) in zip(
-        panels, names, curves, missed, strict=True
+    for axes, name, (time, values, label), (when, extremes) in zip(
+        panels, names, named, missed, strict=True
     ):
         shown = scale(scene_facts.channel(source, name).unit, values, extremes)
         axes.plot(
             across.shown(time),
             values / shown.factor,
             color=colours.COMPUTED,
-            label=sampling.called(source),
+            label=label,
         )
         look: page.Look = {"color": colours.MARKED, "label": "extreme between samples"} | page.RING
         axes.plot(across.shown(when), extremes / shown.factor, "o", **look)

@@ -20,6 +20,7 @@ def _chosen(source: Source, selection: Selection) -> tuple[str, ...]:
 def _draw(source: Source, selection: Selection) -> page.Figure:
     first, *others = _chosen(source, selection)
     time, values = sampling.in_a_plane(source, (first, *others), selection)
+    label = sampling.called(source, selection, time) + sampling.beginning(source, time, selection)
     heights = [_SINGLE_HEIGHT if len(others) == 1 else _PANEL_HEIGHT] * len(others)
     figure, panels = page.stack(heights, 1)
     across = scale(scene_facts.channel(source, first).unit, values[first])
@@ -32,7 +33,7 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
             color=colours.COMPUTED,
             linewidth=0.5,
             rasterized=len(time) > page.MOST_VECTOR_POINTS,
-            label=f"{sampling.called(source)}{sampling.beginning(source, time, selection)}",
+            label=label,
         )
         axes.plot(x[:1], y[:1], "o", color=colours.MARKED, label="first sample")
         axes.set_ylabel(page.in_two_lines(up.label(name)))

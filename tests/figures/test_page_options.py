@@ -45,6 +45,11 @@ def test_axes_end_where_they_are_told_in_the_unit_that_they_show():
     assert axes.get_ylabel() == "left.eccentricity_x [µm]"
 
 
+def test_an_end_alone_leaves_no_white_beside_the_values():
+    axes = panel("stroke", x_max=0.5)
+    assert axes.get_xlim() == pytest.approx((-0.01, 0.5))
+
+
 def test_a_scale_is_changed_and_numbered_without_mathematics():
     axes = panel("contact-force", FORCE, y_scale="log")
     assert axes.get_yscale() == "log"

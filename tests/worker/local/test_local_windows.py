@@ -160,8 +160,9 @@ def test_without_steps_a_curve_is_of_samples(tmp_path):
     )
     source = results_in(job._folder)
     assert between_samples.curve(source, FORCE, Selection()) is None
-    time, _ = sampling.over_time(source, FORCE, Selection())
+    time, _, label = sampling.named_over_time(source, FORCE, Selection())
     assert len(time) == source.samples
+    assert label == "samples"
     window = job.window(FORCE, points=1000)
     assert "keeps no steps" in window.note
     assert window.exact
