@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, TIME, Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.periods import set_clock
 from jointplay.solver.kernels.loop.runs import Run
 
 
-@kernel()
+@inner_kernel()
 def write_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Write the step that a lane is about to take, as `StepRow` arranges it."""
     columns = at.step_row
@@ -26,7 +26,7 @@ def write_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarra
         row[columns.impact_rate + j] = work[at.impact_rate + j, lane]
 
 
-@kernel()
+@inner_kernel()
 def read_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Set a lane to the start of a step, which the next attempt makes again, bit for bit.
 

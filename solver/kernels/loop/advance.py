@@ -18,7 +18,7 @@ from jointplay.solver.kernels.emit.functions import (
 )
 from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, PASSING, REJECTED, RELEASE
 from jointplay.solver.kernels.emit.places import PLACES, Places
-from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
+from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.accepted_steps import write_step
 from jointplay.solver.kernels.loop.contacts import (
@@ -58,7 +58,7 @@ KEEPING = 0
 """Lane whose accepted steps are kept, if any are."""
 
 
-@kernel()
+@inner_kernel()
 def attend(
     flag: int,
     lane: int,
@@ -97,7 +97,7 @@ def attend(
     return False
 
 
-@kernel()
+@inner_kernel()
 def settle(
     flag: int,
     lane: int,
@@ -156,7 +156,7 @@ def settle(
     return full
 
 
-@kernel()
+@inner_kernel()
 def keep_step(run: Run, at: Places, work: np.ndarray, steps: np.ndarray) -> bool:
     """Write the step that the lane that keeps them takes; whether the buffer is full now."""
     if len(steps) == 0 or not work[at.accept, KEEPING] > 0.0:
@@ -176,7 +176,7 @@ def count_active(at: Places, work: np.ndarray) -> int:
     return running
 
 
-@kernel()
+@inner_kernel()
 def any_accepted(at: Places, work: np.ndarray) -> bool:
     """Whether a lane takes the step that was just judged."""
     accepted = 0.0
@@ -185,7 +185,7 @@ def any_accepted(at: Places, work: np.ndarray) -> bool:
     return accepted > 0.0
 
 
-@kernel()
+@inner_kernel()
 def still_landing(runs: np.ndarray) -> bool:
     """Whether a lane is about to land on an onset."""
     landing = 0
@@ -195,7 +195,7 @@ def still_landing(runs: np.ndarray) -> bool:
     return landing > 0
 
 
-@kernel()
+@inner_kernel()
 def look_closer(
     at: Places,
     work: np.ndarray,

@@ -4,7 +4,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.loop.onset import NO_ONSET, first_onset
 from jointplay.solver.kernels.loop.periods import stop
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Run, Status
@@ -20,7 +20,7 @@ LANDED_AT_LAST = 1e-9
 """Penetration, m, that is taken after the last attempt: an onset so flat that rounding hides it."""
 
 
-@kernel()
+@inner_kernel()
 def land(
     lane: int,
     run: Run,
@@ -71,7 +71,7 @@ def land(
     return False
 
 
-@kernel()
+@inner_kernel()
 def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
     """Return the first open pair whose gap is closed at the end of a fixed step."""
     for j in range(at.pairs):
@@ -81,7 +81,7 @@ def closed_in_fixed_step(lane: int, at: Places, work: np.ndarray) -> int:
     return NO_PAIR
 
 
-@kernel()
+@inner_kernel()
 def earliest_onset(
     target: int,
     lane: int,
@@ -120,21 +120,21 @@ def earliest_onset(
     return pair, share
 
 
-@kernel()
+@inner_kernel()
 def lands_beside(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether an open pair's gap closes at the end of the step, too: both corners of a side."""
     apart = work[at.mode + j, lane] <= 0.0 < work[at.gap_rate + j, lane]
     return bool(apart and abs(work[at.gap + j, lane]) <= LANDED)
 
 
-@kernel()
+@inner_kernel()
 def has_landed(target: int, last: bool, lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether a target's gap is as good as zero at the end of the step."""
     depth = abs(work[at.gap + target, lane])
     return depth <= LANDED or (last and depth <= LANDED_AT_LAST)
 
 
-@kernel()
+@inner_kernel()
 def corrected_share(gap: float, rate: float, tried: float) -> float:
     """Return the multiple of the step at which the gap is zero, by Newton's rule from its end."""
     share = 1.0
@@ -143,7 +143,7 @@ def corrected_share(gap: float, rate: float, tried: float) -> float:
     return min(max(share, 0.1), 2.0)
 
 
-@kernel()
+@inner_kernel()
 def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Give an onset up for now: steps are so long that one's end hardly tells of another's."""
     run.landing = NO_PAIR
@@ -153,7 +153,7 @@ def approach(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
         stop(Status.ONSET_LOST, lane, run, at, work)
 
 
-@kernel()
+@inner_kernel()
 def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -> None:
     """Latch the impact rate of pair j, once per onset, and restart with a small step."""
     rate = work[at.gap_rate + j, lane]
@@ -168,7 +168,7 @@ def begin_contact(j: int, now: float, lane: int, at: Places, work: np.ndarray) -
     work[at.step, lane] = min(work[at.step, lane], first)
 
 
-@kernel()
+@inner_kernel()
 def end_contact(
     j: int, now: float, lane: int, run: Run, at: Places, work: np.ndarray, impacts: np.ndarray
 ) -> None:
@@ -184,7 +184,7 @@ def end_contact(
     run.impacts += 1
 
 
-@kernel()
+@inner_kernel()
 def is_touching(lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether a contact begins where this step does."""
     found = False

@@ -5,14 +5,14 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PERIOD, PLACES, TIME, Places
-from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
+from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.periods import due_time
 from jointplay.solver.kernels.loop.runs import Run
 
 
-@kernel()
+@inner_kernel()
 def write_row(
     row: np.ndarray,
     i: int,
@@ -35,7 +35,7 @@ def write_row(
         row[at.row.impact_rate + j] = source[at.impact_rate + j, i]
 
 
-@kernel()
+@inner_kernel()
 def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
     """Set column i of a work array to a dense state."""
     target[at.stage_time, i] = row[TIME]
@@ -49,7 +49,7 @@ def read_row(row: np.ndarray, i: int, at: Places, target: np.ndarray) -> None:
         target[at.impact_rate + j, i] = row[at.row.impact_rate + j]
 
 
-@kernel()
+@inner_kernel()
 def hand_out(
     lane: int,
     run: Run,

@@ -12,7 +12,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import PASSING
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.passages import closest_approach, passes, place_about
@@ -31,7 +31,7 @@ SAME = 1e-12
 """Share of a step: places closer than that are one."""
 
 
-@kernel()
+@inner_kernel()
 def any_crossing(runs: np.ndarray) -> bool:
     """Whether a lane takes its sections where a channel crosses a value."""
     found = False
@@ -40,13 +40,13 @@ def any_crossing(runs: np.ndarray) -> bool:
     return found
 
 
-@kernel()
+@inner_kernel()
 def has_all_events(run: Run) -> bool:
     """Whether a lane with sections at events has as many as it shall have."""
     return run.section_kind != SectionKind.CRANK and run.next[SECTIONS] >= run.stop[SECTIONS]
 
 
-@kernel()
+@inner_kernel()
 def record_event(
     i: int,
     lane: int,
@@ -66,13 +66,13 @@ def record_event(
     return run.filled[SECTIONS] >= rows.shape[2] - MOST_IN_A_STEP
 
 
-@kernel()
+@inner_kernel()
 def height(value: float, run: Run) -> float:
     """Return how far a channel's value is beyond a section's, in the sense that counts."""
     return float(run.section_sense * (value - run.section_value))
 
 
-@kernel()
+@inner_kernel()
 def level(height: float, run: Run) -> float:
     """Return the number of levels at or below a height: a section is taken where it grows."""
     if run.section_turn > 0.0:
@@ -80,7 +80,7 @@ def level(height: float, run: Run) -> float:
     return 0.0 if height >= 0.0 else -1.0
 
 
-@kernel()
+@inner_kernel()
 def above(height: float, run: Run) -> float:
     """Return how far the next level above a height is; infinite if there is none."""
     if run.section_turn > 0.0:
@@ -88,7 +88,7 @@ def above(height: float, run: Run) -> float:
     return -height if height < 0.0 else math.inf
 
 
-@kernel()
+@inner_kernel()
 def below(height: float, run: Run) -> float:
     """Return how far the next level at or below a height is; infinite if there is none."""
     if run.section_turn > 0.0:
@@ -96,7 +96,7 @@ def below(height: float, run: Run) -> float:
     return height if height >= 0.0 else math.inf
 
 
-@kernel()
+@inner_kernel()
 def may_cross(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
     """Whether a lane's channel may come to a level of its section within the step.
 
@@ -118,7 +118,7 @@ def may_cross(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
     return not nearest > reach  # before the first step there is no change: it is NaN
 
 
-@kernel()
+@inner_kernel()
 def record_crossings(
     lane: int,
     run: Run,
@@ -150,7 +150,7 @@ def record_crossings(
     return full
 
 
-@kernel()
+@inner_kernel()
 def places_to_look_at(
     lane: int, at: Places, work: np.ndarray, spare: np.ndarray, shares: np.ndarray
 ) -> int:
@@ -168,7 +168,7 @@ def places_to_look_at(
     return ordered(shares, count)
 
 
-@kernel()
+@inner_kernel()
 def ordered(shares: np.ndarray, count: int) -> int:
     """Sort shares and leave out those that are there already; how many are left."""
     shares[:count].sort()
@@ -181,7 +181,7 @@ def ordered(shares: np.ndarray, count: int) -> int:
     return kept
 
 
-@kernel()
+@inner_kernel()
 def look_at(
     shares: np.ndarray,
     count: int,
@@ -207,7 +207,7 @@ def look_at(
         heights[count - 1] = height(work[at.channel + place, lane], run)
 
 
-@kernel()
+@inner_kernel()
 def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> int:
     """Add places next to those where a channel may turn at a level; how many there are now."""
     total = count
@@ -226,7 +226,7 @@ def refined(shares: np.ndarray, heights: np.ndarray, count: int, run: Run) -> in
     return ordered(shares, total) if total > count else count
 
 
-@kernel()
+@inner_kernel()
 def locate(
     wanted: float,
     low: float,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel, kernel
 
 PLACES = 5
 MIDDLE, LAST = 2, PLACES - 1
@@ -73,7 +73,7 @@ def extreme(
     return place + MIDDLE, value, error, abs(bent)
 
 
-@kernel()
+@inner_kernel()
 def highest(table: np.ndarray, first: int, behind: int, sense: float) -> int:
     """Return where in a table the largest (sense 1) or smallest (sense -1) value is."""
     best = first

@@ -7,7 +7,7 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PLACES, Places
-from jointplay.solver.kernels.jit import LaneFunction, deferred, kernel
+from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_step
@@ -23,7 +23,7 @@ MOTION = 6
 """Numbers of a journal's motion: place, rate, acceleration."""
 
 
-@kernel()
+@inner_kernel()
 def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
     """Keep gaps and journals' motion as they are where the step starts: the stage is there."""
     for j in range(at.pairs):
@@ -33,7 +33,7 @@ def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
         work[at.eccentricity_start + k, lane] = work[at.eccentricity + k, lane]
 
 
-@kernel()
+@inner_kernel()
 def load_records(
     rows: np.ndarray, records: np.ndarray, lane: int, at: Places, work: np.ndarray
 ) -> None:
@@ -46,7 +46,7 @@ def load_records(
             work[at.highest_time + rows[c], lane] = records[c, HIGHEST_TIME]
 
 
-@kernel()
+@inner_kernel()
 def store_records(
     rows: np.ndarray, records: np.ndarray, lane: int, at: Places, work: np.ndarray
 ) -> None:
@@ -59,7 +59,7 @@ def store_records(
             records[c, HIGHEST_TIME] = work[at.highest_time + rows[c], lane]
 
 
-@kernel()
+@inner_kernel()
 def count_smooth(record: np.ndarray, values: np.ndarray, begun: float, spacing: float) -> None:
     """Let extremes of a function of time alone count, known at even instants: by parabolas.
 
@@ -80,7 +80,7 @@ def count_smooth(record: np.ndarray, values: np.ndarray, begun: float, spacing: 
             record[HIGHEST], record[HIGHEST_TIME] = value, time
 
 
-@kernel()
+@inner_kernel()
 def look_between_shares(
     low: float,
     high: float,

@@ -9,7 +9,7 @@ stability swing inside.
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.passages import (
     NARROWEST,
@@ -33,7 +33,7 @@ WIDTHS = 2.0
 """Widths of a passage to either side in which extremes are sought."""
 
 
-@kernel()
+@inner_kernel()
 def look_at_passages(
     lane: int,
     run: Run,
@@ -64,7 +64,7 @@ def look_at_passages(
             look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
-@kernel()
+@inner_kernel()
 def may_be_fastest(
     j: int, share: float, width: float, lane: int, at: Places, work: np.ndarray
 ) -> bool:
@@ -83,7 +83,7 @@ def may_be_fastest(
     )
 
 
-@kernel()
+@inner_kernel()
 def look_inside(
     lane: int,
     run: Run,
@@ -114,7 +114,7 @@ def look_inside(
     look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
-@kernel()
+@inner_kernel()
 def touches(lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether a pair is in contact during this step."""
     found = False
@@ -123,14 +123,14 @@ def touches(lane: int, at: Places, work: np.ndarray) -> bool:
     return found
 
 
-@kernel()
+@inner_kernel()
 def place_evenly(low: float, high: float, at: Places, spare: np.ndarray) -> None:
     """Place eight instants evenly from one share of a step to another."""
     for i in range(INSTANTS):
         spare[at.theta, i] = low + (high - low) * (i / (INSTANTS - 1))
 
 
-@kernel()
+@inner_kernel()
 def look_at_instants(
     r: int,
     waiting: int,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 
 NO_ONSET = math.inf
@@ -14,7 +14,7 @@ TURNING_LEVELS = 4
 """Each narrows the interval of a turning point to an eighth."""
 
 
-@kernel()
+@inner_kernel()
 def look_between(
     low: float,
     high: float,
@@ -30,7 +30,7 @@ def look_between(
     gaps_within(work, spare, lane)
 
 
-@kernel()
+@inner_kernel()
 def first_onset(
     j: int,
     lane: int,
@@ -60,7 +60,7 @@ def first_onset(
     return NO_ONSET
 
 
-@kernel()
+@inner_kernel()
 def next_suspect(
     j: int, begun: int, lane: int, at: Places, work: np.ndarray, spare: np.ndarray
 ) -> int:
@@ -82,7 +82,7 @@ def next_suspect(
     return INSTANTS
 
 
-@kernel()
+@inner_kernel()
 def closed_between(
     j: int,
     left: float,
@@ -111,7 +111,7 @@ def closed_between(
     return NO_ONSET
 
 
-@kernel()
+@inner_kernel()
 def polish(
     j: int,
     left: float,

@@ -4,7 +4,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.judging import LANDED
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel, kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.onset import look_between
 from jointplay.solver.kernels.loop.runs import NO_PAIR, Run
@@ -64,7 +64,7 @@ def falling_root(start: float, start_rate: float, end: float, end_rate: float) -
     return x
 
 
-@kernel()
+@inner_kernel()
 def note_openings(
     lane: int, at: Places, work: np.ndarray, spare: np.ndarray, gaps_within: LaneFunction
 ) -> float:
@@ -96,7 +96,7 @@ def note_openings(
     return soonest
 
 
-@kernel()
+@inner_kernel()
 def end_behind_opening(share: float, lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Have this step redone so that it ends where a gap opens, after `share` of it.
 

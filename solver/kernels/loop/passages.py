@@ -8,7 +8,7 @@ however long the step is. The journal's place is that on the quintic which enclo
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 
 MOST_ITERATIONS = 60
@@ -19,7 +19,7 @@ ABOUT = (-2.0, -1.0, -0.45, -0.2, 0.0, 0.2, 0.45, 1.0)
 AXES = 2
 
 
-@kernel()
+@inner_kernel()
 def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
     """Whether pair j is open and its journal comes closest to the centre in this step."""
     return bool(
@@ -28,7 +28,7 @@ def passes(j: int, lane: int, at: Places, work: np.ndarray) -> bool:
     )
 
 
-@kernel()
+@inner_kernel()
 def power(k: int, axis: int, j: int, lane: int, at: Places, work: np.ndarray) -> float:
     """Return the coefficient of share^k of one component of pair j's eccentricity, m."""
     step = work[at.tried, lane]
@@ -51,7 +51,7 @@ def power(k: int, axis: int, j: int, lane: int, at: Places, work: np.ndarray) ->
     return float(6.0 * moved - 3.0 * turned + bent)
 
 
-@kernel()
+@inner_kernel()
 def closest_approach(j: int, lane: int, at: Places, work: np.ndarray) -> tuple[float, float]:
     """Return the share of the step at which a journal is closest to the centre, and the width.
 
@@ -90,7 +90,7 @@ def closest_approach(j: int, lane: int, at: Places, work: np.ndarray) -> tuple[f
     return share, max(distance / (way + 1e-300), NARROWEST)
 
 
-@kernel()
+@inner_kernel()
 def distance_and_speed(
     j: int, share: float, lane: int, at: Places, work: np.ndarray
 ) -> tuple[float, float]:
@@ -106,7 +106,7 @@ def distance_and_speed(
     return np.sqrt(square), np.sqrt(way) / work[at.tried, lane]
 
 
-@kernel()
+@inner_kernel()
 def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
     """Return the velocity of a journal's centre along the tangent at the end of the step, m/s."""
     first = at.eccentricity + 6 * j
@@ -115,7 +115,7 @@ def orbiting_at_end(j: int, lane: int, at: Places, work: np.ndarray) -> float:
     return float((x * vy - y * vx) / (np.hypot(x, y) + 1e-300))
 
 
-@kernel()
+@inner_kernel()
 def place_about(share: float, width: float, at: Places, spare: np.ndarray) -> None:
     """Place eight instants of a step about a passage, inside the step."""
     before, after = min(width, 0.5 * share), min(width, 0.5 * (1.0 - share))

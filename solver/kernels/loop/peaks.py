@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import PLACES
@@ -29,7 +29,7 @@ BYTES = 8
 """Rows whose marks are looked at together."""
 
 
-@kernel()
+@inner_kernel()
 def refine_peaks(
     lane: int,
     run: Run,
@@ -61,7 +61,7 @@ def refine_peaks(
     look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
 
 
-@kernel()
+@inner_kernel()
 def look_at_quarters(
     r: int,
     waiting: int,
@@ -88,7 +88,7 @@ def look_at_quarters(
     return waiting
 
 
-@kernel()
+@inner_kernel()
 def look_at_extremes(
     waiting: int,
     lane: int,
@@ -131,7 +131,7 @@ def look_at_extremes(
         seek(waiting, lane, run, at, work, spare, table, channels_around)
 
 
-@kernel()
+@inner_kernel()
 def end_peaks(now: float, lane: int, at: Places, work: np.ndarray) -> None:
     """Let the values at the run's last instant count as extremes."""
     for r in range(at.rows):

@@ -6,7 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels import compensated
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.runs import SAMPLES, SECTIONS, Run, SectionKind, Status
 
 PACE_STEPS, SLOWEST_PACE = 200_000, 1e-5
@@ -21,7 +21,7 @@ product_difference = kernel()(compensated.product_difference)
 """Time is whole periods plus local time, so that period 10 000 is as sharp as the first."""
 
 
-@kernel()
+@inner_kernel()
 def due_time(kind: int, index: int, lane: int, run: Run, at: Places, work: np.ndarray) -> float:
     """Local time of a sample or section (`kind`); infinite past the last one."""
     whole = float(run.periods)
@@ -52,7 +52,7 @@ def plan(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     work[at.next_due, lane] = min(soonest, work[at.end, lane])
 
 
-@kernel()
+@inner_kernel()
 def turn_over(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Begin a new period: local time goes back, and phases on where periods are not common."""
     run.periods += 1
@@ -87,7 +87,7 @@ def stop(status: int, lane: int, run: Run, at: Places, work: np.ndarray) -> None
     work[at.accept, lane] = 0.0
 
 
-@kernel()
+@inner_kernel()
 def check_pace(lane: int, run: Run, at: Places, work: np.ndarray) -> None:
     """Stop a lane that has used up its steps or hardly moves; counted in its own steps."""
     now = float(run.periods) * run.period + work[at.time, lane]

@@ -5,7 +5,7 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, PLACES, TIME
-from jointplay.solver.kernels.jit import deferred, kernel
+from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_step
@@ -17,7 +17,7 @@ from jointplay.solver.kernels.loop.unowned_view import unowned
 TABLE = float64[:, ::1]
 
 
-@kernel()
+@inner_kernel()
 def moment_of(i: int, moments: np.ndarray, row: np.ndarray, run: Run) -> float:
     """Return an instant as local time of the period that a step is in, s."""
     return product_difference(moments[i, 0], moments[i, 1], row[PERIOD], run.period)

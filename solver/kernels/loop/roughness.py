@@ -9,7 +9,7 @@ What a run's rough steps hid before the first of them was found is not among its
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.runs import Run
@@ -22,14 +22,14 @@ ROUNDING = 1e-13
 """Share of the largest range of all channels that a range of nothing but rounding is below."""
 
 
-@kernel()
+@inner_kernel()
 def is_due(lane: int, run: Run, at: Places, work: np.ndarray) -> bool:
     """Whether a step is to be looked at inside, rough or not."""
     steps = int(work[at.steps, lane])
     return bool(steps < run.rough_until or steps % EVERY == EVERY - 1)
 
 
-@kernel()
+@inner_kernel()
 def any_due(runs: np.ndarray, at: Places, work: np.ndarray) -> bool:
     """Whether a step of any lane is to be looked at inside."""
     found = False
@@ -38,7 +38,7 @@ def any_due(runs: np.ndarray, at: Places, work: np.ndarray) -> bool:
     return found
 
 
-@kernel()
+@inner_kernel()
 def is_rough(lane: int, run: Run, at: Places, work: np.ndarray, spare: np.ndarray) -> bool:
     """Whether a step is rough, whose channels are known at eight even instants; notes if it is."""
     widest = 0.0

@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import LaneFunction, kernel
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.extreme import LAST, PLACES, extreme, highest
 from jointplay.solver.kernels.loop.runs import Run
@@ -41,7 +41,7 @@ SAME = 1e-9
 """Share of a step: places closer than that are one."""
 
 
-@kernel()
+@inner_kernel()
 def is_done(
     w: int,
     sharp: float,
@@ -70,7 +70,7 @@ def is_done(
     return True
 
 
-@kernel()
+@inner_kernel()
 def is_done_by(
     value: float, w: int, lane: int, run: Run, at: Places, work: np.ndarray, table: np.ndarray
 ) -> bool:
@@ -85,7 +85,7 @@ def is_done_by(
     return bool(8.0 * off * off <= sharp * table[w + BENT])
 
 
-@kernel()
+@inner_kernel()
 def seek(
     waiting: int,
     lane: int,
@@ -118,7 +118,7 @@ def seek(
         count(w, best, table[w + VALUES + int(best)], lane, run, at, work, table)
 
 
-@kernel()
+@inner_kernel()
 def rests_at_end(w: int, table: np.ndarray) -> bool:
     """Whether a window's best value is still at an end of its step when that was looked at well.
 
@@ -128,14 +128,14 @@ def rests_at_end(w: int, table: np.ndarray) -> bool:
     return bool(table[w + ROUNDS] >= ENOUGH_AT_END and not SAME < share < 1.0 - SAME)
 
 
-@kernel()
+@inner_kernel()
 def spread(r: int, value: float, lane: int, at: Places, work: np.ndarray) -> float:
     """Return a channel's range up to now, with a further value, or the one known beforehand."""
     low = min(work[at.lowest + r, lane], value)
     return max(max(work[at.highest + r, lane], value) - low, work[at.known_range + r, lane])
 
 
-@kernel()
+@inner_kernel()
 def count(
     w: int,
     place: float,
@@ -161,7 +161,7 @@ def count(
     work[times + r, lane] = float(run.periods) * run.period + work[at.time, lane] + time
 
 
-@kernel()
+@inner_kernel()
 def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
     """Return where a closer look at a window begins, the distance of its places, how many parts.
 
@@ -175,7 +175,7 @@ def closer(w: int, table: np.ndarray) -> tuple[float, float, int]:
     return table[w + START] + left * table[w + SPACING], spacing, parts
 
 
-@kernel()
+@inner_kernel()
 def place_closer(
     start: float, spacing: float, parts: int, first: int, at: Places, spare: np.ndarray
 ) -> None:
@@ -187,7 +187,7 @@ def place_closer(
             column += 1
 
 
-@kernel()
+@inner_kernel()
 def narrow(
     w: int,
     start: float,

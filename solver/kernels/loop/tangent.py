@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel, kernel
 from jointplay.solver.kernels.loop.runs import Run
 
 GOLDEN = 0.6180339887498949
@@ -26,7 +26,7 @@ def start_tangent(lane: int, at: Places, work: np.ndarray) -> None:
     scale_tangent(1.0 / tangent_length(lane, at, work), lane, at, work)
 
 
-@kernel()
+@inner_kernel()
 def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
     """Give the latched impact rate of pair j its derivative along the tangent.
 
@@ -51,7 +51,7 @@ def latch_tangent(j: int, lane: int, at: Places, work: np.ndarray) -> None:
     work[at.tangent_impact_rate + j, lane] = latched
 
 
-@kernel()
+@inner_kernel()
 def record_growth(
     now: float, lane: int, run: Run, at: Places, work: np.ndarray, growths: np.ndarray
 ) -> bool:
@@ -66,7 +66,7 @@ def record_growth(
     return run.growths >= growths.shape[1]
 
 
-@kernel()
+@inner_kernel()
 def renormalise(lane: int, at: Places, work: np.ndarray) -> float:
     """Bring a lane's tangent back to length 1; the logarithm of the length that it had.
 
@@ -101,7 +101,7 @@ def tangent_length(lane: int, at: Places, work: np.ndarray) -> float:
     return total * math.sqrt(square)
 
 
-@kernel()
+@inner_kernel()
 def scale_tangent(factor: float, lane: int, at: Places, work: np.ndarray) -> None:
     """Multiply a lane's tangent."""
     for i in range(at.states):

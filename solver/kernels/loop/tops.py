@@ -3,7 +3,7 @@
 import numpy as np
 
 from jointplay.solver.kernels.emit.places import Places
-from jointplay.solver.kernels.jit import kernel
+from jointplay.solver.kernels.jit import inner_kernel
 from jointplay.solver.kernels.loop.extreme import PLACES
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.seeking import is_done
@@ -24,7 +24,7 @@ CORNER = 0.5
 """Share of a second difference by which a channel may exceed its values between two of them."""
 
 
-@kernel()
+@inner_kernel()
 def open_windows(
     r: int,
     step: int,
@@ -69,7 +69,7 @@ def open_windows(
     return waiting
 
 
-@kernel()
+@inner_kernel()
 def tops(values: np.ndarray, i: int, sense: float, record: float) -> bool:
     """Whether no value beside one is beyond it, and there may be a record.
 
