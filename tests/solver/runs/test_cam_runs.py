@@ -96,5 +96,6 @@ def test_both_formulations_follow_a_cam_alike(shape: str, lash: float) -> None:
         np.testing.assert_allclose(one[channel], two[channel], rtol=0.0, atol=tiny)
     for found in (one, two):
         ledger = found.statistics["energy"]
-        # where steps pass a knot of the table, the third derivative of the path jumps: 1.2e-8
-        assert abs(ledger["residual"]) <= 20.0 * 1e-9 * ledger["gross_work"]
+        # steps pass over the knots of a table, where the path's third derivative jumps
+        share = 1e-8 if shape == "flat" else 3e-7
+        assert abs(ledger["residual"]) <= share * ledger["gross_work"]
