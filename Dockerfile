@@ -24,7 +24,7 @@ COPY records records
 COPY figures figures
 COPY paper paper
 COPY page page
-RUN pip install --no-cache-dir .
+RUN pip install --no-cache-dir '.[cluster]'
 
 RUN useradd --create-home jointplay && mkdir -p /data kernels && chown jointplay /data kernels
 USER jointplay
