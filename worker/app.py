@@ -17,9 +17,12 @@ QUEUES = ("recovered", "jobs")  # in the order in which workers look at them
 
 
 def broker_url(redis_url: str | None) -> str:
-    """Return Celery's form of a Redis URL."""
+    """Return Celery's form of a Redis URL; certificates are verified unless it says otherwise."""
     if redis_url is None:
         return "redis://"
+    if redis_url.startswith("rediss://") and "ssl_cert_reqs=" not in redis_url:
+        # redis-py verifies by itself, and Celery does not
+        return f"{redis_url}{'&' if '?' in redis_url else '?'}ssl_cert_reqs=required"
     return redis_url.replace("unix://", "redis+socket://", 1)
 
 

@@ -1,7 +1,11 @@
 """Settings whose absence lost tasks or left workers deaf when they were measured."""
 
+import ssl
 import subprocess
 import sys
+
+import pytest
+from kombu import Connection
 
 from jointplay.worker.app import app, broker_url
 
@@ -28,6 +32,16 @@ def test_results_travel_through_the_catalogue_alone() -> None:
 def test_a_socket_url_is_put_in_celerys_words() -> None:
     assert broker_url("unix:///run/redis.sock") == "redis+socket:///run/redis.sock"
     assert broker_url("redis://host:6379/0") == "redis://host:6379/0"
+
+
+@pytest.mark.parametrize("more", ["", "?ssl_ca_certs=/etc/ca.pem"])
+def test_certificates_of_the_broker_are_verified(more: str) -> None:
+    connection = Connection(broker_url(f"rediss://:secret@host:6380/1{more}"))
+    assert connection.ssl["ssl_cert_reqs"] is ssl.CERT_REQUIRED
+    assert (connection.password, connection.virtual_host) == ("secret", "1")
+    assert connection.ssl.get("ssl_ca_certs") == ("/etc/ca.pem" if more else None)
+    unverified = "rediss://host/0?ssl_cert_reqs=none"
+    assert broker_url(unverified) == unverified
 
 
 def test_the_app_loads_no_task_code() -> None:
