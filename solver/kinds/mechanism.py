@@ -23,7 +23,7 @@ from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.misfit import fighting_drivers, opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
-from jointplay.solver.scene.channels import recording
+from jointplay.solver.scene.channels import channels, recording
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.parameters import parameter_of, set_parameters
 from jointplay.solver.scene.references import ends, part_problems, reference_problems
@@ -112,6 +112,7 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
     InvalidInput
         Redundant constraints, an assembly that cannot close, a start where assemblies meet.
     """
+    channels(scene)  # outputs of channels that there are not, before equations compute them
     tree = spanning_tree(scene)
     if formulation is not None and tree.coordinates and not tree.closing:
         check_length(scene, tree, formulation)  # first: the assembly of many bodies takes longer

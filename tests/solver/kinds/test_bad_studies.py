@@ -138,7 +138,7 @@ BAD: dict[str, tuple[dict[str, Any], dict[str, Any], str, str]] = {
         P,
         {"section": {"onset": "A", "crank_angle": 0.0}},
         "/section/crank_angle",
-        "There is no field",
+        "does not go with the others here",
     ),
     "onset at no joint": (P, {"section": {"onset": "Q"}}, "/section/onset", "no joint 'Q'"),
     "onset at an ideal joint": (

@@ -274,6 +274,15 @@ def test_constraints_may_be_redundant_where_they_stay_so(count: int) -> None:
     assert admit(of_scene(parallel_cranks(count))).joints == ()
 
 
+def test_an_output_of_no_channel_is_refused_before_long_equations_are_recorded() -> None:
+    scene = four_bars(5, 1.0) | {"outputs": [{"name": "tip", "channel": "x"}]}
+    with pytest.raises(InvalidInput) as refused:
+        admit({"kind": "simulate", "scene": scene, "duration": 0.1})
+    (problem,) = refused.value.problems
+    assert problem.pointer == "/scene/outputs/0/channel"
+    assert "There is no channel 'x'" in problem.detail
+
+
 def test_a_start_where_assemblies_meet_is_refused() -> None:
     scene = four_bars(1, 1.0)
     scene["start"]["angles"] = {"B0": 0.0, "B1": 0.0, "C0": 0.0}
