@@ -18,9 +18,11 @@ import jointplay.service.page.endpoints
 import jointplay.service.problems.endpoints
 import jointplay.service.results.endpoints
 import jointplay.service.results.figures
+import jointplay.service.scenes.endpoints
+import jointplay.service.scenes.looks
 import jointplay.service.studies.endpoints
 import jointplay.service.zarr.endpoints
-from jointplay.service import estimates, events, health, laws, metrics, problems, scenes, schemas
+from jointplay.service import estimates, events, health, laws, metrics, problems, schemas
 from jointplay.service.access import links, needs
 from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
@@ -35,6 +37,7 @@ from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
 from jointplay.service.readiness import Readiness
 from jointplay.service.results.damage import answer_damage
+from jointplay.service.scenes.looks import SceneLooker
 from jointplay.service.windows import WindowProcess
 from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -57,6 +60,7 @@ _BEHIND_THE_DOOR = (
     (events, _JOBS),
     (estimates, needs("jobs:write")),
     (jointplay.service.batches.endpoints, _JOBS),
+    (jointplay.service.scenes.looks, needs("jobs:write")),
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),
@@ -65,7 +69,7 @@ _BEHIND_THE_DOOR = (
     (metrics, needs("metrics")),
 )
 _OPEN = (
-    scenes,
+    jointplay.service.scenes.endpoints,
     laws,
     schemas,
     health,
@@ -101,12 +105,14 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.prober = prober = Prober()
         app.state.checker = checker = Checker(settings)
         app.state.windows = windows = WindowProcess()
+        app.state.looker = looker = SceneLooker()
         try:
             yield
         finally:
             prober.close()
             checker.close()
             windows.close()
+            looker.close()
             catalogue.close()
 
     app = FastAPI(

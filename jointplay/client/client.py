@@ -16,6 +16,7 @@ from jointplay.client.errors import ClientError, Refused
 from jointplay.client.job import Job
 from jointplay.client.job_record import Estimate
 from jointplay.client.service_job import ServiceJob
+from jointplay.scene_choice import Scene, scene_document, with_parameters
 
 MOST_JOBS = 10_000
 """Jobs that the service takes in one batch."""
@@ -186,6 +187,22 @@ class Client:
         """Return a batch by its id, as it is now."""
         found = self._connection.get(f"/v1/batches/{segment(batch_id)}")
         return batch_of(self._connection, found)
+
+    def batches(self) -> Iterator[Batch]:
+        """Yield batches, newest first, fetching pages as they are needed."""
+        token: str | None = None
+        while True:
+            page = self._connection.get("/v1/batches", {"page_token": token})
+            for found in page["batches"]:
+                yield batch_of(self._connection, found)
+            token = page["next_page_token"]
+            if token is None:
+                return
+
+    def check_scene(self, scene: Scene, **parameters: Any) -> dict[str, Any]:
+        """Return whether a scene can be put together and move; ``problems`` say why not."""
+        chosen = with_parameters(scene_document(scene), parameters)
+        return self._connection.post("/v1/scenes/check", chosen)
 
     def scenes(self) -> list[dict[str, Any]]:
         """Return the presets: name, description, source and parameters of each."""

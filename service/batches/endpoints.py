@@ -124,6 +124,29 @@ def submit_batch(
     return accepted
 
 
+class BatchPage(BaseModel):
+    """Batches, newest first."""
+
+    batches: list[BatchResource]
+    next_page_token: str | None = Field(
+        description="Give it as page_token for the batches after these; null: there are no more."
+    )
+
+
+@router.get("", responses=problems(kinds.INVALID_REQUEST))
+def list_batches(
+    catalogue: CatalogueDependency, caller: CallerDependency, query: Annotated[PageQuery, Query()]
+) -> BatchPage:
+    """List batches, newest first; batches that arrive in the meantime move no page."""
+    owner = None if caller.sees_all else caller.owner
+    found, following = catalogue.page_of_batches(
+        limit=query.page_size, after=query.checked_token(), owner=owner
+    )
+    return BatchPage(
+        batches=[BatchResource.of(batch) for batch in found], next_page_token=following
+    )
+
+
 @router.get(
     "/{batch_id}",
     dependencies=[NO_PARAMETERS],

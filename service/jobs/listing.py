@@ -36,11 +36,11 @@ Name = Annotated[
 
 
 class PageQuery(BaseModel):
-    """One page of the list of jobs."""
+    """One page of a list."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    page_size: int = Field(default=50, ge=1, le=1000, description="Most jobs in one page.")
+    page_size: int = Field(default=50, ge=1, le=1000, description="Most entries of one page.")
     page_token: str | None = Field(default=None, description="next_page_token of the page before.")
 
     def checked_token(self) -> str | None:

@@ -37,5 +37,6 @@ def _field(option: Option) -> tuple[Any, Any]:
     return float | None, Field(default=None, allow_inf_nan=False, description=description)
 
 
-_OPTIONS: dict[str, Any] = {name: _field(option) for name, option in OPTIONS.items()}
-FigureQuery = create_model("FigureQuery", __base__=FigureSelection, **_OPTIONS)
+PAGE_FIELDS: dict[str, Any] = {name: _field(option) for name, option in OPTIONS.items()}
+"""Fields of the page's options, as `create_model` takes them."""
+FigureQuery = create_model("FigureQuery", __base__=FigureSelection, **PAGE_FIELDS)

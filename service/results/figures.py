@@ -32,6 +32,7 @@ _DRAWN: dict[int | str, dict[str, Any]] = {
 }
 
 
+@router.head("", dependencies=[NO_PARAMETERS], include_in_schema=False)
 @router.get("", dependencies=[NO_PARAMETERS])
 def list_figures(results: ResultsOfThePath) -> Figures:
     """List the figures that can be drawn of what the job has stored, also as it runs."""
@@ -48,6 +49,7 @@ def list_figures(results: ResultsOfThePath) -> Figures:
     )
 
 
+@router.head("/{name}.{form}", include_in_schema=False)
 @router.get(
     "/{name}.{form}",
     response_class=Response,

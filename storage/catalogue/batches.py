@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from itertools import islice
+from typing import Any
 
 from sqlalchemy import func, insert, literal, select, update
 
@@ -63,22 +64,49 @@ def submit_batch(
 
 def find_batch(unit: Unit, batch_id: str) -> Batch:
     """Return a batch with the progress of the whole; BatchNotFound if there is none."""
-    row = unit.execute(select(tables.batch).where(tables.batch.c.id == batch_id)).one_or_none()
-    if row is None:
+    rows = unit.execute(select(tables.batch).where(tables.batch.c.id == batch_id)).all()
+    if not rows:
         raise BatchNotFound(batch_id)
-    fields = dict(row._mapping)
-    states = dict.fromkeys(JobState, 0)
-    going = 0.0  # jobs, as far as those still live lack
+    (found,) = _with_progress(unit, rows)
+    return found
+
+
+def page_of_batches(
+    unit: Unit, *, limit: int = 50, after: str | None = None, owner: str | None = None
+) -> tuple[tuple[Batch, ...], str | None]:
+    """Return a page of batches, newest first, and the id to give as `after` for the next one."""
+    columns = tables.batch.c
+    statement = select(tables.batch).order_by(columns.id.desc()).limit(limit + 1)
+    if after is not None:
+        statement = statement.where(columns.id < after)
+    if owner is not None:
+        statement = statement.where(columns.owner == owner)
+    rows = unit.execute(statement).all()
+    found = _with_progress(unit, rows[:limit])
+    return tuple(found), found[-1].id if len(rows) > limit else None
+
+
+def _with_progress(unit: Unit, rows: Sequence[Any]) -> list[Batch]:
+    """Return batches by their rows, with the progress of their jobs."""
+    states = {row.id: dict.fromkeys(JobState, 0) for row in rows}
+    going = dict.fromkeys(states, 0.0)  # jobs, as far as those still live lack
     counted = unit.execute(
-        select(_job.c.state, func.count(), func.sum(1.0 - _job.c.progress_fraction))
-        .where(_job.c.batch == batch_id)
-        .group_by(_job.c.state)
+        select(_job.c.batch, _job.c.state, func.count(), func.sum(1.0 - _job.c.progress_fraction))
+        .where(_job.c.batch.in_(list(states)))
+        .group_by(_job.c.batch, _job.c.state)
     )
-    for state, count, lacking in counted:
-        states[state] = count
+    for batch, state, count, lacking in counted:
+        states[batch][state] = count
         if not state.terminal:
-            going += lacking
-    return Batch(**fields, states=states, fraction=max(1.0 - going / fields["count"], 0.0))
+            going[batch] += lacking
+    return [
+        Batch(
+            **row._mapping,
+            states=states[row.id],
+            fraction=max(1.0 - going[row.id] / row._mapping["count"], 0.0),
+        )
+        for row in rows
+    ]
 
 
 def cancel_batch(unit: Unit, batch_id: str) -> Batch:

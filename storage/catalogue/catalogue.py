@@ -205,6 +205,7 @@ class Catalogue:
 
     get = _reading(rows.find_job)
     batch = _reading(batches.find_batch)
+    page_of_batches = _reading(batches.page_of_batches)
     jobs = _reading(listing.page_of_jobs)
     blocks = _reading(listing.blocks_of)
     attempts = _reading(listing.attempts_of)

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from jointplay.command_line.options import AS_JSON, SCENE, SET
 from jointplay.command_line.output import tell
-from jointplay.command_line.scene.assembled import AssembledScene, assemble_scene
+from jointplay.command_line.scene.assembled import assemble_scene
 
 if TYPE_CHECKING:
+    from jointplay.solver.kinds.assembled import AssembledScene
     from jointplay.solver.mechanics.branches import Branches
 
 
@@ -19,36 +20,17 @@ def check(source: SCENE, settings: SET = None, as_json: AS_JSON = False) -> None
 
     Example: `jointplay scene check mine.json --set clearance=1e-4`
     """
-    from jointplay.figures.scene_facts import clearances
-    from jointplay.solver.mechanics.branches import branches
-    from jointplay.solver.scene.document import Scene
+    from jointplay.service.scenes.findings import branches_of, findings_of
 
     scene = assemble_scene(source, settings or ())
-    assembly, admission = scene.assembly, scene.admission
-    joints = list(clearances(scene.document))
-    found = branches(Scene.model_validate(scene.document))
-    document = {
-        "scene": scene.document["name"],
-        "bodies": list(scene.document["bodies"]),
-        "joints_with_clearance": joints,
-        "freedom": assembly.freedom_with_play,
-        "ideal_freedom": assembly.freedom,
-        "redundant": assembly.redundant_with_play,
-        "ideal_redundant": assembly.redundant,
-        "residual": assembly.residual,
-        "assemblies": found.angles,
-        "places": found.places,
-        "held": found.held,
-        "period": None if admission is None else admission.period,
-        "channels": None if admission is None else len(admission.channels),
-        "problems": scene.problems,
-    }
-    tell(document, _lines(scene, joints, found), as_json=as_json)
+    found = branches_of(scene)
+    document = findings_of(scene, found)
+    tell(document, _lines(scene, document["joints_with_clearance"], found), as_json=as_json)
     if scene.refusal is not None:
         raise scene.refusal
 
 
-def _lines(scene: AssembledScene, joints: list[str], found: "Branches") -> Iterator[str]:
+def _lines(scene: "AssembledScene", joints: list[str], found: "Branches") -> Iterator[str]:
     assembly, admission = scene.assembly, scene.admission
     lines = {
         "scene": scene.document["name"],

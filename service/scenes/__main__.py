@@ -1,0 +1,58 @@
+"""`python -m jointplay.service.scenes FD`: looks at scenes that it receives, until it is idle."""
+
+import logging
+import sys
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from typing import Any
+
+from jointplay.figures import NotDrawable, Options, render_mechanism
+from jointplay.records.figure_form import Form
+from jointplay.records.strict_json import parse
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.problems.handlers import refusal
+from jointplay.service.scenes.findings import branches_of, findings_of
+from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
+
+_IDLE = 60.0  # s after which memory is given back
+_log = logging.getLogger(__name__)
+
+
+def _answer(body: bytes, form: Form | None, page: dict[str, Any]) -> object:
+    """Return findings of a scene, or its drawing if a form is given; or the refusal."""
+    try:
+        scene = assembled_scene(_scene_in(body), is_whole=True)
+        if form is None:
+            return findings_of(scene, branches_of(scene))
+        return _drawing(scene, form, page)
+    except Exception as error:  # noqa: BLE001 - as the API itself does with any
+        refused = refusal(error)
+        if refused.kind.status >= 500:
+            _log.exception("a scene of %d bytes could not be looked at", len(body))
+        return refused
+
+
+def _scene_in(body: bytes) -> Any:
+    document = parse(body)
+    if not isinstance(document, dict):
+        sentence = "A scene is a JSON object: a preset with parameters, or a document."
+        raise RequestRefused(kinds.INVALID_JOB, sentence)
+    return document
+
+
+def _drawing(scene: AssembledScene, form: Form, page: dict[str, Any]) -> bytes:
+    try:
+        return render_mechanism(scene.document, scene.pose(), form, Options(**page))
+    except NotDrawable as error:
+        raise RequestRefused(kinds.NOT_DRAWABLE, str(error)) from None
+
+
+def main() -> None:
+    """Answer until nobody asks any more."""
+    with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
+        while asking.poll(_IDLE):
+            asking.send(_answer(*asking.recv()))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,117 @@
+"""``/v1/scenes/check`` and ``/v1/scenes/drawing``: scenes looked at before they are run."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Query, Response
+from pydantic import BaseModel, Field, create_model
+
+from jointplay.records.figure_form import FORMS, IN_WORDS, MEDIA_TYPES
+from jointplay.records.page_option import OPTIONS
+from jointplay.service.answering import AnsweringProcess, Busy, NoAnswer, TooSlow
+from jointplay.service.body import JobBody
+from jointplay.service.dependencies import NO_PARAMETERS, of_the_application
+from jointplay.service.fields import BINARY, in_unit
+from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, kinds, problems
+from jointplay.service.problems import unavailable as put_off
+from jointplay.service.results.figure_query import PAGE_FIELDS
+
+router = APIRouter(prefix="/v1/scenes", tags=["scenes"])
+_PATIENCE = 60.0  # s; a chain of 30 bodies takes 10 of them
+_BODY: dict[str, Any] = {
+    "required": True,
+    "description": "A scene as a job has it: a preset with parameters, or a scene document.",
+    "content": {"application/json": {"schema": {"type": "object"}}},
+}
+_DRAWN: dict[int | str, dict[str, Any]] = {
+    200: {"description": "The drawing.", "content": dict.fromkeys(MEDIA_TYPES.values(), BINARY)}
+}
+_REFUSALS = problems(*kinds.OF_A_BODY, kinds.INVALID_REQUEST, kinds.UNAVAILABLE)
+
+
+class SceneFindings(BaseModel):
+    """Findings of a check; with `problems` the scene cannot be run, and they say why."""
+
+    scene: str
+    bodies: list[str]
+    joints_with_clearance: list[str]
+    freedom: int = Field(description="Degrees of freedom, clearances open.")
+    ideal_freedom: int = Field(description="The same without any clearance.")
+    redundant: int = Field(description="Constraints that others imply.")
+    ideal_redundant: int = Field(description="The same without any clearance.")
+    residual: float = Field(description="What loops miss by as they are put together, m or rad.")
+    assemblies: list[dict[str, float]] = Field(
+        description="Angles of all bodies, rad, in each way to put them together; the first is run."
+    )
+    places: list[dict[str, tuple[float, float]]] = Field(
+        description="Centres of mass of all bodies, m, in each of them."
+    )
+    held: list[str] = Field(description="Coordinates that were held, as it moves freely.")
+    period: float | None = in_unit("s", "Period of the drivers; null if there is none.")
+    channels: int | None = Field(description="Number of channels; null if it cannot be run.")
+    problems: list[ErrorDetail]
+
+
+class SceneLooker:
+    """Asks the process that looks at scenes, which is kept while somebody asks."""
+
+    def __init__(self) -> None:
+        self._process = AnsweringProcess("jointplay.service.scenes", _PATIENCE)
+
+    def look(self, body: bytes, form: str | None, page: dict[str, Any]) -> Any:
+        """Return findings, or bytes of a drawing in a form; RequestRefused if there are none."""
+        try:
+            answer = self._process.answer((body, form, page))
+        except Busy:
+            raise put_off("Many scenes are being looked at; ask again in a moment.", 2) from None
+        except TooSlow:
+            sentence = f"Looking at this scene takes more than {_PATIENCE:g} s; use fewer bodies."
+            raise RequestRefused(kinds.LIMIT_EXCEEDED, sentence) from None
+        except NoAnswer:
+            raise put_off("The scene could not be looked at.", 5) from None
+        if isinstance(answer, RequestRefused):
+            raise answer
+        return answer
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.close()
+
+
+Looker = Annotated[SceneLooker, of_the_application("looker")]
+DrawingQuery = create_model("DrawingQuery", __config__={"extra": "forbid"}, **PAGE_FIELDS)
+
+
+@router.post(
+    "/check",
+    dependencies=[NO_PARAMETERS],
+    openapi_extra={"requestBody": _BODY},
+    responses=_REFUSALS,
+)
+def check_scene(body: JobBody, looker: Looker) -> SceneFindings:
+    """Tell whether a scene can be put together and move: freedom, redundancy, assemblies.
+
+    A scene that cannot be read is refused; one that cannot be run is answered with `problems`.
+    """
+    found = looker.look(body, None, {})
+    shown = [{"pointer": clipped(place), "detail": text} for place, text in found["problems"]]
+    return SceneFindings.model_validate(found | {"problems": shown})
+
+
+@router.post(
+    "/drawing.{form}",
+    response_class=Response,
+    openapi_extra={"requestBody": _BODY},
+    responses=_DRAWN | _REFUSALS | problems(kinds.UNKNOWN_FIGURE, kinds.NOT_DRAWABLE),
+)
+def draw_scene(
+    body: JobBody,
+    looker: Looker,
+    form: Annotated[str, Path(description="File type: png, svg, pdf or eps.")],
+    query: Annotated[DrawingQuery, Query()],
+) -> Response:
+    """Draw a scene as it stands at t = 0, as far as it can be put together."""
+    if form not in FORMS:
+        sentence = f"Scenes are drawn as {IN_WORDS}, not as {clipped(form)!r}."
+        raise RequestRefused.of_parameter("form", sentence, kinds.UNKNOWN_FIGURE)
+    page = {name: getattr(query, name) for name in OPTIONS}
+    return Response(looker.look(body, form, page), media_type=MEDIA_TYPES[form])

@@ -1,0 +1,75 @@
+"""A scene put together, for those who look at it before it is run."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+from pydantic import ValidationError
+
+from jointplay.records.failure import InvalidInput, Problem
+from jointplay.records.remarks import without_remarks
+from jointplay.solver.kinds import admit
+from jointplay.solver.kinds.mechanism import resolve
+from jointplay.solver.kinds.simulate import SimulateJob
+from jointplay.solver.mechanics.assembly import Assembly, assemble
+from jointplay.solver.runs.admission import Admission
+
+
+@dataclass(frozen=True)
+class AssembledScene:
+    """A scene with its parameters set, as far as it can be put together.
+
+    Either `admission` says how it would be run, or `refusal` why it cannot be.
+    """
+
+    document: dict[str, Any]
+    assembly: Assembly
+    admission: Admission | None
+    refusal: InvalidInput | None
+
+    @property
+    def problems(self) -> list[Problem]:
+        """Reasons that keep it from being run."""
+        return [] if self.refusal is None else list(self.refusal.problems)
+
+    def pose(self) -> dict[str, tuple[float, float, float]]:
+        """Return x, y [m] and theta [rad] of every body at t = 0."""
+        rows = self.assembly.pose.reshape(-1, 3).tolist()
+        return {
+            body: (x, y, theta)
+            for body, (x, y, theta) in zip(self.document["bodies"], rows, strict=True)
+        }
+
+
+def assembled_scene(scene: Mapping[str, Any] | None, *, is_whole: bool) -> AssembledScene:
+    """Return a scene; one that cannot be run is returned too, if its parts fit together.
+
+    Parameters
+    ----------
+    scene
+        As a job has it: a preset with parameters, or a document.
+    is_whole
+        Whether pointers of problems shall lead into the scene, and not into a job that has it.
+
+    Raises
+    ------
+    InvalidInput
+        With everything that keeps the scene from being read.
+    """
+    job = {"kind": "simulate", "duration": 1e-3}  # whatever the job is, its scene is looked at
+    job |= {} if scene is None else {"scene": without_remarks(scene)}
+    try:
+        found = cast("Admission", admit(job))
+    except InvalidInput as error:
+        refusal = error
+    else:
+        return AssembledScene(found.scene_document(), assemble(found.scene), found, None)
+    if is_whole:
+        refusal = InvalidInput(
+            Problem(pointer.removeprefix("/scene"), detail) for pointer, detail in refusal.problems
+        )
+    try:
+        resolved, document, _ = resolve(SimulateJob.model_validate(job))
+    except (ValidationError, InvalidInput):
+        raise refusal from None
+    return AssembledScene(document, assemble(resolved), None, refusal)

@@ -1,0 +1,96 @@
+"""Scenes checked and drawn over HTTP before they are run, and the heads and lists beside."""
+
+import json
+
+import pytest
+
+from jointplay.command_line.application import run
+from jointplay.solver.scene import presets
+from tests.command_line.four_bar import four_bar
+
+
+@pytest.fixture
+def jointplay_check(capsys):
+    def call(*arguments):
+        assert run(["scene", "check", "--json", *arguments]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    return call
+
+
+def check(http, scene):
+    return http.post("/v1/scenes/check", json=scene)
+
+
+def test_a_scene_is_checked(http, jointplay_check):
+    answer = check(http, {"preset": "slider-crank", "parameters": {"clearance": 1e-4}})
+    assert answer.status_code == 200
+    found = answer.json()
+    assert (found["scene"], found["joints_with_clearance"]) == ("slider-crank", ["P"])
+    assert (found["freedom"], found["ideal_freedom"], found["problems"]) == (2, 0, [])
+    assert found == jointplay_check("slider-crank", "--set", "clearance=1e-4")
+
+
+def test_a_document_that_cannot_be_run_is_told_why(http):
+    scene = four_bar()
+    scene["bodies"]["coupler"]["points"] = {"a": [-0.001, 0.0], "b": [0.001, 0.0]}  # too short
+    answer = check(http, scene)
+    assert answer.status_code == 200
+    assert answer.json()["problems"]
+    assert answer.json()["residual"] > 1e-3
+    drawn = http.post("/v1/scenes/drawing.svg", json=scene)
+    assert drawn.status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("scene", "pointer"),
+    [
+        ({"preset": "slider-krank"}, "/preset"),
+        ({"preset": "slider-crank", "parameters": {"clearence": 1}}, "/parameters/clearence"),
+        ({}, ""),
+        ([1], None),
+    ],
+)
+def test_what_is_no_scene_is_refused_at_its_field(http, scene, pointer):
+    answer = check(http, scene)
+    assert answer.status_code == 422
+    places = [one["pointer"] for one in answer.json()["errors"]]
+    assert places == [] if pointer is None else any(one.startswith(pointer) for one in places)
+
+
+@pytest.mark.parametrize(("form", "begin"), [("png", b"\x89PNG"), ("svg", b"<?xml")])
+def test_a_scene_is_drawn(http, form, begin):
+    answer = http.post(f"/v1/scenes/drawing.{form}", json=presets.document("pendulum"))
+    assert answer.status_code == 200
+    assert answer.content.startswith(begin)
+    wider = http.post(f"/v1/scenes/drawing.{form}?width=120", json={"preset": "pendulum"})
+    assert wider.status_code == 200
+    assert wider.content != answer.content
+
+
+def test_drawings_of_other_forms_are_refused(http):
+    answer = http.post("/v1/scenes/drawing.doc", json={"preset": "pendulum"})
+    assert (answer.status_code, answer.json()["errors"][0]["parameter"]) == (404, "form")
+
+
+def test_figures_have_heads(http, finished_job):
+    listed = http.head(f"/v1/jobs/{finished_job}/figures")
+    assert (listed.status_code, listed.content) == (200, b"")
+    drawn = http.head(f"/v1/jobs/{finished_job}/figures/outputs.svg")
+    assert (drawn.status_code, drawn.headers["content-type"]) == (200, "image/svg+xml")
+    assert int(drawn.headers["content-length"]) > 1000
+
+
+def test_batches_are_listed_page_by_page(http):
+    job = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+    made = [
+        http.post("/v1/batches", json={"jobs": [job] * size, "label": f"of {size}"}).json()["id"]
+        for size in (1, 2, 3)
+    ]
+    first = http.get("/v1/batches?page_size=2").json()
+    assert [one["id"] for one in first["batches"]] == made[:0:-1]
+    assert [one["jobs"] for one in first["batches"]] == [3, 2]
+    assert first["batches"][0]["states"]["queued"] == 3
+    following = http.get(f"/v1/batches?page_size=1&page_token={first['next_page_token']}").json()
+    assert following["batches"][0]["id"] == made[0]
+    assert http.get("/v1/batches?page_token=nonsense").status_code == 422
