@@ -41,9 +41,30 @@ class TabledJob(JobRecord, ABC):
 
     @property
     def history(self) -> "xr.Dataset":
-        """All channels of a simulation over the samples, read from the store as they are used."""
+        """All channels of a simulation over ``time``, read from the store as they are used."""
         self._insist("history", "history")
-        return self.open()
+        if "time" not in self._opened:
+            found = self.open().swap_dims(sample="time")
+            if not self.is_finished:
+                return found
+            self._opened["time"] = found
+        return self._opened["time"]
+
+    @property
+    def dataset(self) -> "xr.Dataset":
+        """All that a study has of its points, over the axes of its parameters.
+
+        ``job.dataset["A.normal_force"].sel(extreme="maximum")`` of a sweep has the axes that were
+        swept; of a diagram ``job.dataset["A.eccentricity_x"]`` has ``section`` besides.
+        """
+        from jointplay.client.axes import on_axes
+
+        self._insist_on_points()
+        study = self.results.study(None, None, None)
+        try:
+            return on_axes(study)
+        except ImportError as error:
+            raise _missing_extra("datasets", error) from error
 
     def open(self, group: str = "") -> "xr.Dataset":
         """Open a group of the job's Zarr store, lazily; by default the root.

@@ -1,5 +1,6 @@
 """``jointplay batch``: many jobs of a service at once."""
 
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,21 +14,24 @@ if TYPE_CHECKING:
     from jointplay.client import Batch
 
 
+_MOST_LISTED = 50
+
+
 def batch(
     source: Annotated[
-        str,
+        str | None,
         typer.Argument(
-            metavar="FILE|ID",
+            metavar="[FILE|ID]",
             help='A list of job documents as JSON, or {"jobs": [...]}; or the id of a batch.',
         ),
-    ],
+    ] = None,
     label: Annotated[str | None, typer.Option(help="A name of your own for the batch.")] = None,
     cancel: Annotated[bool, typer.Option("--cancel", help="Cancel the batch of this id.")] = False,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until all jobs are finished.")] = False,
     as_json: AS_JSON = False,
     url: URL = DEFAULT_URL,
 ) -> None:
-    """Queue all jobs of a file at a service, or none; or look at a batch by its id.
+    """Queue all jobs of a file at a service, or none; or look at a batch by its id, or list all.
 
     With --wait the exit code tells how the jobs ended: 0 all succeeded, 3 some failed, 4 some were
     cancelled.  `jointplay ls --batch ID` lists the jobs.
@@ -37,6 +41,11 @@ def batch(
     from jointplay.records.job import is_job_id
 
     with connect(url) as client:
+        if source is None:
+            listed = list(islice(client.batches(), _MOST_LISTED))
+            document = {"batches": [one.to_document() for one in listed]}
+            tell(document, (f"{one.id}  {one.states}" for one in listed), as_json=as_json)
+            return
         known = is_job_id(source) and not Path(source).exists()
         if known:
             found = client.batch(source)

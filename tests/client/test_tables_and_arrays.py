@@ -2,12 +2,16 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from jointplay.client import Client, NotFound, Refused
+from jointplay.client.axes import on_axes
+from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
+from jointplay.records.study import StudyDataset
 from jointplay.storage.catalogue.records import BlockState
 from tests.service_in_thread import BIFURCATION, known_section
 
@@ -22,7 +26,8 @@ def test_the_history_is_lazy_and_carries_units(client, finished_job):
     history = client.job(finished_job).history
     force = history["A.normal_force"]
     assert not force.variable._in_memory
-    assert (force.attrs["units"], force.sizes) == ("N", {"sample": 2001})
+    assert (force.attrs["units"], force.sizes) == ("N", {"time": 2001})
+    assert force.sel(time=slice(0.25, 0.75)).sizes["time"] == 501
     window = client.job(finished_job).window("A.normal_force")
     np.testing.assert_array_equal(force[100:200], window["A.normal_force"][100:200])
     np.testing.assert_array_equal(history["time"], window.time)
@@ -74,6 +79,40 @@ def test_tables_of_a_sweep(client, finished_sweep):
     assert force["friction"].tolist() == [0.0, 0.05] * 3
     assert set(force["unit"]) == {"N"}
     assert client.job(finished_sweep).points["status"].tolist()[4] == "failed"
+
+
+def test_a_sweep_has_the_axes_of_its_parameters(client, finished_sweep):
+    found = client.job(finished_sweep).dataset
+    force = found["A.normal_force"].sel(extreme="maximum")
+    assert force.dims == ("clearance", "friction")
+    np.testing.assert_array_equal(force, [[1.0, 2.0], [3.0, 4.0], [np.nan, 6.0]])
+    assert float(force.sel(clearance=2e-4, friction=0.05)) == 4.0
+    assert (force.attrs["units"], found["clearance"].attrs["units"]) == ("N", "m")
+    assert found["status"].sel(clearance=3e-4, friction=0.0) == "failed"
+
+
+def test_a_diagram_has_sections_besides(client, finished_study):
+    job = client.job(finished_study)
+    found, study = job.dataset, job.study()
+    sections = found["A.eccentricity_rate_x"]
+    assert sections.sizes == {"clearance": 20, "section": 6}
+    np.testing.assert_array_equal(sections, study.sections("A.eccentricity_rate_x"))
+    assert found["verdict"].values[:3].tolist() == ["undecided", "periodic", "quasi-periodic"]
+
+
+def test_points_in_two_directions_or_in_no_grid_keep_their_values():
+    values = np.array([[1.0], [2.0], [2.0], [1.0]])
+    parameters = [Channel("clearance", "m", "")]
+    statistics = {"steps": np.arange(4.0)}
+    both = StudyDataset({}, parameters, values, np.full(4, 2), statistics=statistics)
+    found = on_axes(both)["steps"]
+    assert found.sel(clearance=1.0).values.tolist() == [0.0, 3.0]
+    assert found.sel(direction="backward").values.tolist() == [3.0, 2.0]
+    listed = StudyDataset({}, parameters, values[:3], np.full(3, 2), statistics=statistics)
+    listed = replace(listed, statistics={"steps": np.arange(3.0)})
+    found = on_axes(listed)["steps"]
+    assert found.dims == ("point",)
+    assert found["clearance"].values.tolist() == [1.0, 2.0, 2.0]
 
 
 def test_what_a_job_of_another_kind_has_is_not_found(client, finished_job, finished_sweep):

@@ -111,14 +111,15 @@ BY_COMMAND = {
     "submit": "Client.submit simulate bifurcation sweep poincare ensemble accuracy_study estimate",
     "ls": "Client.jobs Batch.jobs",
     "show": "Client.job Job.refresh wait check statistics points accuracy study results",
-    "export": "Job.history window poincare peaks impacts open",
+    "export": "Job.history window poincare peaks impacts open export dataset",
     "plot": "Job.figure figures",
     "certificate": "Job.certificate",
     "cancel": "Job.cancel",
     "delete": "Job.delete",
-    "batch": "Client.submit_batch batch map Batch.wait refresh cancel",
+    "batch": "Client.submit_batch batch batches map Batch.wait refresh cancel",
     "laws": "Client.laws",
     "scene list": "Client.scenes",
+    "scene check": "Client.check_scene",
     "scene show": "Client.scene",
 }
 

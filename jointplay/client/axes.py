@@ -1,0 +1,91 @@
+"""A study as an xarray dataset whose axes are its parameters."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.point import PointStatus
+from jointplay.records.study import StudySource
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+EXTREMES = ("minimum", "maximum")
+
+
+def on_axes(study: StudySource) -> "xr.Dataset":
+    """Return all that a study has of its points, over the axes of its parameters.
+
+    A channel whose extremes were kept has the axis ``extreme`` besides, one that was taken at
+    sections the axis ``section``.  Points that are no grid, such as a list of them, stay on one
+    axis ``point`` with the parameters as coordinates; those of both directions of a continuation
+    have the axis ``direction``.  What was not computed is NaN.
+    """
+    import xarray as xr
+
+    axes, coordinates, order = _axes(study)
+    shape = [len(coordinates[name][1]) for name in axes] if order is not None else [study.points]
+
+    def laid_out(values: NDArray[Any]) -> NDArray[Any]:
+        rows = values if order is None else values[order]
+        return rows.reshape(*shape, *values.shape[1:])
+
+    variables: dict[str, tuple[Any, ...]] = {}
+    status = np.array([PointStatus(code).name for code in study.status])
+    variables["status"] = (axes, laid_out(status))
+    if study.verdicts is not None:
+        names = np.array([*study.verdict_names, ""])
+        variables["verdict"] = (axes, laid_out(names[study.verdicts]))
+    meanings: Mapping[str, Any] = study.attributes.get("meanings", {})
+    for name, values in {**study.indicators, **study.statistics}.items():
+        if name != "verdict":
+            unit, long_name = meanings.get(name, ("", ""))
+            told = {"units": unit, "long_name": long_name} if unit else {}
+            variables[name] = (axes, laid_out(np.asarray(values)), told)
+    for one in study.channels:
+        peaks = study.peaks(one.name)
+        pair = np.stack([peaks.minimum, peaks.maximum], axis=1)
+        variables[one.name] = ([*axes, "extreme"], laid_out(pair), _told(one))
+    if study.channels:
+        coordinates["extreme"] = (["extreme"], np.array(EXTREMES), {})
+    for one in study.observables:
+        variables[one.name] = ([*axes, "section"], laid_out(study.sections(one.name)), _told(one))
+    if study.observables:
+        told = {"units": "s", "long_name": "time"}
+        variables["time"] = ([*axes, "section"], laid_out(study.section_times()), told)
+    return xr.Dataset(variables, coordinates)
+
+
+def _axes(
+    study: StudySource,
+) -> tuple[list[str], dict[str, tuple[Any, ...]], NDArray[np.int64] | None]:
+    """Return the axes, their coordinates, and the points in their order; None: no grid."""
+    names = [one.name for one in study.parameters]
+    found = [np.unique(column, return_inverse=True) for column in study.values.T]
+    sizes = [len(values) for values, _ in found]
+    cells = int(np.prod(sizes)) if sizes else 0
+    told = {one.name: _told(one) for one in study.parameters}
+    if cells and study.points in (cells, 2 * cells):
+        places = np.ravel_multi_index([inverse for _, inverse in found], sizes)
+        turns = study.points // cells
+        order = np.lexsort((np.arange(study.points), places))
+        if np.array_equal(np.bincount(places, minlength=cells), np.full(cells, turns)):
+            coordinates: dict[str, tuple[Any, ...]] = {
+                name: ([name], values, told[name])
+                for name, (values, _) in zip(names, found, strict=True)
+            }
+            if turns == 1:
+                return names, coordinates, order
+            directions = np.array(["forward", "backward"])
+            coordinates["direction"] = (["direction"], directions, {})
+            return [*names, "direction"], coordinates, order
+    coordinates = {"point": (["point"], np.arange(study.points), {})}
+    for name, column in zip(names, study.values.T, strict=True):
+        coordinates[name] = (["point"], column, told[name])
+    return ["point"], coordinates, None
+
+
+def _told(one: Any) -> dict[str, str]:
+    return {"units": one.unit, "long_name": one.long_name}
