@@ -10,7 +10,8 @@ from jointplay import client, figures
 from jointplay.command_line import application
 from jointplay.command_line.application import EXITS
 from jointplay.command_line.job_document import job_document
-from jointplay.records import failure, strict_json
+from jointplay.exports import table_columns
+from jointplay.records import failure, strict_json, table_files
 from jointplay.service import processes
 from jointplay.service.processes.folder_lock import holding
 from jointplay.solver.scene import presets
@@ -167,6 +168,7 @@ def test_a_scene_of_ones_own_is_checked_like_a_preset(jointplay, tmp_path):
 def test_exit_codes_are_of_exceptions_that_there_are():
     """They are named and not imported: a name that nothing has would never be met."""
     places = (builtins, client, failure, strict_json, processes, figures, errors, of_the_catalogue)
+    places += (table_columns, table_files)
     unknown = [name for name in EXITS if not any(hasattr(place, name) for place in places)]
     assert unknown == []
 

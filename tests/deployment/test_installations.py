@@ -148,6 +148,8 @@ ALONE = [
     f"calibrate bouncing-journal {FIT} --population 10 --generations 1 --processes 2",
     "openapi",
     "cite",
+    "key new --owner ada --data keys",
+    "key ls --data keys",
     "laws",
     "scene list",
     "scene schema",
@@ -181,13 +183,14 @@ SAMPLED = {
 }
 """In the short suite: those that draw, export, fetch and read what the package holds; the study
 runs in a folder of rooms."""
-ELSEWHERE = {"demo", "reproduce", "chaos"}
-"""Start what the others start too, services and processes, but for minutes: see their own tests."""
+ELSEWHERE = {"demo", "reproduce", "chaos", "key revoke"}
+"""Start what the others start too, services and processes, but for minutes, or need to know what
+another command said: see their own tests."""
 
 
 def test_every_command_is_tried_here() -> None:
     lines = [line.split() for line in ALONE + ASKING]
-    words = {" ".join(line[: 2 if line[0] == "scene" else 1]) for line in lines}
+    words = {" ".join(line[: 2 if line[0] in ("key", "scene") else 1]) for line in lines}
     commands = dict(commands_of(typer.main.get_command(application)))
     assert words | ELSEWHERE | {"serve"} == set(commands)
 
