@@ -10,6 +10,9 @@ const VIEWS = {
   new: ["New job", () => import("./views/new_job.js")],
   jobs: ["Jobs", () => import("./views/jobs.js")],
   job: ["Job", () => import("./views/job.js")],
+  compare: ["Compared jobs", () => import("./views/compare.js")],
+  batch: ["Batch", () => import("./views/batch.js")],
+  editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
 const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs" };
 

@@ -75,11 +75,12 @@ def known_section(point: Any, column: Any, section: Any) -> NDArray[np.float64]:
 
 
 @contextmanager
-def serving(app: FastAPI) -> Iterator[str]:
+def serving(app: FastAPI, port: int = 0) -> Iterator[str]:
     """Serve ``app`` with uvicorn in a thread; the socket listens before, so nobody has to wait."""
     # the protocol is named, else asyncio leaves Nagle's algorithm on: 40 ms a request
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    listener.bind(("127.0.0.1", 0))
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.bind(("127.0.0.1", port))
     listener.listen()
     configuration = uvicorn.Config(
         app, log_level="warning", lifespan="on", h11_max_incomplete_event_size=LONGEST_HEAD

@@ -7,9 +7,12 @@ import { pause, post } from "../requests/service.js";
 const QUIET = 600; // ms without a change before it is asked
 
 export class Estimate {
-  /** @param document returns the job's document; throws while it is wrong */
-  constructor(document, signal) {
-    Object.assign(this, { document, signal, asking: new AbortController() });
+  /**
+   * @param document returns the job's document; throws while it is wrong
+   * @param onWrong called with the errors that the service found, none if it is fine
+   */
+  constructor(document, signal, onWrong = () => {}) {
+    Object.assign(this, { document, signal, onWrong, asking: new AbortController() });
     this.element = element("p", { class: "notice", role: "status" }, "Estimating the cost …");
     signal.addEventListener("abort", () => this.asking.abort());
   }
@@ -30,8 +33,11 @@ export class Estimate {
       signal.addEventListener("abort", () => clearTimeout(slow));
       const found = await post("/v1/estimates", job, signal).finally(() => clearTimeout(slow));
       fill(this.element, words(found));
+      this.onWrong([]);
     } catch (error) {
-      if (error.name !== "AbortError") fill(this.element, "No estimate: ", error.message);
+      if (error.name === "AbortError") return;
+      fill(this.element, "No estimate: ", error.message);
+      if (error.errors?.length) this.onWrong(error.errors);
     }
   }
 }

@@ -3,8 +3,10 @@
 import { element } from "./element.js";
 import { short, typed } from "./numbers.js";
 
+const SHOWN = 6; // others are folded away
+
 /**
- * Fields of declared parameters.
+ * Fields of declared parameters; those of a kind of job, whose place is "", are all shown.
  *
  * @property element   the form's part
  * @property values()  what differs from the defaults; throws where something is wrong
@@ -15,9 +17,10 @@ export class ParameterFields {
     this.fields = Object.entries(parameters).map(([name, parameter]) =>
       new Field(name, parameter, given[name], onchange, `${place.replaceAll("/", "-")}-${name}`));
     const required = this.fields.filter(({ parameter }) => parameter.required);
-    const [first, rest] = required.length
-      ? [required, this.fields.filter((one) => !required.includes(one))]
-      : [this.fields.slice(0, 6), this.fields.slice(6)];
+    const rare = place === "" ? [] : required.length
+      ? this.fields.filter((one) => !required.includes(one))
+      : this.fields.slice(SHOWN);
+    const [first, rest] = [this.fields.filter((one) => !rare.includes(one)), rare];
     this.element = element(
       "div",
       { class: "stacked" },

@@ -23,13 +23,19 @@ export async function whenThere(room, { job, signal, onChange }, path, query, dr
     } catch (error) {
       if (!(error instanceof Problem) || ![404, 409].includes(error.status)) throw error;
       complete = TERMINAL.has(job.state);
-      fill(room, element("div", { class: "panel" }, element("h2", {}, "Nothing to see yet"),
-        element("p", {}, error.message)));
+      fill(room, nothing(error.message));
     }
   };
-  onChange(({ state }) => {
-    if (complete || (!TERMINAL.has(state) && performance.now() - asked < LEAST)) return;
+  onChange(({ state, progress }) => {
+    if (complete || (!TERMINAL.has(state) && !progress.fraction)) return;
+    if (asked && !TERMINAL.has(state) && performance.now() - asked < LEAST) return;
     ask().catch(() => {});
   });
-  await ask();
+  if (TERMINAL.has(job.state) || job.progress.fraction) await ask();
+  else fill(room, nothing("The first results are shown here as soon as they are stored."));
+}
+
+function nothing(sentence) {
+  return element("div", { class: "panel" }, element("h2", {}, "Nothing to see yet"),
+    element("p", {}, sentence));
 }

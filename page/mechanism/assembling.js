@@ -134,6 +134,7 @@ class Constraints {
       if (joint.type === "fixed") rows.push(this.angles(first.body, second.body, joint.angle ?? 0));
       return rows;
     }
+    if (!joint.axis) return []; // a cam: its profile is left to the service
     const across = [-joint.axis[1], joint.axis[0]];
     const rows = [this.along(first.body, a, b, across, 0)];
     if (joint.type === "prismatic") {

@@ -10,6 +10,8 @@ const ENDS = {
   prismatic: ["guide", "slider"],
   "pin-in-slot": ["slot", "pin"],
   fixed: ["base", "part"],
+  "flat-follower": ["cam", "follower"],
+  "roller-follower": ["cam", "follower"],
 };
 
 /** Returns the two references `body.point` that a joint holds together. */

@@ -51,7 +51,7 @@ export function player(clock, impacts = () => []) {
     ),
   );
   let shown = "";
-  clock.listen((time) => {
+  const refresh = (time) => {
     const state = clock.playing ? "❚❚ Pause" : "▶ Play";
     if (state !== shown) fill(button, (shown = state));
     const share = (time - clock.first) / (clock.last - clock.first || 1);
@@ -59,7 +59,9 @@ export function player(clock, impacts = () => []) {
     const text = `t = ${withUnit(time, "s", 5)}`;
     if (readout.textContent !== text) readout.textContent = text;
     slider.setAttribute("aria-valuetext", `${short(time, 4)} seconds`);
-  });
+  };
+  clock.listen(refresh);
+  refresh(clock.time);
   return made;
 }
 

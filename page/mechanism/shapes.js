@@ -70,7 +70,7 @@ function supports(scene, pose) {
   for (const joint of Object.values(scene.joints)) {
     const [first, second] = ends(joint);
     const grounded = [first, second].find((end) => end.startsWith(`${GROUND}.`));
-    if (joint.axis || !grounded || play(joint) > 0.05) continue;
+    if (joint.axis || joint.type.endsWith("follower") || !grounded || play(joint) > 0.05) continue;
     const [x, y] = placeOf(scene, pose, grounded);
     const at = (points) => points.map(([right, down]) => [x, y, right, down]);
     found.push({
@@ -140,7 +140,7 @@ function springs(scene, pose) {
 function joints(scene, pose) {
   const driven = new Set(Object.values(scene.drivers ?? {}).map(({ joint }) => joint));
   return Object.entries(scene.joints).flatMap(([name, joint]) => {
-    if (joint.type === "prismatic") return [];
+    if (joint.type === "prismatic" || joint.type === "flat-follower") return [];
     const at = placeOf(scene, pose, ends(joint)[1]);
     if (joint.type === "fixed") {
       const square = [[-4, -4], [4, -4], [4, 4], [-4, 4]].map((offset) => [...at, ...offset]);

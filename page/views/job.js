@@ -90,13 +90,13 @@ class Head {
     const { job } = this;
     const fact = (title, value) => value &&
       element("div", {}, element("dt", {}, `${title}`), element("dd", {}, value));
-    const parameters = element("dd", {}, "");
+    const parameters = element("div", { hidden: true });
     this.showParameters(parameters);
     return element(
       "dl",
       { class: "facts" },
       fact("Duration", job.job.duration && withUnit(job.job.duration, "s")),
-      element("div", { hidden: true }, element("dt", {}, "Set"), parameters),
+      parameters,
       fact("Submitted", ago(job.created)),
       fact("Label", job.label),
       job.batch && element("div", {}, element("dt", {}, "Batch"), element("dd", {},
@@ -111,8 +111,8 @@ class Head {
       ? (await get(`/v1/scenes/${preset}`, {}, this.signal).catch(() => ({}))).parameters
       : Object.fromEntries(Object.entries(parameters ?? {}).map(([name]) => [name, {}]));
     const words = preset ? parameterWords(this.job.job, declared) : "";
-    fill(place, words);
-    place.parentElement.hidden = !words;
+    fill(place, element("dt", {}, "Set"), element("dd", {}, words));
+    place.hidden = !words;
   }
 
   refresh() {
@@ -173,6 +173,8 @@ class Head {
             }),
           ]
         : button("Cancel", () => post(`/v1/jobs/${job.id}/cancel`)),
+      job.kind === "simulate" &&
+        element("a", { class: "button", href: address(["compare"], { jobs: job.id }) }, "Compare"),
     );
   }
 
@@ -188,10 +190,12 @@ class Head {
   }
 }
 
-/** A link to the form with this job's values. */
+/** A link to the form with this job's values, or to the editor with its scene. */
 function changed(job) {
   const { scene, kind, duration, accuracy } = job.job;
-  if (!scene.preset) return null;
+  if (!scene.preset) {
+    return element("a", { class: "button", href: address(["editor"], { job: job.id }) }, "Change");
+  }
   const given = Object.fromEntries(
     Object.entries(scene.parameters ?? {}).filter(([, value]) => value !== null));
   const query = { ...given, kind: kind === "simulate" ? null : kind, duration, accuracy };

@@ -28,12 +28,13 @@ class JobList {
     this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
     this.scroll = element("div", { class: "rows", tabindex: "0", role: "group",
       "aria-label": "List of jobs, scrolls", onscroll: () => this.scrolled() }, this.inside);
+    this.empty = element("div");
     this.said = element("span", { role: "status", class: "quiet" });
     this.compare = element("a", { class: "button", hidden: true }, "Compare");
     this.element = element("div", {},
       element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
         element("div", { class: "buttons" }, this.compare)),
-      this.form(), this.scroll);
+      this.form(), this.scroll, this.empty);
     new ResizeObserver(() => this.draw()).observe(this.scroll);
   }
 
@@ -93,7 +94,7 @@ class JobList {
         this.draw();
       } catch (error) {
         if (error.name === "AbortError") return;
-        if (!(error instanceof Unreachable)) return this.failed(error);
+        if (!(error instanceof Unreachable) && !(error.status >= 500)) return this.failed(error);
       }
     }
   }
@@ -107,7 +108,7 @@ class JobList {
   }
 
   failed(error) {
-    if (error.name !== "AbortError") fill(this.inside, trouble(error));
+    if (error.name !== "AbortError") fill(this.empty, trouble(error));
   }
 
   range() {
@@ -143,8 +144,8 @@ class JobList {
     const height = this.rowHeight();
     this.said.textContent = `${this.jobs.length}${this.next ? "+" : ""} shown`;
     this.inside.style.height = `${Math.max(this.jobs.length * height, 1)}px`;
-    if (!this.jobs.length) return this.nothing();
-    this.inside.querySelector(".panel")?.remove();
+    this.scroll.hidden = !this.jobs.length;
+    fill(this.empty, this.jobs.length ? null : this.nothing());
     const [first, last] = this.range();
     const shown = this.jobs.slice(first, last);
     const ids = new Set(shown.map(({ id }) => id));
@@ -170,12 +171,12 @@ class JobList {
 
   nothing() {
     const filtered = Object.values(this.filters).some(Boolean);
-    fill(this.inside, element("div", { class: "panel" },
+    return element("div", { class: "panel" },
       element("h2", {}, filtered ? "No job matches these filters" : "No jobs yet"),
       filtered
         ? element("a", { class: "button", href: "#/jobs", onclick: () => location.reload() }, "Show all jobs")
         : element("p", {}, "Choose a ", element("a", { href: "#/" }, "mechanism"),
-          " and run it: its job appears here.")));
+          " and run it: its job appears here."));
   }
 
   choose(job, chosen) {

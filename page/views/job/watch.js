@@ -109,7 +109,7 @@ class Watch {
     const { links } = this.job;
     const ask = (path, query) => (path ? get(path, query, this.signal).catch(() => null) : null);
     const [peaks, impacts, certificate] = await Promise.all([
-      ask(links.peaks), ask(links.impacts), ask(links.certificate, {
+      ask(links.peaks), ask(links.impacts), ask(TERMINAL.has(this.job.state) && links.certificate, {
         channels: this.job.job.channels.slice(0, 60).join(","),
       }),
     ]);

@@ -1,0 +1,93 @@
+/** Up to four runs in the same plots, and their mechanisms in the same place. */
+
+import { ChannelChoice } from "../interface/channel_choice.js";
+import { element, fill } from "../interface/element.js";
+import { address, go, note } from "../interface/place.js";
+import { sceneOf } from "../interface/scene_of_job.js";
+import { parameterWords, sceneName } from "../interface/state.js";
+import { Clock } from "../mechanism/clock.js";
+import { Motion, journals } from "../mechanism/motion.js";
+import { onNewColours } from "../mechanism/palette.js";
+import { player, watchable } from "../mechanism/player.js";
+import { calm, turn } from "../mechanism/sketch.js";
+import { Stage } from "../mechanism/stage.js";
+import { HistoryPlots } from "../plots/history_plots.js";
+import { get } from "../requests/service.js";
+
+const MOST = 4;
+
+export async function show(room, { query, signal }) {
+  const ids = (query.get("jobs") ?? "").split(",").filter(Boolean).slice(0, MOST);
+  const jobs = await Promise.all(ids.map((id) => get(`/v1/jobs/${encodeURIComponent(id)}`, {}, signal)));
+  const others = await candidates(ids, signal);
+  const head = [
+    element("h1", {}, "Compared jobs"),
+    element("ul", { class: "legend" }, jobs.map((job, i) => entry(job, i, ids))),
+    ids.length < MOST && adding(ids, others),
+  ];
+  if (!jobs.length) {
+    fill(room, head, element("p", { class: "panel" }, "Choose jobs above, or mark them in the list of jobs."));
+    return;
+  }
+  const scenes = await Promise.all(jobs.map((job) => sceneOf(job.job, signal)));
+  const clock = new Clock(0, Math.max(...jobs.map((job) => job.progress.time), 1e-9));
+  clock.speed = watchable(Math.min(turn(scenes[0]) ?? Infinity, clock.last));
+  const draw = () => stage.draw(clock.time);
+  const motions = jobs.map((job, i) => new Motion(job, scenes[i], draw, signal))
+    .filter(({ missing }) => !missing.length);
+  const stage = new Stage(motions, "of each job");
+  const plots = new HistoryPlots(jobs, clock, signal, ([from, to]) => note({ from, to }));
+  const stored = [...new Set(jobs.flatMap(({ job }) => job.channels))];
+  const choice = new ChannelChoice(stored, likely(query, stored, scenes), (names) => {
+    note({ channels: names.join(",") });
+    plots.show(names);
+  });
+  fill(
+    room,
+    head,
+    element("div", { class: "split" },
+      element("section", { class: "panel", "aria-label": "Mechanisms" },
+        element("div", { class: "stage" }, stage.canvas), player(clock)),
+      element("section", { class: "panel" }, element("h2", {}, "History"), plots.element, choice.element)),
+  );
+  clock.listen(draw);
+  onNewColours(draw, signal);
+  addEventListener("resize", draw, { signal });
+  signal.addEventListener("abort", () => clock.stop());
+  draw();
+  if (!calm()) clock.play();
+  await plots.show(choice.names);
+}
+
+function entry(job, i, ids) {
+  const rest = ids.filter((id) => id !== job.id);
+  const words = job.label || parameterWords(job.job).split(", ").slice(0, 3).join(", ");
+  return element("li", {}, element("span", { class: `swatch swatch-${i}` }),
+    element("a", { href: address(["job", job.id]) }, `${sceneName(job.job)} ${words}`), " ",
+    element("a", { href: address(["compare"], { jobs: rest.join(",") }), "aria-label": `Leave out ${job.id}` }, "✕"));
+}
+
+async function candidates(ids, signal) {
+  const { jobs } = await get("/v1/jobs", { kind: "simulate", state: "succeeded", page_size: 50 }, signal);
+  return jobs.filter(({ id }) => !ids.includes(id));
+}
+
+function adding(ids, others) {
+  const select = element("select", { id: "add", onchange: () =>
+    select.value && go(["compare"], { jobs: [...ids, select.value].join(",") }) },
+  element("option", { value: "" }, "choose …"),
+  others.map((job) => element("option", { value: job.id },
+    `${job.label || sceneName(job.job)} · ${new Date(job.created).toLocaleString()}`)));
+  return element("div", { class: "filters" }, element("div", { class: "field" },
+    element("label", { for: "add" }, "Add a finished run"), select));
+}
+
+function likely(query, stored, scenes) {
+  const asked = (query.get("channels") ?? "").split(",").filter((name) => stored.includes(name));
+  if (asked.length) return asked;
+  const names = scenes.flatMap((scene) => [
+    ...(scene.outputs ?? []).map(({ name }) => name),
+    ...journals(scene).map((joint) => `${joint}.normal_force`),
+  ]).filter((name) => stored.includes(name));
+  return [...new Set(names.length ? names : stored)].slice(0, 4);
+}

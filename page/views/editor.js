@@ -1,0 +1,147 @@
+/** A mechanism of one's own: its document, its drawing as it is typed, what is wrong, and a run. */
+
+import { help } from "../editor/help.js";
+import { FreeMotion } from "../editor/free_motion.js";
+import { SceneSchema } from "../editor/schema.js";
+import { FIRST_SCENE } from "../editor/first_scene.js";
+import { TextEditor } from "../editor/text.js";
+import { element, fill } from "../interface/element.js";
+import { Estimate } from "../interface/estimate.js";
+import { someDuration } from "../interface/kinds_of_job.js";
+import { short, typed } from "../interface/numbers.js";
+import { go, note } from "../interface/place.js";
+import { onNewColours } from "../mechanism/palette.js";
+import { withParameters } from "../mechanism/parameters.js";
+import { get, pause, post } from "../requests/service.js";
+
+const KEPT = "jointplay-scene"; // in the tab's storage
+const QUIET = 500; // ms without typing before the service checks
+
+export async function show(room, { query, signal }) {
+  const [schema, { scenes }, text] = await Promise.all([
+    get("/v1/schemas/scene.json", {}, signal), get("/v1/scenes", {}, signal), firstText(query, signal),
+  ]);
+  new Editing(room, new SceneSchema(schema), scenes, text, signal);
+}
+
+async function firstText(query, signal) {
+  if (query.has("preset")) return pretty(await get(`/v1/scenes/${query.get("preset")}`, {}, signal));
+  if (query.has("job")) return pretty((await get(`/v1/jobs/${query.get("job")}`, {}, signal)).job.scene);
+  return sessionStorage.getItem(KEPT) ?? pretty(FIRST_SCENE);
+}
+
+/** Writes a document with a line for each field, and lists of numbers in one. */
+function pretty(document) {
+  return JSON.stringify(document, null, 2).replace(/\[\s+(-?[\d.e+-]+),\s+(-?[\d.e+-]+)\s+\]/g, "[$1, $2]");
+}
+
+class Editing {
+  constructor(room, schema, scenes, text, signal) {
+    Object.assign(this, { signal, document: {}, checking: new AbortController() });
+    this.motion = new FreeMotion();
+    this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
+    this.duration = element("input", { id: "duration", inputmode: "decimal" });
+    this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
+    this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
+    this.text = new TextEditor(text, help(schema, () => this.document), (now) => this.changed(now));
+    const presets = element("select", { id: "preset", onchange: () => this.begin(presets.value) },
+      ["", ...scenes.map(({ name }) => name)].map((name) =>
+        element("option", { value: name }, name || "choose …")));
+    fill(
+      room,
+      element("div", { class: "head" }, element("h1", {}, "Your own mechanism"),
+        element("div", { class: "buttons" },
+          element("label", { for: "preset", class: "small" }, "Begin with"), presets)),
+      element("p", { class: "quiet" }, "Ctrl+Space proposes what may stand here; hover over a word"
+        + " to read what it means. Lengths in m, masses in kg, angles in rad."),
+      element("div", { class: "editing" }, this.text.element,
+        element("div", { class: "stacked" },
+          element("section", { class: "panel" }, this.motion.element, this.messages),
+          element("section", { class: "panel stacked" },
+            element("div", { class: "field" }, element("label", { for: "duration" }, "Duration"),
+              element("div", { class: "entry" }, this.duration, element("span", { class: "unit" }, "s"))),
+            this.estimate.element,
+            element("div", { class: "buttons" }, this.button)))),
+    );
+    this.duration.addEventListener("input", () => this.estimate.later());
+    onNewColours(() => this.motion.draw(), signal);
+    addEventListener("resize", () => this.motion.draw(), { signal });
+    this.changed(text);
+  }
+
+  async begin(name) {
+    if (!name) return;
+    this.duration.value = "";
+    this.text.text = pretty(await get(`/v1/scenes/${name}`, {}, this.signal));
+    note({ preset: null, job: null });
+  }
+
+  changed(text) {
+    sessionStorage.setItem(KEPT, text);
+    try {
+      this.document = JSON.parse(text);
+    } catch (error) {
+      const at = Number(/position (\d+)/.exec(error.message)?.[1] ?? 0);
+      this.tell([{ from: Math.min(at, text.length), to: Math.min(at + 1, text.length), detail: error.message }]);
+      return;
+    }
+    this.draw();
+    this.check();
+  }
+
+  /** Draws at once; what the text lacks is said. */
+  draw() {
+    try {
+      const scene = withParameters(this.document);
+      const misfit = this.motion.show(scene);
+      if (!this.duration.value) this.duration.value = String(someDuration(this.document));
+      const size = Math.max(...this.motion.box.map(Math.abs), 1e-9);
+      this.tell(misfit > 1e-3 * size
+        ? [{ pointer: "/start", detail: `Does not close by ${short(misfit)} m: start.angles chooses where to begin.` }]
+        : []);
+    } catch (error) {
+      this.tell([{ pointer: "", detail: error.message }]);
+    }
+  }
+
+  async check() {
+    this.checking.abort();
+    this.checking = new AbortController();
+    try {
+      await pause(QUIET, this.checking.signal);
+      this.estimate.refresh();
+    } catch {
+      return; // typed on
+    }
+  }
+
+  job() {
+    const duration = typed(this.duration.value);
+    if (!(duration > 0)) throw new Error("Give a duration in s.");
+    JSON.parse(this.text.text);
+    return { kind: "simulate", scene: this.document, duration };
+  }
+
+  /** Shows what is wrong, at its place and in a list; pointers may lead into a job. */
+  tell(errors) {
+    const shown = errors.map((one) =>
+      one.pointer === undefined ? one : { ...one, pointer: one.pointer.replace(/^\/scene(?=\/|$)/, "") });
+    this.text.mark(shown);
+    fill(this.messages, shown.map(({ pointer, detail }) => element("li", {}, detail, " ",
+      pointer && element("button", { type: "button", onclick: () => this.text.reveal(pointer) },
+        element("code", {}, pointer)))));
+    this.button.disabled = shown.some(({ from }) => from !== undefined);
+  }
+
+  async run() {
+    this.button.disabled = true;
+    try {
+      const job = await post("/v1/jobs", this.job());
+      go(["job", job.id]);
+    } catch (error) {
+      this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
+    } finally {
+      this.button.disabled = false;
+    }
+  }
+}

@@ -1,0 +1,51 @@
+"""From a form to a bifurcation diagram, and from a click on it to that simulation."""
+
+import re
+
+from tests.page.browsing import barriers
+from tests.page.test_watching import MOVED
+
+
+def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
+    early = ("409",)  # results that are asked for before the first are stored
+    with browsing.page(f"{url}/#/new/slider-crank", expected=early) as page:
+        page.get_by_label("What to compute").select_option("bifurcation")
+        for name, value in {"From": "1e-4", "To": "5e-4", "Values": "20"}.items():
+            page.get_by_label(name, exact=True).fill(value)
+        page.get_by_label("Periods to settle").fill("3")
+        page.get_by_label("Sections", exact=True).fill("6")
+        page.get_by_label("Regular or chaotic").select_option("no")
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.locator("canvas[data-done='20']").wait_for()
+        page.get_by_text("succeeded", exact=True).wait_for()
+        assert barriers(page) == []
+        page.locator("canvas[data-done='20']").click(position={"x": 500, "y": 100})
+        page.screenshot(path=artifacts / "diagram.png")
+        chosen = float(page.get_by_label("clearance (or click the diagram)").input_value())
+        assert 1e-4 <= chosen <= 5e-4
+        page.get_by_role("button", name="Run this simulation").click()
+        page.wait_for_function(MOVED, arg=0)
+        assert page.get_by_role("heading", level=1).inner_text().startswith("clearance = ")
+
+
+def test_a_sweep_over_two_parameters_is_a_map(browsing, service_url, finished_sweep, artifacts):
+    with browsing.page(f"{service_url}/#/job/{finished_sweep}") as page:
+        page.get_by_role("img", name=re.compile("over clearance and friction")).wait_for()
+        page.get_by_label("Extreme").select_option("minimum")
+        assert "of=minimum" in page.url
+        page.screenshot(path=artifacts / "map.png")
+        assert barriers(page) == []
+
+
+def test_two_runs_are_compared_in_the_same_plots(browsing, url, press, artifacts):
+    with browsing.page(f"{url}/#/compare?jobs={press},{press}", still=True) as page:
+        page.locator(".uplot").nth(3).wait_for()
+        page.wait_for_function(MOVED, arg=0)
+        assert page.locator("main .swatch").count() == 2
+        page.screenshot(path=artifacts / "compared.png")
+        assert barriers(page) == []
+
+
+def test_the_reference_of_the_api_needs_nothing_from_elsewhere(browsing, service_url):
+    with browsing.page(f"{service_url}/docs") as page:
+        page.locator("#operations-jobs-submit_job_v1_jobs_post").wait_for()

@@ -1,0 +1,84 @@
+"""The list of jobs, jobs that do not go well, and a service that goes away."""
+
+from contextlib import ExitStack
+from urllib.parse import urlsplit
+
+import httpx
+import pytest
+
+from jointplay.records.job import JobError
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.settings import Settings
+from tests.page.browsing import barriers
+from tests.service_in_thread import serving
+
+JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+CUT = ("Failed to load resource", "net::ERR")
+
+
+def test_without_jobs_the_list_says_where_they_come_from(browsing, fresh_service):
+    with browsing.page(f"{fresh_service}/#/jobs") as page:
+        page.get_by_role("heading", name="No jobs yet").wait_for()
+        assert barriers(page) == []
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, artifacts, width):
+    jobs = [JOB | {"label": f"number {i} of {width}"} for i in range(400)]
+    http.post("/v1/batches", json={"jobs": jobs}).raise_for_status()
+    with browsing.page(f"{service_url}/#/jobs?scene=pendulum", width=width) as page:
+        page.get_by_text(f"number 399 of {width}", exact=True).first.wait_for()
+        assert page.locator(".row").count() < 60
+        for _ in range(2):  # the second hundreds come when the first are seen
+            page.locator(".rows").evaluate("list => list.scrollTo(0, list.scrollHeight)")
+            page.wait_for_timeout(300)
+        page.get_by_text(f"number 0 of {width}", exact=True).first.wait_for()
+        page.get_by_label("Label", exact=True).fill(f"number 7 of {width}")
+        page.get_by_label("Label", exact=True).press("Enter")
+        page.wait_for_function("document.querySelectorAll('.row').length === 1")
+        assert "label=number" in page.url
+        page.screenshot(path=artifacts / f"jobs-{width}.png")
+        assert barriers(page) == []
+        page.get_by_role("button", name="Cancel").click()
+        page.get_by_text("cancelled", exact=True).last.wait_for()
+
+
+def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker):
+    job_id = worker.submit(label="watched")
+    with browsing.page(f"{service_url}/#/job/{job_id}") as page:
+        page.get_by_text("Nothing is computed yet").wait_for()
+        page.get_by_text("No worker has taken this job yet").wait_for()
+        claim = worker.start(job_id)
+        page.get_by_text("running", exact=True).wait_for()
+        worker.store(claim, complete=False)
+        error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
+        worker.finish(claim, BlockState.failed, error)
+        page.get_by_text("The step fell below 1e-15 s.").wait_for()
+        assert page.get_by_text("Another tolerance or method may help").is_visible()
+        assert barriers(page) == []
+
+
+def test_unknown_and_deleted_jobs_say_what_to_do(browsing, http, service_url, worker):
+    gone = worker.finished()
+    http.delete(f"/v1/jobs/{gone}").raise_for_status()
+    for job_id, title in ((gone, "This job is gone"), ("nobody", "There is no such job")):
+        with browsing.page(f"{service_url}/#/job/{job_id}", expected=CUT) as page:
+            page.get_by_role("heading", name=title).wait_for()
+            assert barriers(page) == []
+
+
+def test_a_service_that_comes_back_is_noticed(browsing, tmp_path):
+    settings = Settings(data=tmp_path / "data")
+    with ExitStack() as closing:
+        with serving(create_app(settings)) as url:
+            httpx.post(f"{url}/v1/jobs", json=JOB | {"label": "first"}, trust_env=False)
+            page = closing.enter_context(browsing.page(f"{url}/#/jobs", expected=CUT))
+            page.get_by_role("link", name="first").wait_for()
+        page.get_by_text("The service does not answer").wait_for()
+        with serving(create_app(settings), urlsplit(url).port or 0):
+            page.get_by_text("The service does not answer").wait_for(state="hidden")
+            httpx.post(
+                f"{url}/v1/jobs", json=JOB | {"label": "second", "cache": False}, trust_env=False
+            )
+            page.get_by_role("link", name="second").wait_for()

@@ -1,0 +1,41 @@
+"""A mechanism of one's own: proposed, corrected, drawn, run."""
+
+from tests.page.browsing import barriers
+from tests.page.test_watching import MOVED
+
+
+def test_a_mechanism_is_written_corrected_and_run(browsing, url, artifacts):
+    with browsing.page(f"{url}/#/editor", expected=("422",)) as page:
+        text = page.get_by_label("Scene document")
+        text.wait_for()
+        assert barriers(page) == []
+        page.screenshot(path=artifacts / "editor.png")
+        page.get_by_label("Begin with").select_option("slider-crank")
+        page.get_by_text('"slider-crank"').first.wait_for()
+        page.get_by_text("of one core").wait_for()
+        document = page.evaluate("sessionStorage.getItem('jointplay-scene')")
+        wrong = document.replace('"mass": 0.21', '"mass": -0.21')
+        assert wrong != document
+        text.fill(wrong)
+        page.get_by_role("button", name="/bodies/rod/mass").wait_for()
+        text.fill(document.replace('"mass": 0.21', '"mass": 0.22'))
+        page.get_by_role("button", name="/bodies/rod/mass").wait_for(state="detached")
+        page.get_by_label("Duration").fill("0.01")
+        page.get_by_role("button", name="Run", exact=True).click()
+        page.wait_for_function(MOVED, arg=0)
+
+
+def test_the_editor_proposes_and_explains_what_the_schema_says(browsing, service_url):
+    with browsing.page(f"{service_url}/#/editor") as page:
+        text = page.get_by_label("Scene document")
+        text.wait_for()
+        text.press("Control+Home")
+        text.press("End")
+        text.press("Enter")
+        text.type('"gra')
+        page.get_by_role("option", name='"gravity"').wait_for()
+        text.press("Enter")
+        text.type("[0, -9.81],")
+        page.wait_for_function("sessionStorage.getItem('jointplay-scene').includes('-9.81')")
+        page.get_by_text('"ground"').first.hover()
+        page.get_by_text("The frame: named points in world coordinates.").wait_for()
