@@ -42,7 +42,7 @@ reproduce: $(STAMP)
 	@$(BIN)/jointplay reproduce -o reproduction
 
 test: $(STAMP)
-	@$(BIN)/python -m tests.everything
+	@tests/page/install_chromium.sh & $(BIN)/python -m tests.everything; code=$$?; wait; exit $$code
 
 test-long: $(STAMP)
 	@$(BIN)/python -m pytest -m long --timeout 3600

@@ -1,6 +1,7 @@
 /** What is shown where a view cannot be: the reason, and what to do. */
 
 import { element } from "./element.js";
+import { keepKey } from "../requests/key.js";
 import { Problem, Unreachable } from "../requests/service.js";
 
 /** Returns a box that says what is wrong and what helps. */
@@ -30,6 +31,7 @@ function words(error, here) {
   const jobs = element("p", {}, element("a", { href: "#/jobs" }, "All jobs"), " · ",
     element("a", { href: "#/" }, "Mechanisms"));
   if (error instanceof Unreachable) return ["The service is away", null];
+  if (error.status === 401) return ["This service asks for a key", keyForm()];
   if (!(error instanceof Problem)) return ["This cannot be shown", jobs];
   if (error.type === "/problems/expired-job") {
     const help = "Its results were removed. Its numbers can be computed again, bit for bit, from"
@@ -42,4 +44,16 @@ function words(error, here) {
     return ["There is no such job", [element("p", {}, help), jobs]];
   }
   return [error.title, jobs];
+}
+
+function keyForm() {
+  const key = element("input", { id: "key", type: "password", autocomplete: "off", required: true });
+  const given = (event) => {
+    event.preventDefault();
+    keepKey(key.value);
+    location.reload();
+  };
+  return element("form", { class: "stacked", onsubmit: given },
+    element("label", { for: "key" }, "Key (jp_…), kept until this tab is closed"), key,
+    element("div", { class: "buttons" }, element("button", { type: "submit", class: "main" }, "Use it")));
 }

@@ -41,7 +41,7 @@ export class Motion {
   chunk(time) {
     const index = Math.max(0, Math.floor(time / this.step / CHUNK + 1e-9));
     const found = this.chunks.get(index);
-    if (!found) this.fetch(index);
+    if (!found && !this.error) this.fetch(index);
     return found?.columns ?? null;
   }
 
@@ -67,11 +67,13 @@ export class Motion {
       this.chunks.delete(index);
       if (error.name === "AbortError") return;
       this.error = error;
+      this.onNew();
     }
   }
 
   /** Forgets what was incomplete: the job has gone on. */
   refresh() {
+    this.error = null;
     for (const [index, { columns, complete }] of this.chunks) {
       if (columns && !complete) this.chunks.delete(index);
     }

@@ -22,7 +22,10 @@ export class Stage {
     if (!this.canvas.clientWidth) return states;
     this.reach(time);
     const context = prepared(this.canvas);
-    if (!this.box) return states;
+    if (!this.box) {
+      this.say(context, this.motions.find(({ error }) => error)?.error.message ?? "Loading the motion …");
+      return states;
+    }
     const view = this.view();
     const colours = palette();
     states.forEach((state, i) => {
@@ -33,6 +36,13 @@ export class Stage {
     if (states.some(Boolean)) this.frames += 1;
     this.canvas.dataset.frames = String(this.frames);
     return states;
+  }
+
+  say(context, sentence) {
+    context.font = "15px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.fillStyle = palette().quiet;
+    context.fillText(sentence, this.canvas.clientWidth / 2, this.canvas.clientHeight / 2);
   }
 
   shapes(pose, i) {

@@ -1,5 +1,7 @@
 /** Requests to the service: JSON in both directions, and problems as errors that can be shown. */
 
+import { keyHeaders } from "./key.js";
+
 /** A problem document (RFC 9457): title, detail, and the fields that are wrong. */
 export class Problem extends Error {
   constructor(status, document) {
@@ -53,7 +55,7 @@ export function withQuery(path, query) {
 }
 
 async function request(method, path, document, signal) {
-  const options = { method, signal, headers: { Accept: "application/json" } };
+  const options = { method, signal, headers: { Accept: "application/json", ...keyHeaders() } };
   if (document !== undefined) {
     options.headers["Content-Type"] = "application/json";
     options.body = typeof document === "string" ? document : JSON.stringify(document);

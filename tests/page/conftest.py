@@ -1,6 +1,7 @@
 """A real browser and a real service, shared by all tests of the page."""
 
 import shutil
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -31,7 +32,9 @@ __all__ = [
     "worker",
 ]
 
-ARTIFACTS = Path(__file__).resolve().parents[1] / "artifacts"
+ROOT = Path(__file__).resolve().parents[2]
+ARTIFACTS = ROOT / "tests" / "artifacts"
+INSTALLING = ROOT / "build" / "chromium.installing"
 
 
 @pytest.fixture(scope="session")
@@ -39,6 +42,9 @@ def browsing() -> Iterator[Browsing]:
     """Headless Chromium; what needs it is skipped, by name, where there is none."""
     reason = "no Chromium: apt-get install chromium, and pip install playwright"
     sync_api = pytest.importorskip("playwright.sync_api", reason=reason)
+    give_up = time.monotonic() + 300
+    while INSTALLING.exists() and time.monotonic() < give_up:  # `make test` begins it
+        time.sleep(0.5)
     found = chromium()
     if found is None:
         pytest.skip(reason)

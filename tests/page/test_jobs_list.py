@@ -36,7 +36,7 @@ def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, 
         page.get_by_text(f"number 0 of {width}", exact=True).first.wait_for()
         page.get_by_label("Label", exact=True).fill(f"number 7 of {width}")
         page.get_by_label("Label", exact=True).press("Enter")
-        page.wait_for_function("document.querySelectorAll('.row').length === 1")
+        page.wait_for_function("() => document.querySelectorAll('.row').length === 1")
         assert "label=number" in page.url
         page.screenshot(path=artifacts / f"jobs-{width}.png")
         assert barriers(page) == []

@@ -36,6 +36,6 @@ def test_the_editor_proposes_and_explains_what_the_schema_says(browsing, service
         page.get_by_role("option", name='"gravity"').wait_for()
         text.press("Enter")
         text.type("[0, -9.81],")
-        page.wait_for_function("sessionStorage.getItem('jointplay-scene').includes('-9.81')")
+        page.wait_for_function("() => sessionStorage.getItem('jointplay-scene').includes('-9.81')")
         page.get_by_text('"ground"').first.hover()
         page.get_by_text("The frame: named points in world coordinates.").wait_for()

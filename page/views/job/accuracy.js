@@ -2,6 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { short, span, withUnit } from "../../interface/numbers.js";
+import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
 export async function show(room, context) {
@@ -109,6 +110,11 @@ function study(found, figures) {
           element("th", { scope: "col", class: i ? "number" : "" }, title)))),
       element("tbody", {}, rows))),
     element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"),
-      element("img", { class: "figure", src: `${figures}/work-precision.svg`,
-        alt: "Error of each method against its cost" })));
+      diagram(`${figures}/work-precision.svg`)));
+}
+
+function diagram(path) {
+  const image = element("img", { class: "figure", alt: "Error of each method against its cost" });
+  openAddress(path).then((address) => (image.src = address));
+  return image;
 }

@@ -1,14 +1,22 @@
 /** Figures of a job as a journal would print them, drawn by the service. */
 
 import { element, fill } from "../../interface/element.js";
+import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
 export async function show(room, context) {
   await whenThere(room, context, context.job.links.figures, {}, ({ figures }) =>
-    fill(room, element("div", { class: "figures" }, figures.map(({ name, title, png, svg }) =>
-      element("figure", { class: "panel" },
-        element("img", { src: png, alt: title, loading: "lazy" }),
-        element("figcaption", { class: "small" }, element("strong", {}, name), ` ${title} `,
-          element("a", { href: png, download: `${name}.png` }, "PNG"), " ",
-          element("a", { href: svg, download: `${name}.svg` }, "SVG")))))));
+    fill(room, element("div", { class: "figures" }, figures.map(shown))));
+}
+
+function shown({ name, title, png, svg }) {
+  const image = element("img", { alt: title, loading: "lazy" });
+  const links = [["PNG", png], ["SVG", svg]].map(([form, path]) => element("a", {
+    href: path, download: `${name}.${form.toLowerCase()}`,
+    onclick: async ({ target }) => (target.href = await openAddress(path)),
+  }, form));
+  openAddress(png).then((address) => (image.src = address));
+  return element("figure", { class: "panel" }, image,
+    element("figcaption", { class: "small" }, element("strong", {}, name), ` ${title} `,
+      links[0], " ", links[1]));
 }
