@@ -165,6 +165,7 @@ def test_a_signal_ends_it_and_says_how_to_go_on(jointplay, tmp_path):
     assert "No calibration was begun" in nothing.line()
 
 
+@pytest.mark.long
 def test_a_calibration_that_was_begun_is_ended(jointplay, document, tmp_path):
     found, again = tmp_path / "found.json", tmp_path / "again.json"
     begun = admit_calibration(json.loads(document.read_bytes()))

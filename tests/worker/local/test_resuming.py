@@ -23,7 +23,11 @@ from tests.waiting import descendants, is_alive, until
 CRANK = jobs.simulate("slider-crank", clearance=1e-4, duration=1.0, output_step=1e-4)
 CLEARANCES = [1e-4 + 1e-5 * step for step in range(20)]
 DIAGRAM = jobs.bifurcation("slider-crank", "clearance", CLEARANCES, settle=3, record=10)
-SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+LONG = pytest.mark.long
+SIGNALS = [
+    signal.SIGTERM,
+    *(pytest.param(one, marks=LONG) for one in (signal.SIGINT, signal.SIGHUP)),
+]
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +75,7 @@ def test_a_signal_ends_a_simulation_which_goes_on_bit_for_bit(number, whole, tmp
     assert (folder / computing.STORE).stat().st_mtime_ns == changed
 
 
-@pytest.mark.parametrize("processes", [1, 2])
+@pytest.mark.parametrize("processes", [1, pytest.param(2, marks=LONG)])
 def test_a_signal_ends_a_study_which_goes_on_bit_for_bit(processes, whole, tmp_path, caplog):
     folder = tmp_path / "OUT"
     outcome = begun(DIAGRAM, folder, processes=processes)
