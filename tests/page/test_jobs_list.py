@@ -1,5 +1,7 @@
 """The list of jobs, jobs that do not go well, and a service that goes away."""
 
+import subprocess
+import sys
 from contextlib import ExitStack
 from urllib.parse import urlsplit
 
@@ -82,3 +84,15 @@ def test_a_service_that_comes_back_is_noticed(browsing, tmp_path):
                 f"{url}/v1/jobs", json=JOB | {"label": "second", "cache": False}, trust_env=False
             )
             page.get_by_role("link", name="second").wait_for()
+
+
+def test_a_key_is_asked_for_where_one_is_needed(browsing, tmp_path):
+    folder = tmp_path / "data"
+    with serving(create_app(Settings(data=folder, keys="required"))) as url:
+        new = [sys.executable, "-m", "jointplay", "key", "new", "--owner", "me", "--data", folder]
+        key = subprocess.run(new, capture_output=True, text=True, check=True).stdout.strip()
+        with browsing.page(f"{url}/#/jobs", expected=CUT) as page:
+            page.get_by_label("Key (jp_").fill(key)
+            assert barriers(page) == []
+            page.get_by_role("button", name="Use it").click()
+            page.get_by_role("heading", name="No jobs yet").wait_for()
