@@ -79,7 +79,7 @@ def test_nothing_but_what_is_the_same_for_all_opens_without_a_key(guarded: Guard
         refused = 0
         for method, template in guarded.operations():
             answer = http.request(method, guarded.path(template))
-            if template.startswith(OPEN):
+            if method == "GET" and template.startswith(OPEN):
                 assert answer.status_code != 401, template
                 continue
             refused += 1
