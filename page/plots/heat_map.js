@@ -10,15 +10,12 @@ const SHADES = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"];
 export function drawMap(context, to, [x, y], values, colours, unit) {
   const [low, high] = extent([values], 0);
   const [left, top, width, height] = to.room;
-  const columns = [...new Set(x)].sort((a, b) => a - b);
-  const rows = [...new Set(y)].sort((a, b) => a - b);
-  const edgesX = edges(columns);
-  const edgesY = edges(rows);
-  const clamp = (value, from, size) => Math.min(Math.max(value, from), from + size);
+  const [columns, rows] = [different(x), different(y)];
+  const [edgesX, edgesY] = [edges(columns), edges(rows)];
   values.forEach((value, i) => {
     const [column, row] = [columns.indexOf(x[i]), rows.indexOf(y[i])];
-    const across = edgesX.slice(column, column + 2).map((one) => clamp(to.x(one), left, width));
-    const down = edgesY.slice(row, row + 2).map((one) => clamp(to.y(one), top, height));
+    const across = edgesX.slice(column, column + 2).map(to.x);
+    const down = edgesY.slice(row, row + 2).map(to.y);
     context.fillStyle = Number.isFinite(value) ? shade((value - low) / (high - low || 1)) : colours.ground;
     context.fillRect(across[0], down[1], across[1] - across[0] + 0.6, down[0] - down[1] + 0.6);
   });
@@ -35,7 +32,17 @@ export function drawMap(context, to, [x, y], values, colours, unit) {
     const text = short(low + share * (high - low), 3);
     context.fillText(text, bar + 19, top + (1 - share) * height);
   }
-  context.fillText(unit, bar, top + height + 18);
+  context.fillText(unit, bar, top - 12);
+}
+
+/** Returns where the cells about an axis' values begin and end. */
+export function cellsAbout(values) {
+  const places = edges(different(values));
+  return [places[0], places.at(-1)];
+}
+
+function different(values) {
+  return [...new Set(values)].sort((a, b) => a - b);
 }
 
 function edges(values) {

@@ -8,7 +8,7 @@ import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
 import { drawAxes, extent, scales } from "../../plots/axes.js";
 import { drawCloud } from "../../plots/cloud.js";
-import { drawMap } from "../../plots/heat_map.js";
+import { cellsAbout, drawMap } from "../../plots/heat_map.js";
 import { get } from "../../requests/service.js";
 
 const LEFT = 78;
@@ -72,13 +72,13 @@ class SweepMap {
     const labels = this.parameters.map((name, i) => `${name} [${units[i]}]`);
     const title = `${this.quantity} of ${this.channel} [${described.unit}]`;
     const { clientWidth, clientHeight } = this.canvas;
-    const room = [LEFT, 12, clientWidth - LEFT - 100, clientHeight - 60];
+    const room = [LEFT, 24, clientWidth - LEFT - 100, clientHeight - 72];
     if (this.parameters.length === 1) {
       const to = scales([...room.slice(0, 2), clientWidth - LEFT - 14, room[3]], extent([axes[0]]), extent([values]));
       drawCloud(context, to, [{ x: axes[0], y: values, colour: colours["curve-0"] }]);
       drawAxes(context, to, { xLabel: labels[0], yLabel: title }, colours);
     } else {
-      const to = scales(room, extent([axes[0]], 0), extent([axes[1]], 0));
+      const to = scales(room, cellsAbout(axes[0]), cellsAbout(axes[1]));
       drawMap(context, to, axes, values, colours, described.unit);
       drawAxes(context, to, { xLabel: labels[0], yLabel: labels[1] }, colours);
     }
