@@ -35,11 +35,20 @@ function pretty(document) {
   return JSON.stringify(document, null, 2).replace(/\[\s+(-?[\d.e+-]+),\s+(-?[\d.e+-]+)\s+\]/g, "[$1, $2]");
 }
 
+/** Tells what a check found out about a scene, in a sentence. */
+function factsOf({ freedom, ideal_freedom: ideal, joints_with_clearance: loose, assemblies, channels }) {
+  const free = loose.length ? `${freedom}, or ${ideal} without the clearance of ${loose.join(", ")}` : ideal;
+  const ways = assemblies.length > 1 ? ` It can be put together in ${assemblies.length} ways.` : "";
+  const told = channels === null ? "" : ` A run records ${channels} channels.`;
+  return `Degrees of freedom: ${free}.${ways}${told}`;
+}
+
 class Editing {
   constructor(room, schema, scenes, text, signal) {
     Object.assign(this, { signal, document: {}, checking: new AbortController() });
     this.motion = new FreeMotion();
     this.messages = element("ul", { class: "messages", "aria-live": "polite", "aria-label": "What is wrong" });
+    this.facts = element("p", { class: "quiet", role: "status" });
     this.duration = element("input", { id: "duration", inputmode: "decimal" });
     this.button = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run");
     this.estimate = new Estimate(() => this.job(), signal, (errors) => this.tell(errors));
@@ -56,7 +65,7 @@ class Editing {
         + " to read what it means. Lengths in m, masses in kg, angles in rad."),
       element("div", { class: "editing" }, this.text.element,
         element("div", { class: "stacked" },
-          element("section", { class: "panel" }, this.motion.element, this.messages),
+          element("section", { class: "panel" }, this.motion.element, this.facts, this.messages),
           element("section", { class: "panel stacked" },
             element("div", { class: "field" }, element("label", { for: "duration" }, "Duration"),
               element("div", { class: "entry" }, this.duration, element("span", { class: "unit" }, "s"))),
@@ -104,14 +113,21 @@ class Editing {
     }
   }
 
+  /** Asks the service whether the scene can be run, and then what a run costs. */
   async check() {
     this.checking.abort();
     this.checking = new AbortController();
+    const { signal } = this.checking;
     try {
-      await pause(QUIET, this.checking.signal);
-      this.estimate.refresh();
-    } catch {
-      return; // typed on
+      await pause(QUIET, signal);
+      const found = await post("/v1/scenes/check", this.document, signal);
+      fill(this.facts, factsOf(found));
+      this.tell(found.problems);
+      if (!found.problems.length) this.estimate.refresh();
+    } catch (error) {
+      if (error.name === "AbortError") return; // typed on
+      fill(this.facts);
+      this.tell(error.errors?.length ? error.errors : [{ pointer: "", detail: error.message }]);
     }
   }
 

@@ -12,6 +12,7 @@ def test_a_mechanism_is_written_corrected_and_run(browsing, url, artifacts):
         page.screenshot(path=artifacts / "editor.png")
         page.get_by_label("Begin with").select_option("slider-crank")
         page.get_by_text('"slider-crank"').first.wait_for()
+        page.get_by_text("Degrees of freedom: 2, or 0 without the clearance of P.").wait_for()
         page.get_by_text("of one core").wait_for()
         document = page.evaluate("sessionStorage.getItem('jointplay-scene')")
         wrong = document.replace('"mass": 0.21', '"mass": -0.21')
