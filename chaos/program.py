@@ -10,8 +10,8 @@ from jointplay.chaos.faults import FAULTS
 from jointplay.chaos.report import Report
 from jointplay.service.processes import StartFailed
 
-_DISK = 2**28
-"""Bytes of a disk that is to be full."""
+_SMALLEST_DISK, _GROWTH = 2**28, 2**20
+"""Bytes of a disk that is to be full: for a short campaign, and for each second of a longer one."""
 
 
 def names() -> list[str]:
@@ -38,7 +38,7 @@ def carry_out(
     }
     command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
     if "disk-full" in faults:
-        command = _with_a_small_disk(folder / "data", command)
+        command = _with_a_small_disk(folder / "data", command, _disk_for(duration))
     done = subprocess.run(  # noqa: S603 - our own program
         command, stdout=subprocess.PIPE, check=False
     )
@@ -49,13 +49,18 @@ def carry_out(
     return report
 
 
-def _with_a_small_disk(data: Path, command: list[str]) -> list[str]:
+def _disk_for(duration: float) -> int:
+    """Return the bytes of a disk that has room for what is computed in a campaign, s."""
+    return max(_SMALLEST_DISK, int(_GROWTH * duration))
+
+
+def _with_a_small_disk(data: Path, command: list[str], size: int) -> list[str]:
     """Return the command that sees a small file system of its own at `data`, if it can have one.
 
     It needs root, or a system that lets users make name spaces; the disk goes with the command.
     """
     alone = ["unshare", "--map-root-user", "--mount", "--"]
-    mounting = f"mount -t tmpfs -o size={_DISK} jointplay-chaos"
+    mounting = f"mount -t tmpfs -o size={size} jointplay-chaos"
     inside = [*alone, "sh", "-ec", f'{mounting} "$0"; exec "$@"', str(data)]
     data.mkdir()
     try:
