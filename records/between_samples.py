@@ -1,4 +1,4 @@
-"""What a run can say of itself between its samples, whoever computes it."""
+"""Values and extremes of a run between its samples, whoever computes them."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -27,6 +27,9 @@ class BetweenSamples(Protocol):
 
     def values(self, names: Sequence[str], times: Floats) -> Found:
         """Give channels (m, names) at ascending times (m,), s."""
+
+    def edges(self, start: float, stop: float, points: int) -> Floats:
+        """Give edges of at most `points` spans of a window, s, whose extremes are known exactly."""
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Found:
         """Give (bins, names, 4) between edges, s: lowest, its time, highest, its time."""

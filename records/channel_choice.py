@@ -39,8 +39,7 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
     """
     if text is None:
         return list(names)
-    given = (pattern.strip() for pattern in text.split(","))
-    patterns = list(dict.fromkeys(pattern for pattern in given if pattern))
+    patterns = _patterns(text)
     unknown = [p for p in patterns if not any(_matches(name, p) for name in names)]
     if unknown:
         raise no_such_channel(unknown, names)
@@ -49,9 +48,21 @@ def choose(text: str | None, names: Sequence[str]) -> list[str]:
     return [name for name in names if any(_matches(name, p) for p in patterns)]
 
 
+def choose_in_turn(text: str, names: Sequence[str]) -> list[str]:
+    """Return what `choose` does, in the order in which the text names it."""
+    found = choose(text, names)
+    in_turn = (name for pattern in _patterns(text) for name in found if _matches(name, pattern))
+    return list(dict.fromkeys(in_turn))
+
+
 def no_such_channel(unknown: Sequence[str], names: Sequence[str]) -> NoSuchChannel:
     """Return the error that says of each unknown name or glob what was probably meant."""
     return NoSuchChannel([_suggestion(pattern, names) for pattern in unknown[:_MOST_NAMED]])
+
+
+def _patterns(text: str) -> list[str]:
+    given = (pattern.strip() for pattern in text.split(","))
+    return list(dict.fromkeys(pattern for pattern in given if pattern))
 
 
 def _matches(name: str, pattern: str) -> bool:

@@ -1,8 +1,10 @@
-"""Forms of files that figures are written in, and their media types."""
+"""Forms of files that figures and films are written in, and media types of figures."""
 
 from typing import Final, Literal, get_args
 
 Form = Literal["png", "svg", "pdf", "eps"]
+FilmForm = Literal["gif", "mp4", "webm"]
+FILM_FORMS: Final[tuple[FilmForm, ...]] = get_args(FilmForm)
 FORMS: Final[tuple[Form, ...]] = get_args(Form)
 MEDIA_TYPES: Final[dict[Form, str]] = {
     "png": "image/png",

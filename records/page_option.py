@@ -1,14 +1,16 @@
-"""Options of a figure's page: size, limits, scales, title and units, the same for every figure.
+"""Options of a figure's page, the same for every figure: size, limits, scales, title, units, font.
 
 Figures, service, client and command line take names, meanings and ranges from here.
 """
 
-import math
 from typing import Final, NamedTuple
 
 SCALES: Final = ("linear", "log")
+FAMILIES: Final = ("sans-serif", "serif", "monospace")
 _NARROWEST, _LOWEST = 80.0, 30.0  # mm: a legend must fit beside its page's edges
 _WIDEST, _HIGHEST = 210.0, 297.0  # mm: of A4
+_SMALLEST, _LARGEST = 5.0, 10.0  # pt: letters that journals print
+_FURTHEST = 1e30  # of an end of an axis; beyond this its numbers cannot be drawn
 _LONGEST_TITLE: Final = 200
 _LONGEST_UNITS: Final = 100
 
@@ -22,15 +24,20 @@ class Option(NamedTuple):
 
     help: str
     unit: str = ""
-    least: float = -math.inf
-    most: float = math.inf
+    least: float = -_FURTHEST
+    most: float = _FURTHEST
     choices: tuple[str, ...] = ()
     is_text: bool = False
 
 
 _LIMIT: Final = "in the unit that the axis shows"
 OPTIONS: Final[dict[str, Option]] = {
-    "width": Option("Width of the page; default 85, a journal's column", "mm", _NARROWEST, _WIDEST),
+    "width": Option(
+        "Width of the page; default 85, a journal's column, more for larger letters",
+        "mm",
+        _NARROWEST,
+        _WIDEST,
+    ),
     "height": Option("Height of the page; default as the panels need", "mm", _LOWEST, _HIGHEST),
     "x_min": Option(f"Left end of horizontal axes, {_LIMIT}"),
     "x_max": Option(f"Right end of horizontal axes, {_LIMIT}"),
@@ -44,4 +51,6 @@ OPTIONS: Final[dict[str, Option]] = {
         most=_LONGEST_UNITS,
         is_text=True,
     ),
+    "font": Option("Family of the letters; default sans-serif", choices=FAMILIES),
+    "font_size": Option("Size of the letters; default 7", "pt", _SMALLEST, _LARGEST),
 }

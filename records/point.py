@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from jointplay.records.arrays import Floats
 
@@ -60,6 +60,8 @@ class PointEnd:
     """The same for what tells regular from chaotic motion."""
     reason: str = ""
     """Grounds of the verdict, and of indicators that say nothing; empty where none were wanted."""
+    document: Mapping[str, Any] | None = None
+    """Results that are no numbers of a point, as JSON has them; none of most kinds."""
 
 
 @dataclass(frozen=True)

@@ -100,6 +100,10 @@ class StudySource(Protocol):
     def reasons(self) -> Mapping[int, str]:
         """Grounds of verdicts, by point."""
 
+    @property
+    def documents(self) -> Mapping[int, Mapping[str, Any]]:
+        """Results that are no numbers, by point: of a calibration what it found."""
+
 
 @dataclass(frozen=True)
 class StudyDataset:
@@ -137,6 +141,7 @@ class StudyDataset:
     verdicts: NDArray[np.int64] | None = None
     verdict_names: Sequence[str] = ()
     reasons: Mapping[int, str] = field(default_factory=dict)
+    documents: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
 
     @property
     def kind(self) -> str:
