@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from jointplay.records.arrays import Floats
+from jointplay.solver.calibration.document import CHAINS
 from jointplay.solver.calibration.measure import Measure
 from jointplay.solver.calibration.outcome import Outcome
 from jointplay.solver.calibration.problem import Calibration
-from jointplay.solver.calibration.search import Found, Report, search
-from jointplay.solver.calibration.spread import CHAINS, EquallyGood, spread
+from jointplay.solver.calibration.search import Cost, Found, Report, search
+from jointplay.solver.calibration.spread import EquallyGood, spread
 
 NEIGHBOURS, NEAR = 16, 1e-4
 """Candidates around the best, and how far they are, in ranges of the parameters."""
@@ -19,13 +19,15 @@ class NothingFits(Exception):
     """No candidate of the search could be computed."""
 
 
-def calibrate(calibration: Calibration, fitted: Measure, every: Measure, report: Report) -> Outcome:
+def calibrate(calibration: Calibration, cost: Cost, every: Measure, report: Report) -> Outcome:
     """Find the parameters that fit, and the spread of what fits equally well.
 
     Parameters
     ----------
-    fitted, every
-        Measure the targets that are fitted, and all of them.
+    cost
+        Of candidates, as `costs_of` gives it.
+    every
+        Measures all targets.
     report
         Called with the fraction that is done, and a few words.
 
@@ -34,17 +36,11 @@ def calibrate(calibration: Calibration, fitted: Measure, every: Measure, report:
     NothingFits
         Every run of the search failed.
     """
-    job, space, goals = calibration.job, calibration.space, calibration.goals
+    settings, count = calibration.search, len(calibration.space.names)
+    bred = settings.generations * settings.population * count
+    share = bred / (bred + CHAINS * calibration.spread.generations)
 
-    def cost(unit: Floats) -> Floats:
-        return goals.costs(fitted(space.values(unit)))
-
-    bred = job.search.generations * job.search.population * len(space.names)
-    share = bred / (bred + CHAINS * job.spread.generations)
-
-    found = search(
-        cost, len(space.names), job.search, lambda done, note: report(share * done, note)
-    )
+    found = search(cost, count, settings, lambda done, note: report(share * done, note))
     if not np.isfinite(found.cost):
         raise NothingFits(
             "No candidate could be computed: every run failed. Narrow the bounds of the"
@@ -54,16 +50,21 @@ def calibrate(calibration: Calibration, fitted: Measure, every: Measure, report:
         cost,
         found,
         equally_good(calibration, found.cost),
-        job.spread.generations,
+        calibration.spread.generations,
         calibration.seed,
         lambda done, note: report(share + (1.0 - share) * done, note),
     )
     return _outcome(calibration, found, good, every)
 
 
+def costs_of(calibration: Calibration, fitted: Measure) -> Cost:
+    """Return the costs of candidates whose fitted targets are measured so."""
+    return lambda unit: calibration.goals.costs(fitted(calibration.space.values(unit)))
+
+
 def equally_good(calibration: Calibration, best: float) -> float:
     """Return the highest cost that is as good as the best: a factor of it, or the tolerances."""
-    return max(calibration.job.spread.factor * best, 1.0)
+    return max(calibration.spread.factor * best, 1.0)
 
 
 def _outcome(calibration: Calibration, found: Found, good: EquallyGood, every: Measure) -> Outcome:

@@ -4,7 +4,7 @@ Lanes do not touch each other, so what a candidate gives depends on nothing but 
 """
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -34,6 +34,10 @@ MOVING = ("/drivers/", "/start/")
 """Parts of a scene, beside its geometry, that decide how it starts."""
 
 
+Looked = Callable[[int, int], None]
+"""Called after each look at the lanes: with the runs that ended, and their accepted steps."""
+
+
 @dataclass(eq=False)
 class _Run:
     """A candidate in a case, in its lane."""
@@ -51,13 +55,16 @@ class _Run:
 class CaseMeasure:
     """Measures candidates in one case."""
 
-    def __init__(self, calibration: Calibration, case: CheckedCase, chosen: list[int]) -> None:
+    def __init__(
+        self, calibration: Calibration, case: CheckedCase, chosen: list[int], looked: Looked
+    ) -> None:
         """Look only at the chosen targets, by their index in the case."""
+        self.looked = looked
         self.case = case
         self.chosen = chosen
         self.windows = Windows([case.targets[index] for index in chosen])
         self.tolerance = calibration.tolerance
-        self.most_steps = calibration.job.search.most_steps
+        self.most_steps = calibration.search.most_steps
         self.formulation = str(calibration.document["formulation"])
         self.scenes = case.study.scenes
         self.same_start = not list(geometry_columns(self.scenes)) and not any(
@@ -114,6 +121,7 @@ class CaseMeasure:
                     begun = lanes[lane] = waiting.popleft()
                     bundle.load(lane, self._problem(bundle.kernel, form, begun.scene))
             bundle.advance(BUDGET)
+            ended = steps = 0
             for lane, run in enumerate(lanes):
                 if run is None:
                     continue
@@ -129,6 +137,8 @@ class CaseMeasure:
                         continue
                     yield run
                 lanes[lane] = None
+                ended, steps = ended + 1, steps + at.steps
+            self.looked(ended, steps)
 
     def _goes_on(self, bundle: Bundle, lane: int, run: _Run) -> bool:
         """Take what a leg gave, at its end; whether there was a next stop to go to."""

@@ -1,15 +1,17 @@
-"""The calibration document: which parameters may move, and which numbers they shall give."""
+"""Parts of a calibration document: what may move, what it shall give, how long to search."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jointplay.solver.kinds.job import Job
-from jointplay.solver.kinds.values import UNIT
 from jointplay.solver.quantities.units import Name, Strict
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
+UNIT = {"unit": "the parameter's unit"}
 CHANNEL_UNIT = {"unit": "the channel's unit, or s of a time"}
+
+CHAINS = 64
+"""Chains that spread over what fits equally well, in two halves: whole groups of lanes."""
 
 Bound = Annotated[float, Field(json_schema_extra=UNIT)]
 Value = Annotated[float | None, Field(json_schema_extra=CHANNEL_UNIT)]
@@ -77,7 +79,9 @@ class CalibrationCase(Strict):
     """One setting of the scene's parameters under which numbers are known."""
 
     name: Annotated[str, Field(max_length=80)] = ""
-    parameters: Annotated[dict[Name, float | str | None], Field(max_length=64)] = {}
+    parameters: Annotated[
+        dict[Name, float | str | None], Field(max_length=64, json_schema_extra=UNIT)
+    ] = {}
     targets: Annotated[list[CalibrationTarget], Field(min_length=1, max_length=256)]
 
 
@@ -109,14 +113,3 @@ class Spread(Strict):
         ),
     ] = 1.2
     generations: Annotated[Count, Field(ge=2, le=10_000)] = 60
-
-
-class CalibrationJob(Job):
-    """Parameters to be found, so that the cases give their targets."""
-
-    kind: Literal["calibration"]
-    description: Annotated[str, Field(max_length=2000)] = ""
-    parameters: Annotated[dict[Name, FreeParameter], Field(min_length=1, max_length=6)]
-    cases: Annotated[list[CalibrationCase], Field(min_length=1, max_length=64)]
-    search: Search = Search()
-    spread: Spread = Spread()

@@ -7,7 +7,6 @@ from pydantic import ValidationError
 
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.calibration.outcome import Outcome
-from jointplay.solver.kinds.job import PresetScene
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.sentences import schema_problems
 
@@ -28,10 +27,7 @@ def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
     calibration = outcome.calibration
     document = copy.deepcopy(calibration.scene_document)
     document["name"] = name
-    given = (
-        calibration.job.scene.parameters if isinstance(calibration.job.scene, PresetScene) else {}
-    )
-    for parameter, value in given.items():
+    for parameter, value in calibration.given.items():
         document["parameters"][parameter]["default"] = value
     quantiles = outcome.quantiles()
     for k, parameter in enumerate(calibration.space.names):
@@ -43,8 +39,8 @@ def fitted_scene(outcome: Outcome, name: str) -> dict[str, Any]:
         declared["inferred"] = True
     note = f" Inferred: {', '.join(calibration.space.names)}, by a fit to {_targets(outcome)}"
     note += f" (root mean square of the misses {outcome.cost:.2g} tolerances)."
-    if calibration.job.description:
-        note += f" {calibration.job.description}"
+    if calibration.document["description"]:
+        note += f" {calibration.document['description']}"
     said = document.get("description", "")
     document["description"] = (said + note)[:LONGEST_DESCRIPTION]
     try:

@@ -95,6 +95,7 @@ class Outcome:
                 "generations": self.found.generations,
                 "settled": self.found.settled,
                 "candidates": len(self.found.costs),
+                "best_costs": [_number(cost) for cost in self.found.best_costs()],
                 "failed": int(np.isinf(self.found.costs).sum()),
                 "spread_candidates": self.good.tried,
                 "spread_accepted": round(self.good.accepted, 4),

@@ -51,6 +51,10 @@ class Found:
     generations: int
     settled: bool
 
+    def best_costs(self) -> Floats:
+        """Return (generations + 1,): the lowest cost after each generation, the first included."""
+        return np.minimum.accumulate(self.costs.reshape(self.generations + 1, -1).min(axis=1))
+
 
 def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Found:
     """Search the unit cube; the same seed finds the same.

@@ -15,10 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.solver.calibration.document import CHAINS
 from jointplay.solver.calibration.search import Cost, Found, Report
 
-CHAINS = 64
-"""Chains, in two halves: whole groups of lanes."""
 LONG_STEPS = 10
 """Generations between steps of full length, from one end of a set to the other."""
 STIR = 1e-4

@@ -54,12 +54,20 @@ def has_long_vectors() -> bool:
     """
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    name, features = numba.config.CPU_NAME, numba.config.CPU_FEATURES  # type: ignore[attr-defined]
+    name, features = target_processor()
     machine = binding.Target.from_default_triple().create_target_machine(
-        cpu=binding.get_host_cpu_name() if name is None else name,
-        features=get_host_cpu_features() if features is None else features,
+        cpu=name, features=features
     )
     return "zmm" in machine.emit_assembly(binding.parse_assembly(ADDITION))
+
+
+def target_processor() -> tuple[str, str]:
+    """Return name and features of the processor that Numba compiles for, as LLVM knows them."""
+    name, features = numba.config.CPU_NAME, numba.config.CPU_FEATURES  # type: ignore[attr-defined]
+    return (
+        binding.get_host_cpu_name() if name is None else name,
+        get_host_cpu_features() if features is None else features,
+    )
 
 
 LANES: Final = chosen_lanes()

@@ -4,13 +4,18 @@ A job document is checked whole and filled in before anything is queued (`admit`
 the same plan of the stored, filled-in document (`parse`) without checking it again.
 """
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Union
 
 from pydantic import Field
 
+from jointplay.records.failure import InvalidInput
 from jointplay.records.remarks import without_remarks
+from jointplay.solver.calibration.plan import CalibrationStudy
+from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.kinds.accuracy_study import AccuracyStudy
 from jointplay.solver.kinds.bifurcation import Bifurcation
+from jointplay.solver.kinds.calibration import CalibrationKind
 from jointplay.solver.kinds.documents import job_of, kind_of
 from jointplay.solver.kinds.ensemble import Ensemble
 from jointplay.solver.kinds.kind import Kind
@@ -20,11 +25,19 @@ from jointplay.solver.kinds.sweep import Sweep
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.study.plan import Study
 
-__all__ = ["KINDS", "Admission", "Kind", "Study", "admit", "any_job", "parse"]
+__all__ = ["KINDS", "Admission", "Kind", "Study", "admit", "admit_calibration", "any_job", "parse"]
 
 KINDS: dict[str, Kind[Any]] = {
     kind.name: kind
-    for kind in (Simulate(), Bifurcation(), Sweep(), Poincare(), Ensemble(), AccuracyStudy())
+    for kind in (
+        Simulate(),
+        Bifurcation(),
+        Sweep(),
+        Poincare(),
+        Ensemble(),
+        AccuracyStudy(),
+        CalibrationKind(),
+    )
 }
 
 
@@ -51,6 +64,15 @@ def admit(document: object) -> Admission | Study:
     document = without_remarks(document)
     kind = kind_of(document, KINDS)
     return kind.admit(job_of(document, kind))
+
+
+def admit_calibration(document: object) -> Calibration:
+    """Check a calibration as `admit` does; a job of another kind is refused."""
+    if isinstance(document, Mapping) and document.get("kind") != "calibration":
+        raise InvalidInput.at("/kind", "'kind' must be 'calibration'.")
+    found = admit(document)
+    assert isinstance(found, CalibrationStudy)  # noqa: S101  (of that kind)
+    return found.calibration
 
 
 def parse(filled: dict[str, Any]) -> Admission | Study:

@@ -63,7 +63,8 @@ class SimulateJob(Job):
             le=limits.MOST_BYTES,
             description=(
                 "most bytes of accepted steps to keep, before compression: from them every window"
-                " is read exactly; 0: none, and windows show samples"
+                " is read exactly; beyond, smallest and largest values from sample to sample are"
+                " kept; 0: these only"
             ),
             json_schema_extra={"unit": "B"},
         ),
@@ -80,7 +81,7 @@ class Simulate(Kind[SimulateJob]):
 
     document = SimulateJob
     results: ClassVar = (
-        *("history", "peaks", "poincare", "impacts", "statistics", "certificate"),
+        *("history", "peaks", "poincare", "impacts", "spectrum", "statistics", "certificate"),
         *("figures", "zarr"),
     )
 

@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.mechanics.cams import lift
-from jointplay.solver.mechanics.frames import WORLD, Pair, unit
+from jointplay.solver.mechanics.frames import WORLD, Pair, left, minus, unit
 from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.motion import Forces
 from jointplay.solver.mechanics.rows import (
@@ -18,7 +18,6 @@ from jointplay.solver.mechanics.rows import (
     Row,
     angle_row,
     guided_rows,
-    less,
     lifted_row,
     projection_row,
 )
@@ -91,7 +90,7 @@ class AbsoluteMechanism:
         wound : (3 bodies,) whole turns of angles that `q` leaves out, rad.
         """
         here, there = self.marker(points[0], q, v), self.marker(points[1], q, v)
-        gap, rate = less(there.position, here.position), less(there.velocity, here.velocity)
+        gap, rate = minus(there.position, here.position), minus(there.velocity, here.velocity)
         one, two = (
             marker.angle + (wound[3 * marker.body + 2] if wound and marker.body >= 0 else 0.0)
             for marker in (here, there)
@@ -134,8 +133,8 @@ class AbsoluteMechanism:
                 )
                 continue
             if isinstance(joint, PinInSlot):
-                x, y = self.axis(joint, first)
-                rows.append(projection_row(name, "normal", (-y, x), aside, first, second))
+                normal = left(self.axis(joint, first))
+                rows.append(projection_row(name, "normal", normal, aside, first, second))
                 continue
             if isinstance(joint, CamJoint):
                 found = lift(joint, self.ends((here, there), q, v))

@@ -5,9 +5,7 @@ from dataclasses import dataclass
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.mechanics.cams import lift
-from jointplay.solver.mechanics.elimination import (
-    is_zero,
-)
+from jointplay.solver.mechanics.elimination import is_zero
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, unit
 from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.kinematics import Kinematics

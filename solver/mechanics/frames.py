@@ -101,6 +101,11 @@ def plus(first: Pair, second: Pair) -> Pair:
     return first[0] + second[0], first[1] + second[1]
 
 
+def minus(first: Pair, second: Pair) -> Pair:
+    """Return the first of two vectors less the second."""
+    return first[0] - second[0], first[1] - second[1]
+
+
 def turned(vector: Pair, by: Pair) -> Pair:
     """Return a vector turned by an angle, whose cosine and sine are given."""
     (x, y), (cosine, sine) = vector, by

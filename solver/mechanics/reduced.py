@@ -6,25 +6,19 @@ joint removes coordinates, a joint with play is a force. With partial velocities
 joints hold by forces, see `solver.mechanics.loops`.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from jointplay.solver.laws.force import Ends
 from jointplay.solver.mechanics.elimination import Matrix, is_zero, solve_symmetric
 from jointplay.solver.mechanics.frames import WORLD, FrameVector, Pair, cross
 from jointplay.solver.mechanics.kinematics import Kinematics
+from jointplay.solver.mechanics.loads import NO_LOAD, Loads, about_references
 from jointplay.solver.mechanics.loops import Exerted, Loops
 from jointplay.solver.mechanics.motion import NOTHING, BodyMotion, Motion, forces_between
-from jointplay.solver.mechanics.play import Interaction
 from jointplay.solver.mechanics.tree import Branch, Tree
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.scene.channels import HOLDING
 from jointplay.solver.scene.document import Scene
-
-Load = tuple[Scalar, Scalar, Scalar]
-"""Force (x and y, N) and moment (N m)."""
-Loads = Mapping[str, Load]
-"""Loads on bodies, by name."""
-NO_LOAD: Load = (0.0, 0.0, 0.0)
 
 
 class ReducedMechanism:
@@ -65,7 +59,7 @@ class ReducedMechanism:
             impact_rates,
             inner,
         )
-        loads = _about_references(self.kinematics, forces.interactions)
+        loads = about_references(self.kinematics, forces.interactions)
         cut = Exerted()
         multipliers: list[Scalar] = []
         if self.tree.closing:
@@ -73,7 +67,7 @@ class ReducedMechanism:
             accelerations, multipliers = loops.accelerations(self._generalised(loads))
             cut = loops.exerted(multipliers)
             acting = [*forces.interactions, *cut.interactions.values(), *cut.couples]
-            loads = _about_references(self.kinematics, acting)
+            loads = about_references(self.kinematics, acting)
         elif known is None:
             accelerations = self._accelerations(loads)
         if known is not None:
@@ -291,21 +285,3 @@ class ReducedMechanism:
                 along = ux * fx + uy * fy
                 efforts[name] = along if branch.outward else -along
         return efforts
-
-
-def _about_references(kinematics: Kinematics, interactions: Iterable[Interaction]) -> Loads:
-    """Return forces (N) and moments (N m) about each body's reference point."""
-    sums: dict[str, Load] = {}
-    for acting in interactions:
-        fx, fy = acting.force_on_second
-        for reference, force, moment in (
-            (acting.second, (fx, fy), acting.moment_on_second),
-            (acting.first, (-fx, -fy), acting.moment_on_first),
-        ):
-            body, point = reference.split(".")
-            if body == WORLD:
-                continue
-            arm = kinematics.arm(body, point).world()
-            x, y, turning = sums.get(body, NO_LOAD)
-            sums[body] = (x + force[0], y + force[1], turning + moment + cross(arm, force))
-    return sums

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from jointplay.solver.laws.function import Derivatives
 from jointplay.solver.mechanics.cams import Lift
-from jointplay.solver.mechanics.frames import Pair
+from jointplay.solver.mechanics.frames import Pair, left, minus
 from jointplay.solver.quantities.scalars import Scalar
 
 RESTING = Derivatives(0.0, 0.0, 0.0)
@@ -68,8 +68,7 @@ def guided_rows(
     motion: Derivatives | None,
 ) -> list[Row]:
     """Return the rows of a slider: it stays beside the axis, at its angle, and moves as driven."""
-    normal = (-axis[1], axis[0])
-    rows = [projection_row(name, "normal", normal, aside, first, second)]
+    rows = [projection_row(name, "normal", left(axis), aside, first, second)]
     rows.append(angle_row(name, first, second, RESTING._replace(value=angle)))
     if motion is not None:
         rows.append(projection_row(name, "along", axis, motion, first, second))
@@ -85,8 +84,8 @@ def projection_row(
     second: Marker,
 ) -> Row:
     """(r_second - r_first) · u - motion = 0, u fixed in the first body."""
-    (ux, uy), (tx, ty) = direction, (-direction[1], direction[0])
-    gap, gap_rate = less(second.position, first.position), less(second.velocity, first.velocity)
+    (ux, uy), (tx, ty) = direction, left(direction)
+    gap, gap_rate = minus(second.position, first.position), minus(second.velocity, first.velocity)
     jacobian: dict[int, Scalar] = {}
     rate: Scalar = ux * gap_rate[0] + uy * gap_rate[1] - motion.slope
     gamma: Scalar = motion.curvature
@@ -120,8 +119,3 @@ def lifted_row(name: str, first: Marker, second: Marker, found: Lift) -> Row:
         jacobian[k + 2] = sign * (uy * ax - ux * ay) + turning
         gamma = gamma + sign * (marker.spin * marker.spin) * (ux * ax + uy * ay)
     return Row(name, "normal", found.value, jacobian, found.rate, gamma)
-
-
-def less(first: Pair, second: Pair) -> Pair:
-    """Return the first of two vectors less the second."""
-    return first[0] - second[0], first[1] - second[1]

@@ -30,13 +30,13 @@ class Estimate:
         if not self.error >= 0.0:
             raise ValueError(f"an error is zero, positive or infinite, not {self.error}")
 
-    def exceeds(self, bound: float, errors: float = SIGNIFICANT) -> bool:
-        """Return whether the value lies above a bound by more than `errors` standard errors."""
-        return self.value - bound > errors * self.error
+    def exceeds(self, bound: float) -> bool:
+        """Return whether the value lies above a bound by more than `SIGNIFICANT` errors."""
+        return self.value - bound > SIGNIFICANT * self.error
 
-    def falls_below(self, bound: float, errors: float = SIGNIFICANT) -> bool:
-        """Return whether the value lies below a bound by more than `errors` standard errors."""
-        return bound - self.value > errors * self.error
+    def falls_below(self, bound: float) -> bool:
+        """Return whether the value lies below a bound by more than `SIGNIFICANT` errors."""
+        return bound - self.value > SIGNIFICANT * self.error
 
     def __str__(self) -> str:
         """Return value ± error, the error with two digits and the value to the same place."""

@@ -40,9 +40,9 @@ class Verdict:
 
 
 def decide(
-    lyapunov: Estimate | None = None,
-    zero_one: Estimate | None = None,
-    period: int | None = None,
+    lyapunov: Estimate | None,
+    zero_one: Estimate | None,
+    period: int | None,
     rotation: Estimate | None = None,
     finer: Estimate | None = None,
 ) -> Verdict:

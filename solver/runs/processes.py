@@ -2,19 +2,17 @@
 
 import multiprocessing
 import os
-import signal
 import sys
-import threading
-import time
-from collections.abc import Callable, Iterator, MutableSequence, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from jointplay.solver.runs.pooled_process import Shared, begin, make, nothing
+
 _POLL = 0.1  # s between two looks at the progress of other processes
-_DELIVERY = 0.5  # s in which the result of a call has reached the caller
 Report = Callable[[float, int, str], None]
 """Receives the fraction of all calls, the parts that are done, the note of the last call ended."""
 
@@ -44,20 +42,11 @@ class Call:
     """For the report, once it has ended."""
 
 
-@dataclass
-class _Shared:
-    """Memory that this process and those of the pool see; an element for each call."""
-
-    fractions: MutableSequence[float]
-    parts: MutableSequence[int]
-    leave: Any
-
-
 class Processes:
     """A pool of processes; what one of them has loaded serves its next calls."""
 
     def __init__(
-        self, pool: ProcessPoolExecutor, shared: _Shared, asked_to_end: Callable[[], bool]
+        self, pool: ProcessPoolExecutor, shared: Shared, asked_to_end: Callable[[], bool]
     ) -> None:
         self._pool = pool
         self._shared = shared
@@ -115,11 +104,11 @@ class Processes:
         with _bare_start():
             for index in sorted(range(len(calls)), key=lambda index: -calls[index].weight):
                 call = calls[index]
-                futures[self._pool.submit(_make, call.function, call.arguments, index)] = index
+                futures[self._pool.submit(make, call.function, call.arguments, index)] = index
             # The pool watches the processes that it knew when it was last roused, and rouses
             # itself before it starts the process of a call: without one more call, the death of
             # the last process would go unseen.
-            self._pool.submit(_nothing)
+            self._pool.submit(nothing)
         return futures
 
     def _leave(self, running: set[Future[Any]]) -> None:
@@ -139,12 +128,12 @@ def processes(
     """
     context = multiprocessing.get_context("spawn")  # threads of libraries do not survive a fork
     with _bare_start():
-        shared = _Shared(
+        shared = Shared(
             context.Array("d", most_calls, lock=False),
             context.Array("l", most_calls, lock=False),
             context.Value("b", 0, lock=False),
         )
-        pool = ProcessPoolExecutor(count, context, _begin, (shared,))
+        pool = ProcessPoolExecutor(count, context, begin, (shared,))
     try:
         yield Processes(pool, shared, asked_to_end)
     finally:
@@ -178,64 +167,3 @@ def _bare_start() -> Iterator[None]:
             del os.environ["PYTHONSAFEPATH"]
         else:
             os.environ["PYTHONSAFEPATH"] = safe
-
-
-_shared: _Shared | None = None
-"""Set in a process of the pool when it begins."""
-
-
-_idle = threading.Event()
-"""Set while a process of the pool makes no call."""
-_leaving = threading.Event()
-"""Set when a process of the pool was asked to end by a signal of its own."""
-
-
-def _begin(shared: _Shared) -> None:
-    global _shared
-    _idle.set()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for number in (signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
-        if signal.getsignal(number) is not signal.SIG_IGN:
-            signal.signal(number, _leave_soon)
-    threading.Thread(target=_end_with_the_caller, daemon=True).start()
-    _shared = shared
-
-
-def _end_with_the_caller() -> None:
-    """End this process when the one that started it is gone: what it computes, nobody takes."""
-    caller = multiprocessing.parent_process()
-    if caller is not None:
-        caller.join()
-        os._exit(1)
-
-
-def _leave_soon(number: int, frame: object) -> None:
-    """Have the present call leave, as the caller would, and then end this process."""
-    if not _leaving.is_set():
-        _leaving.set()
-        threading.Thread(target=_end_when_idle, daemon=True).start()
-
-
-def _end_when_idle() -> None:
-    _idle.wait()
-    time.sleep(_DELIVERY)
-    os._exit(0)
-
-
-def _nothing() -> None:
-    """Do what takes no time."""
-
-
-def _make(function: Callable[..., Any], arguments: tuple[Any, ...], index: int) -> Any:
-    shared = _shared
-    assert shared is not None  # noqa: S101  (every process of the pool begins so)
-
-    def advance(fraction: float, parts: int = 0, /) -> bool:
-        shared.fractions[index], shared.parts[index] = fraction, parts
-        return not (shared.leave.value or _leaving.is_set())
-
-    _idle.clear()
-    try:
-        return function(*arguments, advance)
-    finally:
-        _idle.set()

@@ -29,6 +29,9 @@ class Slice:
     """Contacts that ended, of dtype `IMPACT`, in the order of their release."""
     steps: Floats
     """(steps, columns) accepted steps, see `dense_output.columns`; without columns: not kept."""
+    intervals: Floats
+    """(intervals, 1 + 2 channels) where steps are not kept: the sample at the end of each, then
+    smallest and largest value of each channel in turn; without columns: there are none."""
 
 
 @dataclass(frozen=True)

@@ -19,12 +19,14 @@ from jointplay.solver.runs.budget import SliceBudget
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.certificate.survey import Survey
 from jointplay.solver.runs.dense_output.columns import most_steps, number_of
+from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "simulation"
+_INTERVALS = "intervals"
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -105,7 +107,7 @@ class DynamicRun:
         if method != self.admission.method:
             problem = stiff_method.tightened(problem)
         kernel = ready_kernel(problem.scene, formulation, method)
-        bundle = Bundle(kernel, [problem], keep_steps=self.most_steps > 0)
+        bundle = Bundle(kernel, [problem], keep_steps=True)
         certified = self.admission.job["certificate"]
         survey = Survey(bundle, problem, formulation) if certified else None
         # compiling may have ended the run, with what it had so far
@@ -115,6 +117,7 @@ class DynamicRun:
         self.samples_done = 0
         self.sections_done = 0
         self.steps_kept = 0
+        self.intervals: IntervalExtremes | None = None
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
@@ -161,7 +164,10 @@ class DynamicRun:
             "steps": self.steps_kept,
         }
         arrays = self.survey.checkpoint() if self.survey and not self.open else {}
-        return encode(_KIND, SOLVER_VERSION, facts, arrays | self.bundle.state("lanes"))
+        if self.intervals is not None:
+            arrays |= self.intervals.state(_INTERVALS)
+        arrays |= self.bundle.state("lanes")
+        return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
     def restore(self, checkpoint: bytes) -> None:
         """Continue from a checkpoint."""
@@ -172,6 +178,9 @@ class DynamicRun:
         if facts["method"] != self.kernel.tableau.name:
             self._start(facts["method"], facts["reason"])
         self.bundle.restore(saved, "lanes")
+        if any(name.startswith(f"{_INTERVALS}/") for name in saved):
+            self.intervals = IntervalExtremes(self.admission, facts["method"])
+            self.intervals.restore(saved, _INTERVALS)
         if self.survey:
             self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
@@ -219,17 +228,29 @@ class DynamicRun:
             section_time,
             sections,
             self.bundle.impacts(LANE),
-            self._steps(),
+            *self._steps(),
         )
 
-    def _steps(self) -> Floats:
-        """Return the steps that were accepted, with their method; none beyond the limit."""
-        if not self.most_steps:
-            return np.empty((0, 0))
-        steps = self.bundle.steps()[: self.most_steps - self.steps_kept]
-        self.steps_kept += len(steps)
-        method = np.full((len(steps), 1), number_of(self.kernel.tableau.name))
-        return np.concatenate([steps, method], axis=1)
+    def _steps(self) -> tuple[Floats, Floats]:
+        """Return the steps that are kept, with their method; intervals of those that are not."""
+        steps = self.bundle.steps()
+        count = max(min(len(steps), self.most_steps - self.steps_kept), 0)
+        self.steps_kept += count
+        method = np.full((count, 1), number_of(self.kernel.tableau.name))
+        kept = np.concatenate([steps[:count], method], axis=1)
+        found = self._intervals(steps[count:])
+        return kept if self.most_steps else np.empty((0, 0)), found
+
+    def _intervals(self, steps: Floats) -> Floats:
+        """Return the extremes of intervals that steps complete which are not kept."""
+        if self.intervals is None:
+            if not len(steps):
+                return np.empty((0, 1 + 2 * len(self.columns)))
+            self.intervals = IntervalExtremes(self.admission, self.kernel.tableau.name)
+        found = self.intervals.add(steps)
+        if not self.bundle.lane(LANE).running:
+            found = np.concatenate([found, self.intervals.end()])
+        return found[found[:, 0] < self.samples_done]
 
     def _observe(self, kind: int) -> tuple[Floats, Floats]:
         rows = self.bundle.rows(kind, LANE)

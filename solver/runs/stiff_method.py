@@ -90,9 +90,8 @@ def withheld(found: Slice) -> Slice:
     """Return a slice that tells nothing, while its run may yet begin again."""
     samples, sections = found.samples[:0], found.sections[:0]
     nothing = np.zeros(0)
-    return Slice(
-        0.0, 0.0, 0, nothing, samples, 0, nothing, sections, found.impacts[:0], found.steps[:0]
-    )
+    rest = (found.impacts[:0], found.steps[:0], found.intervals[:0])
+    return Slice(0.0, 0.0, 0, nothing, samples, 0, nothing, sections, *rest)
 
 
 def joined(slices: list[Slice]) -> Slice:
@@ -109,6 +108,7 @@ def joined(slices: list[Slice]) -> Slice:
         np.concatenate([each.sections for each in slices]),
         np.concatenate([each.impacts for each in slices]),
         np.concatenate([each.steps for each in slices]),
+        np.concatenate([each.intervals for each in slices]),
     )
 
 

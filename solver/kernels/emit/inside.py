@@ -7,7 +7,7 @@ where in the step the instants are.
 from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.emit import FixedNodes, Outputs, Tape
-from jointplay.solver.kernels.emit.stepping import before
+from jointplay.solver.kernels.emit.judged_step import before
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from jointplay.solver.kernels.emit.enclosure import beyond, whips_round
 from jointplay.solver.kernels.record.lane_functions import coarse_exp2
 from jointplay.solver.kernels.record.recorder import Expression
-from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+from jointplay.solver.quantities.scalars import Scalar, maximum, minimum, select_positive
 
 SAFETY = 0.95
 PROPORTIONAL = 0.04
@@ -16,8 +16,15 @@ LARGEST_GROWTH, LARGEST_CUT = 5.0, 0.2
 LANDED = 1e-13
 """Largest penetration, m, at which an onset counts as located."""
 
-REJECTED, DUE, ONSET, RELEASE, PACE, PASSING = 1, 2, 4, 8, 16, 32
+SWING = 0.003
+"""Share of a slope by which it swings noticeably inside a step."""
+NOTICED = 0.01
+"""The least of that in tolerances of the speed: less may be rounding."""
+
+REJECTED, DUE, ONSET, RELEASE, PACE, PASSING, SWINGING = 1, 2, 4, 8, 16, 32, 64
 """Bit mask of what a lane's attempt asks the loop to look after; lanes hold it as a float."""
+INSIDE = DUE | PASSING | SWINGING
+"""Flags of steps that may have extremes inside which their ends do not tell."""
 
 
 def growth(order: float, good: Expression, magnitude: Expression, memory: Expression) -> Expression:
@@ -35,6 +42,19 @@ def growth(order: float, good: Expression, magnitude: Expression, memory: Expres
     factor = select_positive(factor - LARGEST_CUT, factor, LARGEST_CUT)
     limited: Expression = minimum(factor, LARGEST_GROWTH)
     return limited
+
+
+def swings(first: Scalar, inside: Scalar, last: Scalar, share: float, weighed: Scalar) -> Scalar:
+    """Return what is positive where a slope is elsewhere inside a step than at both ends.
+
+    `inside` : the slope at a late stage, at a `share` of the step; `weighed` : step by tolerance. A
+    smooth slope leaves the line between its ends by half of what these are apart only where it
+    turns. Where stability limits the step, late stages swing in every step.
+    """
+    apart = last - first
+    away = abs(inside - (first + share * apart))
+    least = maximum(0.5 * abs(apart), SWING * (abs(first) + abs(last)))
+    return minimum(away - least, away * abs(weighed) - NOTICED)
 
 
 def contact_flags(

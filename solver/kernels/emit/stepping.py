@@ -1,39 +1,26 @@
-"""Records one step of an embedded Runge-Kutta method: stages, error, control, commit, dense output.
+"""Records one step of an embedded Runge-Kutta method: stages, commit, dense output.
 
 The functions work on the slots of one work array (`allocate` names them). They take no branch:
 flags tell the driving loop (`solver.kernels.loop.advance`) which lanes want attention.
 """
 
-from collections.abc import Iterable
-from functools import reduce
 from itertools import count
 
 from jointplay.solver.integrators import Method
-from jointplay.solver.kernels.emit import closing, enclosure, scanning
-from jointplay.solver.kernels.emit.emit import (
-    RETURNING,
-    FixedNodes,
-    Known,
-    Outputs,
-    Tape,
-    lane_function,
-)
-from jointplay.solver.kernels.emit.judging import DUE, PACE, REJECTED, contact_flags, growth
+from jointplay.solver.kernels.emit import closing, enclosure
+from jointplay.solver.kernels.emit.emit import RETURNING, FixedNodes, Known, Outputs, Tape
+from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION, Equations
-from jointplay.solver.kernels.record.lane_functions import coarse_log2
-from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
+from jointplay.solver.kernels.record.recorder import Expression, reachable
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
-
-SMALLEST_ERROR = 1e-16
-"""Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
 
 
 def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) -> None:
     """Give slots to everything a step reads or writes; `states` counts coordinates and speeds."""
     layout.add("time", "step", "tried", "arrival", "stage_time", "theta", "lengthening", "reach")
     layout.add("active", "accept", "flag", "next_step", "memory", "new_memory", "fastest", "full")
-    layout.add("end", "next_due", "largest_step", "steps", "pace_at", "smallest_step")
+    layout.add("end", "next_due", "largest_step", "steps", "pace_at", "look_at", "smallest_step")
     layout.add_block("y", states)
     for s in range(1, stages + 1):  # equal pieces, which the slopes are written into
         layout.add_block(f"k{s}_", states)
@@ -54,16 +41,8 @@ def allocate(layout: Layout, states: int, ledger: int, pairs: int, stages: int) 
     enclosure.allocate(layout, pairs)
 
 
-def before(name: str) -> str:
-    """Return the slot of a quantity of the step before."""
-    return {"tried": "before_step"}.get(name, f"before_{name}")
-
-
-class StepRecorder:
+class StepRecorder(JudgedStep):
     """Records the functions of one method for the equations of a scene."""
-
-    unweighed = 0
-    """Slopes kept before those that the error weighs."""
 
     def __init__(
         self,
@@ -74,24 +53,9 @@ class StepRecorder:
         known: Known,
     ) -> None:
         """`known` : what the right-hand side leaves in slots."""
-        self.tableau, self.equations = tableau, equations
-        self.states, self.coordinates = equations.states, len(equations.coordinates)
-        self.ledger, self.pairs = ledger, len(equations.pairs)
-        self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
-        self.layout, self.known = layout, known
-        self.recorder = Recorder()
+        super().__init__(tableau, equations, ledger, layout)
+        self.known = known
         layout.add(*(before(name) for name in self._remembered()))
-
-    def variable(self, name: str) -> Expression:
-        """Return the expression of a slot."""
-        return self.recorder.variable(name)
-
-    def _sum(self, weights: Iterable[float | Expression], slots: Iterable[str]) -> Expression:
-        """Return a weighted sum of slots, of as many as there are weights."""
-        total: Expression = self.recorder.constant(0.0)
-        for weight, slot in zip(weights, slots, strict=False):
-            total = total + weight * self.variable(slot)
-        return total
 
     def source(self, energies: Outputs, fixed: FixedNodes) -> str:
         """Return the source of all functions of a step.
@@ -102,9 +66,6 @@ class StepRecorder:
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])
-
-    def _function(self, name: str, outputs: Outputs) -> str:
-        return lane_function(name, outputs, self.layout, inner=True)
 
     def _steps(self) -> list[str]:
         """Return the sources of what an attempt calls beside the slopes, but for the judge."""
@@ -156,85 +117,8 @@ class StepRecorder:
             (f"inverse_rate{j}", 1.0 / self.variable(f"impact_rate{j}")) for j in range(self.pairs)
         ]
 
-    def _slope(self, s: int, i: int) -> str:
-        """Return the slot of the slope of state i at stage s: the last is where the step ends."""
-        return f"slope{i}" if s == self.tableau.stages else f"k{s}_{i}"
-
     def _ledger_at(self, s: int, i: int) -> str:
         return f"kledger{s}_{i}"
-
-    def _judge(self) -> str:
-        """Error of the step, the next step size, and what needs attention."""
-        v, number = self.variable, self.recorder.constant
-        squared = self._squared_error() if self.tableau.error else self._overflow()
-        good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
-        magnitude = 0.5 * coarse_log2(squared)
-        if self.tableau.error:
-            next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
-        else:  # fixed; after an overflow there is none
-            next_step = select_positive(good, v("step"), number(0.0))
-        due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
-        pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
-        flag = REJECTED * (1.0 - good) + due + pace
-        away = self._away()
-        flags = [
-            contact_flags(v, j, away, enclosure, shortened=bool(self.tableau.error))
-            for j, enclosure in enumerate(self.equations.enclosures)
-        ]
-        for kind in zip(*flags, strict=True):
-            flag = flag + reduce(maximum, kind)
-        flag = select_positive(v("active"), flag, number(0.0))
-        outputs = [
-            ("accept", good * v("active")),
-            ("flag", flag),
-            ("next_step", next_step),
-            ("new_memory", magnitude),
-            *scanning.reach(v("tried"), v(before("tried"))),
-        ]
-        tape = Tape(self.layout)
-        tape.store(outputs)
-        tape.give(flag)
-        return tape.function("judge")
-
-    def _away(self) -> Expression:
-        """Return what journals may be away from the quintic that encloses them, m."""
-        speeds = [self.coordinates + i for i in self.angles]
-        return enclosure.remainder(
-            self.variable,
-            [f"{state}{i}" for i in speeds for state in ("y", "stage")],
-            [f"{slope}{i}" for i in speeds for slope in ("k1_", "slope")],
-        )
-
-    def _squared_error(self) -> Expression:
-        """Square of the step's error, in tolerances."""
-        squared = self._sum_of_squares(self.tableau.error)
-        if self.tableau.coarse_error:
-            coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
-            squared = squared * (squared / (squared + coarse))
-        if self.equations.corrections:
-            squared = squared + closing.drift(self.variable, self.coordinates)
-        return squared
-
-    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
-        """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
-        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
-        for i in range(self.states):
-            error = self._sum(weights, (self._slope(s, i) for s in count(1 + self.unweighed)))
-            scaled = error * self._weighed(i)
-            squared = squared + scaled * scaled
-        return squared
-
-    def _weighed(self, i: int) -> Expression:
-        """Step times weight of state i; more, while nothing has moved as fast as it may."""
-        v = self.variable
-        return v("tried") * (v("full") / v("fastest")) * v(f"weight{i}")
-
-    def _overflow(self) -> Expression:
-        """Almost zero, but infinite or NaN where a slope is."""
-        overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
-        for i in range(self.states):
-            overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
-        return overflow
 
     def _attempt(self) -> str:
         """Attempt a step; the largest flag of a lane."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, TIME, Places
 from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.periods import set_clock
 from jointplay.solver.kernels.loop.runs import Run
 
@@ -48,3 +49,17 @@ def read_step(row: np.ndarray, lane: int, run: Run, at: Places, work: np.ndarray
     for j in range(at.pairs):
         work[at.mode + j, lane] = row[columns.mode + j]
         work[at.impact_rate + j, lane] = row[columns.impact_rate + j]
+
+
+@inner_kernel()
+def read_steps(
+    steps: np.ndarray, first: int, runs: np.ndarray, at: Places, work: np.ndarray
+) -> int:
+    """Set all lanes to steps from index `first` on, and return how many of them there are.
+
+    Lanes for which none is left repeat the last one.
+    """
+    count = min(LANES, len(steps) - first)
+    for lane in range(LANES):
+        read_step(steps[first + min(lane, count - 1)], lane, runs[lane], at, work)
+    return count

@@ -1,159 +1,35 @@
 """Advances lanes, each at its own step, until all are done or Python has something to do.
 
 The generated functions do what all lanes do alike; this loop looks after the lanes that need
-attention: a rejected step, a contact that begins or ends, a sample or section that is due, the
-end of a period or of the run. Rules that make a run's bits independent of everything around it:
-counters are per lane, and only onsets, openings and the end of the run ever shorten a step.
+attention (`solver.kernels.loop.attention`). Rules that make a run's bits independent of everything
+around it: counters are per lane, and only onsets, openings and the end of the run ever shorten a
+step.
 """
-
-import math
 
 import numpy as np
 from numba import int64
 
-from jointplay.solver.kernels.emit.functions import (
-    ADDRESSES,
-    WORK,
-    functions_at,
-)
-from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, PASSING, REJECTED, RELEASE
+from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
+from jointplay.solver.kernels.emit.judging import INSIDE
 from jointplay.solver.kernels.emit.places import PLACES, Places
 from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel, kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.accepted_steps import write_step
-from jointplay.solver.kernels.loop.contacts import (
-    CAUTIOUS,
-    begin_contact,
-    end_contact,
-    is_touching,
-    land,
-    lands_beside,
-)
-from jointplay.solver.kernels.loop.dense_rows import hand_out
+from jointplay.solver.kernels.loop.attention import attend, settle
 from jointplay.solver.kernels.loop.events import (
     any_crossing,
     has_all_events,
     may_cross,
     record_crossings,
-    record_event,
 )
 from jointplay.solver.kernels.loop.inner_peaks import look_at_passages, look_inside
-from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
-from jointplay.solver.kernels.loop.peaks import end_peaks, refine_peaks
-from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
+from jointplay.solver.kernels.loop.peaks import refine_peaks
 from jointplay.solver.kernels.loop.roughness import any_due, is_due
-from jointplay.solver.kernels.loop.runs import (
-    BUFFERS,
-    NO_PAIR,
-    RUNS,
-    Buffers,
-    Run,
-    SectionKind,
-    Status,
-)
-from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
+from jointplay.solver.kernels.loop.runs import BUFFERS, NO_PAIR, RUNS, Buffers, Run
 from jointplay.solver.kernels.loop.unowned_view import unowned
 
 KEEPING = 0
 """Lane whose accepted steps are kept, if any are."""
-
-
-@inner_kernel()
-def attend(
-    flag: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    rows: np.ndarray,
-    states_within: LaneFunction,
-    gaps_within: LaneFunction,
-) -> bool:
-    """Look after one lane between its attempt and its commit; whether a buffer is full."""
-    opening = 1.0
-    if flag & RELEASE:
-        opening = note_openings(lane, at, work, spare, gaps_within)
-    if flag & REJECTED:
-        run.rejections += 1
-        run.landing = NO_PAIR  # its attempts count on, or they might go in circles
-        if work[at.next_step, lane] < run.smallest_step:
-            stop(Status.UNDERFLOW, lane, run, at, work)
-            return False
-        if is_touching(lane, at, work):
-            work[at.next_step, lane] *= CAUTIOUS
-    if opening < LATE:
-        end_behind_opening(opening, lane, run, at, work)
-        return False
-    if flag & REJECTED:
-        return False
-    if flag & ONSET or run.landing != NO_PAIR:
-        landed = land(lane, run, at, work, spare, gaps_within)
-        if not landed:
-            work[at.accept, lane] = 0.0
-            return False
-    if flag & DUE:
-        return hand_out(lane, run, at, work, spare, rows, states_within)
-    return False
-
-
-@inner_kernel()
-def settle(
-    flag: int,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    buffers: Buffers,
-    weigh: LaneFunction,
-    tangent_gaps: LaneFunction,
-) -> bool:
-    """Look after one lane once its step is taken; whether a buffer is nearly full."""
-    tangents = buffers.growths.shape[1] > 0
-    begun = float(run.periods) * run.period
-    now = begun + work[at.time, lane]
-    full = False
-    landed = run.landing
-    if landed != NO_PAIR:
-        for j in range(at.pairs):
-            if j != landed and not lands_beside(j, lane, at, work):
-                continue
-            begin_contact(j, now, lane, at, work)
-            weigh(work)  # where a fixed step ends, one may begin deep: with energy from nowhere
-            work[at.stored_start, lane] = work[at.stored, lane]
-            if tangents:
-                tangent_gaps(work)
-                latch_tangent(j, lane, at, work)
-            run.onsets += 1
-            if run.section_kind == SectionKind.ONSET and run.section_place == j:
-                full |= record_event(lane, lane, run, at, work, work, buffers.rows)
-        run.landing = NO_PAIR
-        run.landings = 0
-    if flag & RELEASE:
-        for j in range(at.pairs):
-            opened = work[at.opened + j, lane]
-            if work[at.mode + j, lane] > 0.0 and opened < math.inf:
-                work[at.mode + j, lane] = 0.0
-                end_contact(j, begun + opened, lane, run, at, work, buffers.impacts)
-        full |= run.impacts + at.pairs > buffers.impacts.shape[1]
-    if work[at.time, lane] >= work[at.end, lane] or has_all_events(run):
-        end_peaks(now, lane, at, work)
-        if tangents:
-            full |= record_growth(now, lane, run, at, work, buffers.growths)
-        for j in range(at.pairs):
-            if work[at.mode + j, lane] > 0.0:
-                end_contact(j, math.nan, lane, run, at, work, buffers.impacts)
-        stop(Status.DONE, lane, run, at, work)
-        return full
-    if flag & PACE:
-        check_pace(lane, run, at, work)
-    if flag & DUE:
-        if work[at.time, lane] >= run.period:
-            turn_over(lane, run, at, work)
-            if tangents:
-                full |= record_growth(now, lane, run, at, work, buffers.growths)
-        plan(lane, run, at, work)
-    return full
 
 
 @inner_kernel()
@@ -208,7 +84,7 @@ def look_closer(
     """Seek extremes that no scan of step ends finds."""
     for lane in range(LANES):
         flag, run = int(work[at.flag, lane]), runs[lane]
-        due = flag & (PASSING | DUE) or is_due(lane, run, at, work)
+        due = flag & INSIDE or is_due(lane, run, at, work)
         if (at.watched_closely or due) and work[at.accept, lane] > 0.0:
             look_at_passages(lane, run, at, work, spare, table, channels_around, channels_within)
             look_inside(lane, run, at, work, spare, table, channels_around, channels_within)

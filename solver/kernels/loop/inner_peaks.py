@@ -8,6 +8,7 @@ stability swing inside.
 
 import numpy as np
 
+from jointplay.solver.kernels.emit.judging import SWINGING
 from jointplay.solver.kernels.emit.places import Places
 from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
 from jointplay.solver.kernels.layout import INSTANTS
@@ -19,7 +20,7 @@ from jointplay.solver.kernels.loop.passages import (
     passes,
 )
 from jointplay.solver.kernels.loop.peaks import look_at_extremes
-from jointplay.solver.kernels.loop.roughness import is_due, is_rough
+from jointplay.solver.kernels.loop.roughness import is_due, may_set_records
 from jointplay.solver.kernels.loop.runs import Run
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.windows import CLOSER
@@ -94,19 +95,20 @@ def look_inside(
     channels_around: LaneFunction,
     channels_within: LaneFunction,
 ) -> None:
-    """Seek extremes of all channels in a step that begins or ends the run, or is taken in contact.
+    """Seek extremes of all channels in a step that begins or ends the run, swings or is rough.
 
-    The latter only by methods that are `watched_closely`, or where steps are rough.
+    Methods that are `watched_closely` have every step in contact looked at.
     """
     wanted = np.isnan(work[at.change, lane]) or work[at.arrival, lane] >= work[at.end, lane]
     wanted |= at.watched_closely and touches(lane, at, work)
-    due = is_due(lane, run, at, work)
+    due = int(work[at.flag, lane]) & SWINGING != 0 or is_due(lane, run, at, work)
     if not (wanted or due):
         return
     place_evenly(0.0, 1.0, at, spare)
     channels_within(work, spare, lane)
-    rough = due and is_rough(lane, run, at, work, spare)
-    if not (wanted or rough):
+    if due:
+        wanted |= may_set_records(lane, run, at, work, spare)
+    if not wanted:
         return
     waiting = 0
     for r in range(at.rows):

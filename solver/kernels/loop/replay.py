@@ -8,7 +8,7 @@ from jointplay.solver.kernels.emit.places import LENGTH, PERIOD, PLACES, TIME
 from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
-from jointplay.solver.kernels.loop.accepted_steps import read_step
+from jointplay.solver.kernels.loop.accepted_steps import read_step, read_steps
 from jointplay.solver.kernels.loop.dense_rows import write_row
 from jointplay.solver.kernels.loop.periods import product_difference
 from jointplay.solver.kernels.loop.runs import RUNS, Run
@@ -114,9 +114,7 @@ def step_ends(
     call, at = functions_at(addresses[0]), places[0]
     work, runs = unowned(work), unowned(runs)
     for first in range(0, len(steps), LANES):
-        count = min(LANES, len(steps) - first)
-        for lane in range(LANES):
-            read_step(steps[first + min(lane, count - 1)], lane, runs[lane], at, work)
+        count = read_steps(steps, first, runs, at, work)
         call.attempt(work)
         for lane in range(count):
             for k in range(at.states):

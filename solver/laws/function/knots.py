@@ -23,7 +23,7 @@ Knots = Annotated[
     Field(min_length=2, max_length=MOST_KNOTS),
 ]
 Outside = Literal["held", "periodic", "refused"]
-"""What is done beyond the knots: the end values, the same again, or the end of the run."""
+"""Continuation beyond the knots: the end values, the same again, or the end of the run."""
 
 
 def _gaps(function: Any) -> list[Any]:

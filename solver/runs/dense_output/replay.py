@@ -1,6 +1,7 @@
 """Stored steps of a run, made again: any channel at any time, bit for bit as it was sampled."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,9 @@ BEHIND = 1e-6
 """Share of the last step by which an instant may be behind it: rounding of its time."""
 LOOKED_AT = 8
 """Steps whose ends are compared with what follows."""
+
+Source = tuple[str, float, float]
+"""Channel that another is a multiple of, factor, and offset."""
 
 
 class Replay:
@@ -59,6 +63,18 @@ class Replay:
         self.period = float(self.runs["period"][LANE])
 
     @property
+    def arguments(self) -> tuple[Any, ...]:
+        """What kernels take that make steps again: functions, places, room and runs."""
+        bundle = self._bundle
+        return (
+            self.kernel.addresses,
+            self.kernel.places,
+            bundle.groups[0].work,
+            bundle.spare,
+            self.runs,
+        )
+
+    @property
     def width(self) -> int:
         """Numbers in a row of a step."""
         return int(self.kernel.step_row.width)
@@ -71,15 +87,6 @@ class Replay:
         """Return the times at which steps (n, width) end, s."""
         return self.begins(steps) + steps[:, LENGTH]
 
-    def find(self, steps: Floats, moments: Floats) -> NDArray[np.int64]:
-        """Return the index (m,) of the step that each instant is in; n for those behind all.
-
-        moments : (m, 2) ascending instants, each the product of two numbers, s.
-        """
-        found = np.empty(len(moments), np.int64)
-        find_steps(self.runs, steps, moments, found)
-        return found
-
     def channels(self, names: Sequence[str], steps: Floats, moments: Floats) -> Floats:
         """Return channels (m, names) at instants that are inside consecutive steps (n, width).
 
@@ -91,27 +98,22 @@ class Replay:
         ValueError
             An instant is behind the last step.
         """
-        found = self.find(steps, moments)
+        found = np.empty(len(moments), np.int64)
+        find_steps(self.runs, steps, moments, found)
         if len(found) and found[-1] == len(steps):
             late = float(np.prod(moments[-1])) - float(self.ends(steps[-1:])[0])
             if late > BEHIND * steps[-1, LENGTH]:
                 raise ValueError("the steps end before the last instant")
             found = np.minimum(found, len(steps) - 1)
         rows = np.empty((len(moments), self.kernel.row.width))
-        bundle = self._bundle
         states_in_steps(
-            self.kernel.addresses,
-            self.kernel.places,
-            bundle.groups[0].work,
-            bundle.spare,
-            self.runs,
+            *self.arguments,
             steps,
             moments,
             found,
             rows,
         )
-        columns = np.array([self.kernel.rows.index(name) for name in names], np.int64)
-        return bundle.observe(LANE, rows, columns)
+        return self._bundle.observe(LANE, rows, self.rows(names))
 
     def mismatch(self, steps: Floats) -> float:
         """Return how far steps, made again, end from where the next one starts, in its scales.
@@ -119,10 +121,9 @@ class Replay:
         0: bit for bit, as on the processor and with the solver that made them. Only a few are
         looked at; a step with one of another method, or of another scene, is far off.
         """
-        chosen = np.unique(np.linspace(0, len(steps) - 2, LOOKED_AT).astype(np.int64))
-        chosen = chosen[chosen >= 0]
-        if not len(chosen):
+        if len(steps) < 2:
             return 0.0
+        chosen = np.unique(np.linspace(0, len(steps) - 2, LOOKED_AT).astype(np.int64))
         columns = self.kernel.step_row
         states = slice(columns.state, columns.slope)
         ends = np.empty((len(chosen), columns.slope - columns.state))
@@ -156,9 +157,8 @@ class Replay:
             Range of each channel in its run: extremes are sharp to 1e-6 of it.  0: not known, of
             the range in each bin.
         """
-        rows = self.kernel.rows
-        sources = [rows.multiples.get(name, (name, 1.0, 0.0)) for name in names]
-        wanted = list(dict.fromkeys(name for name, _, _ in sources))
+        sources, watched, rest = self.sought(names)
+        wanted = [*watched, *rest]
         known = np.zeros(len(wanted))
         for (name, factor, _), spread in zip(sources, ranges, strict=True):
             known[wanted.index(name)] = spread / (abs(factor) or 1.0)
@@ -168,23 +168,37 @@ class Replay:
             first, last = int(parts[0, 0]), int(parts[-1, 0]) + 1
             parts[:, 0] -= first
             extremes_in_steps(
-                self.kernel.addresses,
-                self.kernel.places,
-                self._bundle.groups[0].work,
-                self._bundle.spare,
-                self.runs,
-                np.zeros(size_of_table(rows.scanned)),
+                *self.arguments,
+                self.table(),
                 np.ascontiguousarray(steps[first:last]),
                 parts,
                 shares,
-                np.array([rows.index(name) for name in wanted], np.int64),
+                self.rows(watched),
+                self.rows(rest),
                 known,
+                0.0,
                 records,
             )
         return scaled(records, wanted, sources)
 
+    def sought(self, names: Sequence[str]) -> tuple[list[Source], list[str], list[str]]:
+        """Return what channels are multiples of, and of these those that runs watch, and others."""
+        rows = self.kernel.rows
+        sources = [rows.multiples.get(name, (name, 1.0, 0.0)) for name in names]
+        found = dict.fromkeys(name for name, _, _ in sources)
+        watched = [name for name in found if name in rows.watched]
+        return sources, watched, [name for name in found if name in rows.rest]
 
-def scaled(records: Floats, wanted: list[str], sources: list[tuple[str, float, float]]) -> Floats:
+    def table(self) -> Floats:
+        """Return room for windows in which extremes are sought."""
+        return np.zeros(size_of_table(self.kernel.rows.scanned))
+
+    def rows(self, names: Sequence[str]) -> NDArray[np.int64]:
+        """Return the rows of the channel block that channels have, (names,)."""
+        return np.array([self.kernel.rows.index(name) for name in names], np.int64)
+
+
+def scaled(records: Floats, wanted: list[str], sources: list[Source]) -> Floats:
     """Return records of channels that are multiples of those that were looked at."""
     found = np.stack([records[:, wanted.index(name)] for name, _, _ in sources], axis=1)
     for c, (_, factor, offset) in enumerate(sources):

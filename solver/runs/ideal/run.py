@@ -152,6 +152,7 @@ class IdealRun:
             sections,
             np.zeros(0, dtype=IMPACT),
             np.empty((0, 0)),
+            np.empty((0, 0)),
         )
 
     def _extremes(self) -> dict[str, Peak]:

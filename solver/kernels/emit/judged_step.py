@@ -1,0 +1,158 @@
+"""Records how a step is judged: its error, the length of the next one, what needs attention."""
+
+from collections.abc import Iterable
+from functools import reduce
+from itertools import count
+
+from jointplay.solver.integrators import Method
+from jointplay.solver.kernels.emit import closing, enclosure, scanning
+from jointplay.solver.kernels.emit.emit import Outputs, Tape, lane_function
+from jointplay.solver.kernels.emit.judging import (
+    DUE,
+    PACE,
+    REJECTED,
+    SWINGING,
+    contact_flags,
+    growth,
+    swings,
+)
+from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.equations import Equations
+from jointplay.solver.kernels.record.lane_functions import coarse_log2
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
+from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
+
+SMALLEST_ERROR = 1e-16
+"""Floor under the squared error, so that its logarithm exists; errors below 1e-8 count alike."""
+GROWN = 2.0
+"""A step that many times as long as the one before is looked at if it swings."""
+
+
+def before(name: str) -> str:
+    """Return the slot of a quantity of the step before."""
+    return {"tried": "before_step"}.get(name, f"before_{name}")
+
+
+class JudgedStep:
+    """A step of one method for the equations of a scene, and the function that judges it."""
+
+    unweighed = 0
+    """Slopes kept before those that the error weighs."""
+
+    def __init__(self, tableau: Method, equations: Equations, ledger: int, layout: Layout) -> None:
+        self.tableau, self.equations = tableau, equations
+        self.states, self.coordinates = equations.states, len(equations.coordinates)
+        self.ledger, self.pairs = ledger, len(equations.pairs)
+        self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
+        self.layout = layout
+        self.recorder = Recorder()
+
+    def variable(self, name: str) -> Expression:
+        """Return the expression of a slot."""
+        return self.recorder.variable(name)
+
+    def _sum(self, weights: Iterable[float | Expression], slots: Iterable[str]) -> Expression:
+        """Return a weighted sum of slots, of as many as there are weights."""
+        total: Expression = self.recorder.constant(0.0)
+        for weight, slot in zip(weights, slots, strict=False):
+            total = total + weight * self.variable(slot)
+        return total
+
+    def _function(self, name: str, outputs: Outputs) -> str:
+        return lane_function(name, outputs, self.layout, inner=True)
+
+    def _slope(self, s: int, i: int) -> str:
+        """Return the slot of the slope of state i at stage s: the last is where the step ends."""
+        return f"slope{i}" if s == self.tableau.stages else f"k{s}_{i}"
+
+    def _judge(self) -> str:
+        """Error of the step, the next step size, and what needs attention."""
+        v, number = self.variable, self.recorder.constant
+        squared = self._squared_error() if self.tableau.error else self._overflow()
+        good = select_positive(1.0 + 1e-12 - squared, number(1.0), number(0.0))
+        magnitude = 0.5 * coarse_log2(squared)
+        if self.tableau.error:
+            next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
+        else:  # fixed; after an overflow there is none
+            next_step = select_positive(good, v("step"), number(0.0))
+        due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
+        pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
+        flag = REJECTED * (1.0 - good) + due + pace + self._swinging()
+        away = self._away()
+        flags = [
+            contact_flags(v, j, away, shape, shortened=bool(self.tableau.error))
+            for j, shape in enumerate(self.equations.enclosures)
+        ]
+        for kind in zip(*flags, strict=True):
+            flag = flag + reduce(maximum, kind)
+        flag = select_positive(v("active"), flag, number(0.0))
+        outputs = [
+            ("accept", good * v("active")),
+            ("flag", flag),
+            ("next_step", next_step),
+            ("new_memory", magnitude),
+            *scanning.reach(v("tried"), v(before("tried"))),
+        ]
+        tape = Tape(self.layout)
+        tape.store(outputs)
+        tape.give(flag)
+        return tape.function("judge")
+
+    def _swinging(self) -> Expression:
+        """Return SWINGING where an acceleration swings inside a step that is to be looked at.
+
+        Methods that are watched closely need no flag for it.
+        """
+        if self.tableau.watched_closely:
+            return self.recorder.constant(0.0)
+        v, last = self.variable, self.tableau.stages
+        most: Expression = self.recorder.constant(0.0)
+        for i in range(self.coordinates, 2 * self.coordinates):
+            first, inside, end = (v(self._slope(s, i)) for s in (1, last - 1, last))
+            found = swings(first, inside, end, self.tableau.nodes[-2], self._weighed(i))
+            most = maximum(most, found)
+        due = maximum(v("steps") + 0.5 - v("look_at"), v("tried") - GROWN * v(before("tried")))
+        flag: Expression = select_positive(
+            minimum(most, due), self.recorder.constant(SWINGING), 0.0
+        )
+        return flag
+
+    def _away(self) -> Expression:
+        """Return what journals may be away from the quintic that encloses them, m."""
+        speeds = [self.coordinates + i for i in self.angles]
+        return enclosure.remainder(
+            self.variable,
+            [f"{state}{i}" for i in speeds for state in ("y", "stage")],
+            [f"{slope}{i}" for i in speeds for slope in ("k1_", "slope")],
+        )
+
+    def _squared_error(self) -> Expression:
+        """Square of the step's error, in tolerances."""
+        squared = self._sum_of_squares(self.tableau.error)
+        if self.tableau.coarse_error:
+            coarse = 0.01 * self._sum_of_squares(self.tableau.coarse_error)
+            squared = squared * (squared / (squared + coarse))
+        if self.equations.corrections:
+            squared = squared + closing.drift(self.variable, self.coordinates)
+        return squared
+
+    def _sum_of_squares(self, weights: tuple[float, ...]) -> Expression:
+        """Sum over the states of (h Σ e k / weight of the state)², not quite zero."""
+        squared: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            error = self._sum(weights, (self._slope(s, i) for s in count(1 + self.unweighed)))
+            scaled = error * self._weighed(i)
+            squared = squared + scaled * scaled
+        return squared
+
+    def _weighed(self, i: int) -> Expression:
+        """Step times weight of state i; more, while nothing has moved as fast as it may."""
+        v = self.variable
+        return v("tried") * (v("full") / v("fastest")) * v(f"weight{i}")
+
+    def _overflow(self) -> Expression:
+        """Almost zero, but infinite or NaN where a slope is."""
+        overflow: Expression = self.recorder.constant(SMALLEST_ERROR)
+        for i in range(self.states):
+            overflow = overflow + 1e-300 * abs(self.variable(f"slope{i}"))
+        return overflow

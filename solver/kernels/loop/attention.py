@@ -1,0 +1,126 @@
+"""Attention to one lane: between its attempt at a step and the commit, and once it is taken.
+
+A rejected step, a contact that begins or ends, a sample or section that is due, the end of a period
+or of the run.
+"""
+
+import math
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.judging import DUE, ONSET, PACE, REJECTED, RELEASE
+from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.jit import LaneFunction, inner_kernel
+from jointplay.solver.kernels.loop.contacts import (
+    CAUTIOUS,
+    begin_contact,
+    end_contact,
+    is_touching,
+    land,
+    lands_beside,
+)
+from jointplay.solver.kernels.loop.dense_rows import hand_out
+from jointplay.solver.kernels.loop.events import has_all_events, record_event
+from jointplay.solver.kernels.loop.openings import LATE, end_behind_opening, note_openings
+from jointplay.solver.kernels.loop.peaks import end_peaks
+from jointplay.solver.kernels.loop.periods import check_pace, plan, stop, turn_over
+from jointplay.solver.kernels.loop.runs import NO_PAIR, Buffers, Run, SectionKind, Status
+from jointplay.solver.kernels.loop.tangent import latch_tangent, record_growth
+
+
+@inner_kernel()
+def attend(
+    flag: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    rows: np.ndarray,
+    states_within: LaneFunction,
+    gaps_within: LaneFunction,
+) -> bool:
+    """Look after one lane between its attempt and its commit; whether a buffer is full."""
+    opening = 1.0
+    if flag & RELEASE:
+        opening = note_openings(lane, at, work, spare, gaps_within)
+    if flag & REJECTED:
+        run.rejections += 1
+        run.landing = NO_PAIR  # its attempts count on, or they might go in circles
+        if work[at.next_step, lane] < run.smallest_step:
+            stop(Status.UNDERFLOW, lane, run, at, work)
+            return False
+        if is_touching(lane, at, work):
+            work[at.next_step, lane] *= CAUTIOUS
+    if opening < LATE:
+        end_behind_opening(opening, lane, run, at, work)
+        return False
+    if flag & REJECTED:
+        return False
+    if flag & ONSET or run.landing != NO_PAIR:
+        landed = land(lane, run, at, work, spare, gaps_within)
+        if not landed:
+            work[at.accept, lane] = 0.0
+            return False
+    if flag & DUE:
+        return hand_out(lane, run, at, work, spare, rows, states_within)
+    return False
+
+
+@inner_kernel()
+def settle(
+    flag: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    buffers: Buffers,
+    weigh: LaneFunction,
+    tangent_gaps: LaneFunction,
+) -> bool:
+    """Look after one lane once its step is taken; whether a buffer is nearly full."""
+    tangents = buffers.growths.shape[1] > 0
+    begun = float(run.periods) * run.period
+    now = begun + work[at.time, lane]
+    full = False
+    landed = run.landing
+    if landed != NO_PAIR:
+        for j in range(at.pairs):
+            if j != landed and not lands_beside(j, lane, at, work):
+                continue
+            begin_contact(j, now, lane, at, work)
+            weigh(work)  # where a fixed step ends, one may begin deep: with energy from nowhere
+            work[at.stored_start, lane] = work[at.stored, lane]
+            if tangents:
+                tangent_gaps(work)
+                latch_tangent(j, lane, at, work)
+            run.onsets += 1
+            if run.section_kind == SectionKind.ONSET and run.section_place == j:
+                full |= record_event(lane, lane, run, at, work, work, buffers.rows)
+        run.landing = NO_PAIR
+        run.landings = 0
+    if flag & RELEASE:
+        for j in range(at.pairs):
+            opened = work[at.opened + j, lane]
+            if work[at.mode + j, lane] > 0.0 and opened < math.inf:
+                work[at.mode + j, lane] = 0.0
+                end_contact(j, begun + opened, lane, run, at, work, buffers.impacts)
+        full |= run.impacts + at.pairs > buffers.impacts.shape[1]
+    if work[at.time, lane] >= work[at.end, lane] or has_all_events(run):
+        end_peaks(now, lane, at, work)
+        if tangents:
+            full |= record_growth(now, lane, run, at, work, buffers.growths)
+        for j in range(at.pairs):
+            if work[at.mode + j, lane] > 0.0:
+                end_contact(j, math.nan, lane, run, at, work, buffers.impacts)
+        stop(Status.DONE, lane, run, at, work)
+        return full
+    if flag & PACE:
+        check_pace(lane, run, at, work)
+    if flag & DUE:
+        if work[at.time, lane] >= run.period:
+            turn_over(lane, run, at, work)
+            if tangents:
+                full |= record_growth(now, lane, run, at, work, buffers.growths)
+        plan(lane, run, at, work)
+    return full

@@ -1,0 +1,113 @@
+"""Extremes of channels from each sample to the next, of a run that does not keep its steps."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.loop.bin_records import HIGHEST, LOWEST
+from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.dense_output.parts import cut
+from jointplay.solver.runs.dense_output.replay import Replay
+
+NONE = -1
+
+
+class IntervalExtremes:
+    """Smallest and largest values between samples, whose bits do not depend on slices.
+
+    Parameters
+    ----------
+    admission, method
+        As `Replay` takes them.
+    """
+
+    def __init__(self, admission: Admission, method: str) -> None:
+        job, names = admission.job, [channel.name for channel in admission.channels]
+        self._replay = Replay(admission, method)
+        self._last = admission.samples - 1
+        self._spacing, self._duration = float(job["output_step"]), float(job["duration"])
+        self._sources, watched, rest = self._replay.sought(names)
+        self._wanted = [*watched, *rest]
+        self._rows = self._replay.rows(watched), self._replay.rows(rest)
+        self._table = self._replay.table()
+        self._present = NONE
+        """Sample at the end of the interval that is not complete yet."""
+        self._record = np.full((len(self._wanted), 4), np.nan)
+        self._ranges = np.zeros(len(self._wanted))
+
+    def add(self, steps: Floats) -> Floats:
+        """Return the intervals (k, 1 + 2 channels) that further steps (n, width) complete.
+
+        Index of the sample at the end, then smallest and largest value of each channel in turn.
+        """
+        if not len(steps):
+            return self._arranged(np.empty((0, len(self._wanted), 4)), 0)
+        begins, lengths = self._replay.begins(steps), steps[:, LENGTH]
+        first, edges = self._edges(float(begins[0]), float(begins[-1] + lengths[-1]))
+        records = np.full((len(edges) - 1, len(self._wanted), 4), np.nan)
+        ended = np.empty((0, len(self._wanted), 4))
+        if first == self._present:
+            records[0] = self._record
+        elif self._present != NONE:
+            spread = self._record[:, HIGHEST] - self._record[:, LOWEST]
+            self._ranges = np.maximum(self._ranges, spread)
+            ended = self._record[None]
+        parts, shares = cut(begins, lengths, edges)
+        extremes_in_steps(
+            *self._replay.arguments,
+            self._table,
+            np.ascontiguousarray(steps),
+            parts,
+            shares,
+            *self._rows,
+            self._ranges,
+            SHARP,
+            records,
+        )
+        self._present = first + len(records) - 1
+        self._record = records[-1].copy()
+        return self._arranged(np.concatenate([ended, records[:-1]]), self._present)
+
+    def end(self) -> Floats:
+        """Return the last interval, as `add` does: no step will follow."""
+        present, self._present = self._present, NONE
+        count = int(present != NONE)
+        return self._arranged(self._record[None][:count], present + count)
+
+    def state(self, name: str) -> dict[str, NDArray[Any]]:
+        """Return what the next call depends on, as arrays of a checkpoint."""
+        found = {"present": np.array(self._present), "record": self._record, "ranges": self._ranges}
+        return {f"{name}/{part}": array for part, array in found.items()}
+
+    def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
+        """Continue from `state`, bit for bit."""
+        self._present = int(saved[f"{name}/present"])
+        self._record = saved[f"{name}/record"].copy()
+        self._ranges = saved[f"{name}/ranges"].copy()
+
+    def _edges(self, begin: float, end: float) -> tuple[int, Floats]:
+        """Return the first sample behind a time, s, and the edges of intervals to another time."""
+        low = max(math.floor(begin / self._spacing) - 1, 0)
+        high = min(math.ceil(end / self._spacing) + 1, self._last)
+        times = np.arange(low, high + 1) * self._spacing
+        if high == self._last:
+            times[-1] = self._duration
+        first = min(int(np.searchsorted(times, begin, side="right")), len(times) - 1)
+        behind = min(int(np.searchsorted(times, end)), len(times) - 1)
+        return low + first, np.append(begin, times[first : behind + 1])
+
+    def _arranged(self, found: Floats, behind: int) -> Floats:
+        """Return records (k, rows, 4) of intervals, up to before that of a sample, by channel."""
+        rows = np.empty((len(found), 1 + 2 * len(self._sources)))
+        rows[:, 0] = np.arange(behind - len(found), behind)
+        for c, (name, factor, offset) in enumerate(self._sources):
+            pairs = found[:, self._wanted.index(name)][:, [LOWEST, HIGHEST]]
+            rows[:, 1 + 2 * c : 3 + 2 * c] = np.sort(factor * pairs + offset, axis=1)
+        return rows
