@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
+from jointplay.records.log_lines import LogFormat
 from jointplay.storage.packed.running import Running
 from jointplay.storage.places import Place, StoredObject, place_at
 
@@ -52,11 +53,19 @@ class Settings(BaseSettings):
         description="Names, separated by commas, under which an API that asks for no keys may be"
         " reached beside localhost and its addresses.",
     )
+    report: Path | None = Field(
+        None,
+        description="File report.html that `jointplay reproduce` wrote: the API shows it at"
+        " /report; none: that page tells how to make one.",
+    )
     rate: float = Field(
         0.0, ge=0, le=1e6, description="Requests a second of one owner of keys; 0: any number."
     )
     most_live: int = Field(
         0, ge=0, le=10**9, description="Jobs of one owner that have not ended; 0: any number."
+    )
+    log_format: LogFormat = Field(
+        "text", description="Lines of the logs: text, or json, an object each."
     )
     lease: Hour = Field(30.0, description="A block whose worker is silent this long is lost.")
     heartbeat: Minutes = Field(5.0, description="A worker extends its lease this often.")

@@ -13,6 +13,7 @@ from sqlalchemy.exc import DBAPIError
 
 from jointplay.storage.catalogue import (
     adoption,
+    at_work,
     batches,
     census,
     disagreements,
@@ -22,16 +23,19 @@ from jointplay.storage.catalogue import (
     listing,
     rows,
     schema,
+    solvers,
     submission,
     upkeep,
 )
 from jointplay.storage.catalogue.connections import Connections, Unit
-from jointplay.storage.catalogue.errors import Interrupted, KeyReused, Unavailable
+from jointplay.storage.catalogue.errors import CatalogueError, Interrupted, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.records import (
+    Claim,
     Job,
     NewJob,
+    Solver,
     SubmissionKey,
     Submitted,
     SubmittedBatch,
@@ -40,6 +44,8 @@ from jointplay.storage.catalogue.records import (
 Given = ParamSpec("Given")
 Answer = TypeVar("Answer")
 _InUnit = Callable[Concatenate[Unit, Given], Answer]
+_CANDIDATES = 8
+"""Blocks that a worker tries to claim before it asks again: others may be quicker."""
 _Method = Callable[Concatenate["Catalogue", Given], Answer]
 
 
@@ -100,9 +106,13 @@ class Catalogue:
         self._submissions = GroupCommit(self._submit, common=Unavailable)
 
     def migrate(self) -> None:
-        """Create the tables or bring them up to date; several processes may do it at once."""
+        """Create the tables or bring them up to date; several processes may do it at once.
+
+        Tables of a newer program are left as they are: migrations take nothing away that the
+        program before them needs, so that processes of both can run while one replaces the other.
+        """
         self.connections.make_database()
-        if self.connections.repeated(self._revision) == schema.REVISION:
+        if self.is_migrated():
             return
         with self.connections.migrating() as connection:
             schema.upgrade(connection)
@@ -112,12 +122,17 @@ class Catalogue:
         self.connections.close()
 
     def ping(self) -> None:
-        """Raise if the database does not answer or its schema is not the present one."""
+        """Raise if the database does not answer, or its schema is older than this program's."""
         found = self.connections.repeated(self._named_revision)
-        if found != schema.REVISION:
+        if found is None or found < schema.REVISION:
             raise RuntimeError(
                 f"the catalogue is at revision {found}, this program needs {schema.REVISION}"
             )
+
+    def is_migrated(self) -> bool:
+        """Tell whether the database has the tables of this program, or of a newer one."""
+        found = self.connections.repeated(self._revision)
+        return found is not None and found >= schema.REVISION
 
     def _revision(self) -> str | None:
         with self.connections.reading() as connection:
@@ -144,7 +159,12 @@ class Catalogue:
     # What users ask for
 
     def submit(
-        self, new: NewJob, key: SubmissionKey | None = None, *, reuse: bool = False
+        self,
+        new: NewJob,
+        key: SubmissionKey | None = None,
+        *,
+        reuse: bool = False,
+        most_live: int = 0,
     ) -> Submitted:
         """Accept a job; it survives a power cut once this returns.
 
@@ -156,16 +176,20 @@ class Catalogue:
         ------
         KeyReused
             The key was used before with another fingerprint.
+        QuotaExceeded
+            Its owner would have more than `most_live` jobs that have not ended (0: any number).
         """
-        answer = self._submissions.done(submission.Request(new, key, reuse))
-        if isinstance(answer, KeyReused):
+        answer = self._submissions.done(submission.Request(new, key, reuse, most_live))
+        if isinstance(answer, CatalogueError):
             raise answer
         return answer
 
-    def _submit(self, requests: Sequence[submission.Request]) -> list[Submitted | KeyReused]:
+    def _submit(self, requests: Sequence[submission.Request]) -> list[Submitted | CatalogueError]:
         return self.connections.repeated(lambda: self._submit_once(requests))
 
-    def _submit_once(self, requests: Sequence[submission.Request]) -> list[Submitted | KeyReused]:
+    def _submit_once(
+        self, requests: Sequence[submission.Request]
+    ) -> list[Submitted | CatalogueError]:
         now = self.clock()
         with self.connections.writing(durable=True) as connection:
             unit = Unit(connection, now)
@@ -178,6 +202,7 @@ class Catalogue:
         label: str | None = None,
         key: SubmissionKey | None = None,
         owner: str = "",
+        most_live: int = 0,
     ) -> SubmittedBatch:
         """Accept many jobs or none; they survive a power cut once this returns.
 
@@ -199,7 +224,9 @@ class Catalogue:
             identifier, *members = [self._identifiers.next(now) for _ in range(len(jobs) + 1)]
             with self.connections.writing(durable=True) as connection:
                 unit = Unit(connection, now)
-                return batches.submit_batch(unit, identifier, members, jobs, label, key, owner)
+                return batches.submit_batch(
+                    unit, identifier, members, jobs, label, key, owner, most_live
+                )
 
         return self.connections.repeated(submit)
 
@@ -211,7 +238,6 @@ class Catalogue:
     attempts = _reading(listing.attempts_of)
     events = _reading(listing.events_of)
     statuses = _reading(listing.statuses_of)
-    is_answered = _reading(submission.is_answered)
     identical = _reading(submission.same_job)
     request_cancel = _durably(submission.request_cancel)
     cancel_batch = _durably(batches.cancel_batch)
@@ -238,12 +264,24 @@ class Catalogue:
     make_key = _durably(keys.make_key)
     revoke_key = _durably(keys.revoke_key)
     note_use_of_key = _writing(keys.note_use)
-    live_jobs = _reading(listing.live_jobs)
     all_keys = _reading(keys.all_keys)
 
     # What workers do
 
     claim_block = _claiming(holding.claim)
+    waiting_for = _reading(solvers.waiting_for)
+    held_by = _reading(listing.held_by)
+    note_worker = _writing(solvers.note_worker)
+
+    def claim_next(self, worker: str, lease: float, solver: Solver) -> Claim | None:
+        """Take the block whose turn it is, of those that this solver may; none if none waits."""
+        for block in self.waiting_for(solver, _CANDIDATES):
+            claim = self.claim_block(block, worker, lease, solver)
+            if claim is not None:
+                return claim
+        return None
+
+    held = _reading(holding.held)
     verdict = _reading(holding.verdict)
     heartbeat = _writing(holding.heartbeat)
     record_progress = _writing(holding.record_progress)
@@ -274,4 +312,9 @@ class Catalogue:
     census = _reading(census.census)
     leader = _reading(upkeep.leader)
     take_lead = _writing(upkeep.take_lead)
+    workers = _reading(solvers.workers)
+    workers_at_work = _reading(at_work.workers_at_work)
+    forget_workers = _writing(solvers.forget_workers)
+    unserved = _reading(solvers.unserved)
+    note_unserved = _writing(solvers.note_unserved)
     release_lead = _writing(upkeep.release_lead)

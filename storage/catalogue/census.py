@@ -1,4 +1,4 @@
-"""How much there is to do and who does it, counted for whoever watches the service."""
+"""Work to do and workers at it, counted for whoever watches the service."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,10 +7,8 @@ from sqlalchemy import func, select
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.storage.catalogue.records import LIVE, BlockState, JobState
 from jointplay.storage.catalogue.upkeep import on_the_way
-
-_LIVE = [state for state in JobState if not state.terminal]
 
 
 @dataclass(frozen=True)
@@ -36,8 +34,8 @@ class Census:
 def census(unit: Unit) -> Census:
     """Count by index; the cost is that of what is live."""
     job, block, outbox = tables.job, tables.block, tables.outbox
-    states = select(job.c.state, func.count()).where(job.c.state.in_(_LIVE)).group_by(job.c.state)
-    jobs = dict.fromkeys(_LIVE, 0) | {row[0]: row[1] for row in unit.execute(states)}
+    states = select(job.c.state, func.count()).where(job.c.state.in_(LIVE)).group_by(job.c.state)
+    jobs = dict.fromkeys(LIVE, 0) | {row[0]: row[1] for row in unit.execute(states)}
     queues = select(outbox.c.queue, func.count(), func.min(outbox.c.created))
     waiting = {
         queue: Waiting(count, max(unit.now - first, 0.0))

@@ -11,12 +11,14 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
-from jointplay.storage.catalogue.records import BlockState, Job, JobState
+from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
+from jointplay.storage.catalogue.solvers import machine_of, workers
 from jointplay.storage.catalogue.submission import drop_blocks
 
-RECOVERED_QUEUE = "recovered"
 _PUT_OFF: Final = "put-off"
+_LOST: Final = "lost"
+_LONGEST_RETREAT: Final = 60.0  # s
 _FIRST_PAUSE = 2.0  # s
 LONGEST_PAUSE: Final = 10.0
 """Seconds after which a block that was put off is tried again at the latest."""
@@ -134,15 +136,21 @@ def _requeue(unit: Unit, block_id: str, job: Job, pause: float = 0.0) -> None:
 def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockState:
     """Take a block from a worker whose lease ran out; queue it again or give it up.
 
+    A machine that loses it again and again counts once, as long as another one could compute it.
+
     Returns
     -------
     BlockState
         What became of the block: queued, failed, or cancelled if the job was being cancelled.
     """
-    job = _take_back(unit, block_id, attempt, "lost", losses=_block.c.losses + 1)
+    job = _take_back(unit, block_id, attempt, _LOST, losses=_block.c.losses + 1)
     losses = unit.execute(select(_block.c.losses).where(_block.c.id == block_id)).scalar_one()
-    if losses < max_attempts and not job.state.terminal:
-        queue_again(unit, block_id)
+    machines = _lost_by(unit, block_id, losses)
+    present = {machine_of(name) for name in workers(unit)}
+    blamed = len(machines) if present - machines else losses
+    if blamed < max_attempts and not job.state.terminal:
+        again = losses - len(machines)  # a machine may lose it in vain: give another one time
+        queue_again(unit, block_id, min(2.0**again, _LONGEST_RETREAT) if again else 0.0)
         return BlockState.queued
     given_up = BlockState.failed if job.state is JobState.running else BlockState.cancelled
     unit.execute(update(_block).where(_block.c.id == block_id).values(state=given_up))
@@ -154,6 +162,18 @@ def lose(unit: Unit, block_id: str, attempt: int, max_attempts: int) -> BlockSta
     )
     settle(unit, job.id, error if given_up is BlockState.failed else None)
     return given_up
+
+
+def _lost_by(unit: Unit, block_id: str, losses: int) -> set[str]:
+    """Return the machines of the last workers that lost a block."""
+    table = tables.attempt
+    rows = unit.execute(
+        select(table.c.worker)
+        .where(table.c.block == block_id, table.c.outcome == _LOST)
+        .order_by(table.c.number.desc())
+        .limit(losses)
+    )
+    return {machine_of(name) for name in rows.scalars()}
 
 
 def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes: Any) -> Job:

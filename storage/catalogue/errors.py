@@ -61,6 +61,16 @@ class KeyReused(CatalogueError):
         super().__init__(f"{used}; use a new key")
 
 
+class QuotaExceeded(CatalogueError):
+    """An owner would have more jobs that have not ended than he may have."""
+
+    def __init__(self, owner: str, live: int, most: int, more: int) -> None:
+        super().__init__(
+            f"{owner} has {live} jobs that have not ended, and may have {most};"
+            f" this would be {more} more"
+        )
+
+
 class Fenced(CatalogueError):
     """The block is no longer this attempt's: stop, write nothing, report nothing."""
 

@@ -12,11 +12,12 @@ from sqlalchemy import Connection, text
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import Block, Claim, Job, JobState, Verdict
+from jointplay.storage.catalogue.records import Block, Claim, Job, JobState, Solver, Verdict
 
 FUNCTIONS: Final = (
     """
-CREATE OR REPLACE FUNCTION claim_block(wanted text, claimant text, moment float8, lease float8)
+CREATE OR REPLACE FUNCTION claim_block(wanted text, claimant text, moment float8, lease float8,
+  by_version text, by_processor text)
 RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
 #variable_conflict use_column
 DECLARE
@@ -25,6 +26,9 @@ BEGIN
   SELECT * INTO of_job FROM job
     WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
   IF NOT FOUND OR of_job.state IN ('succeeded', 'failed', 'cancelled') THEN
+    RETURN;
+  END IF;
+  IF of_job.solver_version <> by_version OR of_job.processor <> by_processor THEN
     RETURN;
   END IF;
   UPDATE block
@@ -47,7 +51,8 @@ BEGIN
       json_build_object('block', wanted, 'attempt', held.attempt, 'worker', claimant));
   UPDATE job
     SET attempt = greatest(attempt, held.attempt), started = coalesce(started, moment),
-      state = CASE state WHEN 'queued' THEN 'running' ELSE state END
+      state = CASE state WHEN 'queued' THEN 'running' ELSE state END,
+      processor = coalesce(processor, by_processor)
     WHERE id = of_job.id RETURNING * INTO of_job;
   RETURN NEXT;
 END $$
@@ -100,16 +105,19 @@ def _columns(record: str, names: list[str]) -> str:
 _BLOCK, _JOB = ([column.name for column in table.c] for table in (tables.block, tables.job))
 _CLAIM = text(
     f"SELECT {_columns('held', _BLOCK)}, {_columns('of_job', _JOB)}"  # noqa: S608 - our own names
-    " FROM claim_block(:wanted, :claimant, :moment, :lease)"
+    " FROM claim_block(:wanted, :claimant, :moment, :lease, :version, :processor)"
 ).columns(*tables.block.c, *tables.job.c)
 _PROGRESS = text(
     "SELECT record_progress(:wanted, :number, :until, :reached, :fraction, CAST(:done AS bigint))"
 )
 
 
-def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
+def claim(
+    unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None
+) -> Claim | None:
     """See `holding.claim`."""
     asked = {"wanted": block_id, "claimant": worker, "moment": unit.now, "lease": lease}
+    asked |= {"version": solver and solver.version, "processor": solver and solver.processor}
     row = unit.execute(_CLAIM, asked).one_or_none()
     if row is None:
         return None

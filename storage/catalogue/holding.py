@@ -8,7 +8,7 @@ from typing import Any
 
 from sqlalchemy import ColumnElement, and_, case, delete, func, insert, select, update
 
-from jointplay.storage.catalogue import functions, tables
+from jointplay.storage.catalogue import functions, solvers, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import (
@@ -17,6 +17,7 @@ from jointplay.storage.catalogue.records import (
     Claim,
     Job,
     JobState,
+    Solver,
     Verdict,
 )
 from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
@@ -24,15 +25,29 @@ from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
 _block = tables.block
 
 
-def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
-    """Take a queued block for `lease` seconds; none if there is nothing (left) to do."""
-    if unit.shared:
-        return functions.claim(unit, block_id, worker, lease)
+def claim(
+    unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None = None
+) -> Claim | None:
+    """Take a queued block for `lease` seconds; none if there is nothing (left) to do.
+
+    With a `solver` only a block of a job that is its own, or that no worker's solver is any more.
+    """
+    taken = functions.claim if unit.shared else _claim
+    found = taken(unit, block_id, worker, lease, solver)
+    if found is None and solver is not None and solvers.take_over(unit, block_id, solver):
+        found = taken(unit, block_id, worker, lease, solver)
+    return found
+
+
+def _claim(
+    unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None
+) -> Claim | None:
+    """Do what the function of `functions` does."""
     job_id = unit.execute(select(_block.c.job).where(_block.c.id == block_id)).scalar_one_or_none()
     if job_id is None:
         return None
     job = lock_job(unit, job_id)
-    if job.state.terminal:
+    if job.state.terminal or not (solver is None or solvers.fits(job, solver)):
         return None
     row = unit.execute(
         update(_block)
@@ -60,6 +75,7 @@ def claim(unit: Unit, block_id: str, worker: str, lease: float) -> Claim | None:
         .values(
             attempt=max(job.attempt, held.attempt),
             started=func.coalesce(tables.job.c.started, unit.now),
+            processor=job.processor or (solver and solver.processor),
         )
     )
     step_job(unit, job_id, JobState.running)
@@ -92,6 +108,14 @@ def lock_held(unit: Unit, block_id: str, attempt: int) -> Job:
     return Job(**row._mapping)
 
 
+def held(unit: Unit, block_id: str, attempt: int) -> Block:
+    """Return a block that this attempt holds; Fenced if it does not."""
+    row = unit.execute(select(_block).where(_is_held(block_id, attempt))).one_or_none()
+    if row is None:
+        raise Fenced(block_id, attempt)
+    return Block(**row._mapping)
+
+
 def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
     """Return whether this attempt should go on, reading only; Fenced if it lost the block."""
     state = unit.execute(
@@ -107,6 +131,7 @@ def verdict(unit: Unit, block_id: str, attempt: int) -> Verdict:
 def heartbeat(unit: Unit, block_id: str, attempt: int, lease: float) -> Verdict:
     """Hold a block `lease` seconds longer; Fenced if it is held no more."""
     change_held(unit, block_id, attempt, lease_until=unit.now + lease)
+    solvers.note_holder(unit, block_id)
     return verdict(unit, block_id, attempt)
 
 

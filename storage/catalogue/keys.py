@@ -18,11 +18,12 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import KeyNotFound
 
-SCOPES: Final = ("jobs:write", "jobs:read", "results:read", "metrics", "admin")
-"""What a key may be for; `admin` is for all of it, and for everybody's jobs."""
+SCOPES: Final = ("jobs:write", "jobs:read", "results:read", "worker", "metrics", "admin")
+"""Permissions of keys; `worker` is to compute everybody's jobs, `admin` is all of them."""
 OWNER: Final = re.compile(r"[a-z0-9][a-z0-9._@-]{0,63}")
 """Names of owners: their jobs are seen by keys of the same owner."""
-_TEXT: Final = re.compile(r"jp_([0-9a-f]{8})_[A-Za-z0-9_-]{43}")
+ID: Final = re.compile(r"[0-9a-f]{8}")
+_TEXT: Final = re.compile(rf"jp_({ID.pattern})_[A-Za-z0-9_-]{{43}}")
 _table = tables.api_key
 
 

@@ -12,11 +12,11 @@ from jointplay.storage.catalogue.records import (
     TERMINAL,
     Attempt,
     Block,
+    BlockState,
     Event,
     Job,
     JobFilter,
     JobPage,
-    JobState,
     JobStatus,
 )
 
@@ -75,6 +75,13 @@ def blocks_of(unit: Unit, job_id: str) -> tuple[Block, ...]:
     return tuple(Block(**row._mapping) for row in rows)
 
 
+def held_by(unit: Unit, worker: str) -> tuple[Block, ...]:
+    """Return the blocks that a worker holds."""
+    table = tables.block
+    held = (table.c.state == BlockState.running) & (table.c.worker == worker)
+    return tuple(Block(**row._mapping) for row in unit.execute(select(table).where(held)))
+
+
 def attempts_of(unit: Unit, job_id: str) -> tuple[Attempt, ...]:
     """Return every attempt at a job's blocks, by block index and number."""
     table, block = tables.attempt, tables.block
@@ -116,13 +123,6 @@ def statuses_of(unit: Unit, jobs: Sequence[str]) -> tuple[JobStatus, ...]:
         ).where(columns.id.in_(jobs))
     )
     return tuple(JobStatus(*row) for row in rows)
-
-
-def live_jobs(unit: Unit, owner: str) -> int:
-    """Count the jobs of an owner that have not ended."""
-    live = tables.job.c.state.in_([state for state in JobState if not state.terminal])
-    of_owner = select(func.count()).select_from(tables.job).where(live, tables.job.c.owner == owner)
-    return int(unit.execute(of_owner).scalar_one())
 
 
 def newest_event(unit: Unit) -> float | None:

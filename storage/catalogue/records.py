@@ -43,6 +43,14 @@ LEGAL_STEPS: Mapping[JobState, frozenset[JobState]] = {
 
 
 TERMINAL = [state for state in JobState if state.terminal]
+LIVE = [state for state in JobState if not state.terminal]
+
+RECOVERED_QUEUE = "recovered"
+INTERACTIVE_QUEUE = "interactive"
+FRESH_QUEUE = "jobs"
+QUEUES = (RECOVERED_QUEUE, INTERACTIVE_QUEUE, FRESH_QUEUE)
+"""In the order in which workers look at them: what a worker had begun comes first, then jobs of one
+block that came alone, for which somebody may be waiting, then studies and batches."""
 
 
 class BlockState(StrEnum):
@@ -64,6 +72,14 @@ class Verdict(StrEnum):
 
     go_on = "continue"
     cancel = "cancel"
+
+
+@dataclass(frozen=True)
+class Solver:
+    """A version of the solver and a class of processors: what determines the bits."""
+
+    version: str
+    processor: str
 
 
 @dataclass(frozen=True)
@@ -138,6 +154,7 @@ class Job(JobRequest):
     steps: int | None = None  # accepted steps of the solver, as far as they are known
     removed: float | None = None  # when its results were removed
     damaged: str | None = None  # which file of its results is not what was stored
+    processor: str | None = None  # class of the processors that compute it, from its first claim on
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""

@@ -18,8 +18,11 @@ from sqlalchemy import (
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
-from jointplay.storage.catalogue.errors import KeyReused
+from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
+from jointplay.storage.catalogue.quotas import LiveJobs
 from jointplay.storage.catalogue.records import (
+    FRESH_QUEUE,
+    INTERACTIVE_QUEUE,
     Block,
     BlockState,
     Job,
@@ -31,7 +34,6 @@ from jointplay.storage.catalogue.records import (
 )
 from jointplay.storage.catalogue.rows import find_job, lock_job, step_job
 
-FRESH_QUEUE = "jobs"
 _LONGEST_NAME = 200  # of a scene, as it is looked for
 _REUSED = (JobState.queued, JobState.running, JobState.succeeded)
 _LIVE = (BlockState.queued, BlockState.running)
@@ -51,6 +53,8 @@ class Request:
     new: NewJob
     key: SubmissionKey | None
     reuse: bool
+    most_live: int
+    """Jobs that its owner may have that have not ended; 0: any number."""
 
     def names(self) -> set[Hashable]:
         """Return what later requests may find its job by."""
@@ -60,7 +64,7 @@ class Request:
 
 def submit(
     unit: Unit, requests: Sequence[Request], next_id: Callable[[], str]
-) -> list[Submitted | KeyReused]:
+) -> list[Submitted | CatalogueError]:
     """Store jobs, their blocks and their wake-ups, or find the jobs that earlier requests made.
 
     The requests are answered as if one came after the other; new jobs are stored together.
@@ -68,7 +72,8 @@ def submit(
     looked_for = [one.new.number for one in requests if one.reuse]
     looked_for += [one.key.number for one in requests if one.key is not None]
     take_turns(unit.connection, *looked_for)
-    answers: list[Submitted | KeyReused] = []
+    live = LiveJobs(unit, {one.new.owner for one in requests if one.most_live})
+    answers: list[Submitted | CatalogueError] = []
     fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()
     for request in requests:
@@ -78,7 +83,9 @@ def submit(
             fresh, pending = [], set()
         try:
             answer = _earlier(unit, request)
-        except KeyReused as error:
+            if answer is None:
+                live.add(request.new.owner, 1, request.most_live)
+        except (KeyReused, QuotaExceeded) as error:
             answers.append(error)
             continue
         if answer is None:
@@ -172,9 +179,16 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
     now = unit.now
     unit.execute(insert(tables.job), [row for row, _ in jobs])
     blocks = [block for row, new in jobs for block in _blocks(row["id"], new)]
+    alone = {row["id"] for row, new in jobs if len(new.blocks) == 1 and row["batch"] is None}
     unit.execute(insert(tables.block), blocks)
     wake_ups = [
-        {"block": block["id"], "queue": FRESH_QUEUE, "created": now, "due": now, "tries": 0}
+        {
+            "block": block["id"],
+            "queue": INTERACTIVE_QUEUE if block["job"] in alone else FRESH_QUEUE,
+            "created": now,
+            "due": now,
+            "tries": 0,
+        }
         for block in blocks
         if block["state"] is BlockState.queued
     ]
@@ -212,15 +226,6 @@ def earlier_answer(unit: Unit, key: SubmissionKey) -> Any | None:
     if row.fingerprint != key.fingerprint:
         raise KeyReused(key.key)
     return row
-
-
-def is_answered(unit: Unit, key: SubmissionKey | None) -> bool:
-    """Return whether a request with this key was answered, and is still remembered."""
-    if key is None:
-        return False
-    table = tables.idempotency
-    known = (table.c.key == key.stored) & (table.c.expires > unit.now)
-    return unit.execute(select(table.c.key).where(known)).one_or_none() is not None
 
 
 def remember_key(

@@ -79,6 +79,7 @@ job = Table(
     Column("removed", Float(53)),
     Column("damaged", Text),
     Column("owner", String(64), nullable=False, server_default=""),
+    Column("processor", String(64)),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),
@@ -187,6 +188,16 @@ api_key = Table(
     Column("expires", Float(53)),
     Column("revoked", Float(53)),
     Column("last_used", Float(53)),
+)
+
+# Processes that take blocks, with what each computes them, and when it was heard of last.
+worker = Table(
+    "worker",
+    metadata,
+    Column("name", String(200), primary_key=True),
+    Column("version", String(64), nullable=False),
+    Column("processor", String(64), nullable=False),
+    Column("seen", Float(53), nullable=False),
 )
 
 # Which process does what only one should do at a time, and until when.

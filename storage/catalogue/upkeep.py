@@ -11,11 +11,10 @@ from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
-from jointplay.storage.catalogue.ending import LONGEST_PAUSE, RECOVERED_QUEUE, lose
+from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
-from jointplay.storage.catalogue.records import TERMINAL, BlockState, Job, Reaped, WakeUp
+from jointplay.storage.catalogue.records import QUEUES, TERMINAL, BlockState, Job, Reaped, WakeUp
 from jointplay.storage.catalogue.rows import find_job, lock_job
-from jointplay.storage.catalogue.submission import FRESH_QUEUE
 
 _job = tables.job
 _REAP_AT_ONCE = 200
@@ -31,7 +30,7 @@ def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
     outbox = tables.outbox
     underway = on_the_way(unit)
     due: list[WakeUp] = []
-    for queue in (RECOVERED_QUEUE, FRESH_QUEUE):  # by index: the cost is that of the answer
+    for queue in QUEUES:  # by index: the cost is that of the answer
         rows = unit.execute(
             select(outbox.c.block)
             .where(outbox.c.queue == queue, outbox.c.due <= unit.now)

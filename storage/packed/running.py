@@ -58,8 +58,7 @@ class Running:
 
     def write_documents(self, entries: Iterable[tuple[str, bytes]]) -> None:
         """Replace the documents: readers see all of them or none, a power cut may take them."""
-        for name in (ROWS, PARTS):
-            _make(self.folder / name)
+        make_folders(self.folder)
         durable.write(self.folder / DOCUMENTS, pack(entries), lasting=False)
 
     def write(self, entries: Iterable[tuple[str, bytes]], key: str) -> None:
@@ -261,6 +260,12 @@ def remove(folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     with suppress(OSError):  # other jobs are in it
         folder.parent.rmdir()
+
+
+def make_folders(folder: Path) -> None:
+    """Make the folders of a store's files, which are there as soon as its documents are."""
+    for name in (ROWS, PARTS):
+        _make(folder / name)
 
 
 def _make(folder: Path) -> None:

@@ -11,13 +11,14 @@ from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.leftovers import leftovers
 from jointplay.storage.reconciliation.results import damage
 from jointplay.storage.reconciliation.rows import contradictions, unsound
+from jointplay.storage.reconciliation.solvers import unserved
 from jointplay.storage.reconciliation.surroundings import clock, disk
 from jointplay.storage.settings import Settings
 
 __all__ = ["CHECKS", "Finding", "findings"]
 
 Check = Callable[[Settings, Catalogue], Iterator[Finding]]
-CHECKS: Final[tuple[Check, ...]] = (disk, clock, contradictions, damage, leftovers)
+CHECKS: Final[tuple[Check, ...]] = (disk, clock, unserved, contradictions, damage, leftovers)
 
 
 def findings(

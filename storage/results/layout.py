@@ -87,6 +87,8 @@ class ResultLayout:
         Columns of the accepted steps; none where they are not kept.
     steps_period
         What their whole periods are of, s.
+    intervals
+        Whether extremes between samples are kept where steps are not.
 
     Raises
     ------
@@ -103,6 +105,7 @@ class ResultLayout:
     partition: Partition = field(default_factory=Partition)
     steps: tuple[str, ...] = ()
     steps_period: float = 0.0
+    intervals: bool = False
 
     def __post_init__(self) -> None:
         check_names(self.channels, "channel", STORED)
@@ -120,6 +123,7 @@ class ResultLayout:
             self.sections,
             list(self.joints),
             list(self.steps),
+            self.intervals,
             astuple(self.partition),
         ]
         return sha256(json.dumps(shape).encode()).hexdigest()

@@ -14,10 +14,14 @@ from jointplay.records.names import TIME
 from jointplay.storage.errors import CorruptStore, NotAStore
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.packed.running import PARTS
-from jointplay.storage.results import shards, steps
+from jointplay.storage.results import intervals, shards, steps
 from jointplay.storage.results.layout import SCHEMA_VERSION
 from jointplay.storage.results.metadata import DOUBLE, FILE, Document, documents, serialise
 from jointplay.storage.results.waiting import Waiting, waiting_rows
+from jointplay.storage.results.wide_table import ARRAY, rows_in_files
+
+_WIDE = {steps.GROUP: steps.ROWS, intervals.GROUP: intervals.ROWS}
+"""Tables that clients are not shown, in the order of the journal, and rows of a file."""
 
 
 class LiveStore:
@@ -116,7 +120,11 @@ def columns_of(attributes: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     """Name the columns of each table that grows, by group, in the order of the journal."""
     sampled = (*attributes["channels"], TIME)
     found = {"": sampled, "poincare": sampled, "impacts": IMPACT.names or ()}
-    return found | ({steps.GROUP: kept} if (kept := tuple(attributes.get("steps", ()))) else {})
+    if kept := tuple(attributes.get("steps", ())):
+        found[steps.GROUP] = kept
+    if attributes.get("intervals"):
+        found[intervals.GROUP] = intervals.columns(attributes["channels"])
+    return found
 
 
 def root_of(files: Files) -> Document:
@@ -140,8 +148,8 @@ def root_of(files: Files) -> Document:
 
 def rows_in_shards(files: Running, root: Document, table: str) -> int:
     """Count the rows of a growing table whose shards are on the disk."""
-    if table == steps.GROUP:
-        return steps.rows_in_files(files)
+    if table in _WIDE:
+        return rows_in_files(files, table, _WIDE[table])
     key = _any_key(root, table)
     array = root["consolidated_metadata"]["metadata"][key]
     shards_there = files.shards(f"{key}/c/{{}}")
@@ -150,8 +158,8 @@ def rows_in_shards(files: Running, root: Document, table: str) -> int:
 
 def _any_key(root: Document, table: str) -> str:
     """Return the path of one column of a growing table; all are cut alike."""
-    if table == steps.GROUP:
-        return f"{table}/{steps.ARRAY}"
+    if table in _WIDE:
+        return f"{table}/{ARRAY}"
     return f"{table}/{columns_of(root['attributes'])[table][-1]}".lstrip("/")
 
 
@@ -168,7 +176,7 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
     columns = columns_of(root["attributes"])
     sampled = [DOUBLE] * len(columns[""])
     dtypes = [sampled, sampled, [IMPACT[name] for name in columns["impacts"]]]
-    dtypes += [[DOUBLE] * len(kept) for kept in [columns.get(steps.GROUP)] if kept]
+    dtypes += [[DOUBLE] * len(columns[table]) for table in _WIDE if table in columns]
     waiting = waiting_rows(files, samples, dtypes)
     in_shards = {table: rows_in_shards(files, root, table) for table in columns}
     if waiting is None:
@@ -188,8 +196,8 @@ def committed(files: Running, samples: int, root: Document) -> dict[str, Waiting
 
 def _lost(files: Running, root: Document, table: str, rows: int, samples: int) -> str:
     key = _any_key(root, table)
-    if table == steps.GROUP:
-        following = files.file_of(f"{key}/c/{rows // steps.ROWS}/0")
+    if table in _WIDE:
+        following = files.file_of(f"{key}/c/{rows // _WIDE[table]}/0")
     else:
         shard_rows, _ = shape_of(root["consolidated_metadata"]["metadata"][key])
         following = files.file_of(f"{key}/c/{rows // shard_rows}")

@@ -18,6 +18,8 @@ from jointplay.storage.errors import UnknownChannel
 from jointplay.storage.packed import Files, Running
 from jointplay.storage.results import certificate_group
 from jointplay.storage.results.envelope import Envelope
+from jointplay.storage.results.intervals import GROUP as INTERVALS
+from jointplay.storage.results.intervals import StoredIntervals, stored_intervals
 from jointplay.storage.results.live import columns_of, committed, root_of, rows_in_shards
 from jointplay.storage.results.metadata import Document
 from jointplay.storage.results.steps import GROUP as STEPS
@@ -186,6 +188,11 @@ class ResultReader(StoreReader):
     def steps(self) -> StoredSteps | None:
         """Accepted steps, from which any window can be computed exactly; None: not kept."""
         return stored_steps(self.files, self._waiting.get(STEPS))
+
+    @cached_property
+    def intervals(self) -> StoredIntervals | None:
+        """Extremes between samples, where steps are not kept; None: there are no such samples."""
+        return stored_intervals(self.files, self._waiting.get(INTERVALS))
 
     def _rows(self, group: str) -> int:
         """Rows of a table that are there: all once sealed, else those committed or in shards."""

@@ -75,6 +75,8 @@ def tables(layout: ResultLayout) -> tuple[Table, Table, Table, Table]:
     }
     if layout.steps:
         about["steps"] = list(layout.steps)
+    if layout.intervals:
+        about["intervals"] = True
     peaks = tuple(Column(name, DOUBLE, meaning) for name, meaning in PEAK.items())
     channels = {
         "channels": [channel.name for channel in layout.channels],

@@ -1,13 +1,12 @@
 """Write the results of one attempt, from empty store to sealed store."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import astuple
 from pathlib import Path
-from typing import Any, Final, Self
+from typing import Any, Self
 
-import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.records.arrays import Floats
 from jointplay.records.impact import IMPACT
 from jointplay.records.peak import Peak
 from jointplay.records.run import CertificateRecord
@@ -17,14 +16,15 @@ from jointplay.storage.packed.running import DOCUMENTS, owner_in
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import certificate_group, manifest, metadata
 from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.intervals import intervals_table
 from jointplay.storage.results.journal import Journal
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.pyramid import Pyramid
-from jointplay.storage.results.steps import StepsTable
+from jointplay.storage.results.sealing import check_sealable, peak_columns
+from jointplay.storage.results.steps import steps_table
 from jointplay.storage.results.tables import documents, tables
 from jointplay.storage.results.waiting import Checkpoint
-
-_NO_PEAK: Final = Peak(*[float("nan")] * 4)
+from jointplay.storage.results.wide_table import WideTable
 
 
 class ResultWriter:
@@ -41,7 +41,8 @@ class ResultWriter:
         self._journal = Journal(self._files, layout.digest)
         self._tables = [GrowingTable(table, self._files) for table in tables(layout)]
         self._history, self._sections, self._impacts, self._peaks = self._tables
-        self._steps = StepsTable(layout, self._files) if layout.steps else None
+        self._steps = steps_table(layout, self._files) if layout.steps else None
+        self._intervals = intervals_table(layout, self._files) if layout.intervals else None
         self._pyramid = Pyramid(layout, self._history, self._files)
         self._sealed = False
 
@@ -128,21 +129,17 @@ class ResultWriter:
         """Impacts appended so far."""
         return self._impacts.rows
 
-    @property
-    def keeps_steps(self) -> bool:
-        """Whether the layout has columns for accepted steps."""
-        return self._steps is not None
-
     def append(
         self,
         first_sample: int,
-        sample_time: NDArray[np.float64],
-        samples: NDArray[np.float64],
+        sample_time: Floats,
+        samples: Floats,
         first_section: int,
-        section_time: NDArray[np.float64],
-        sections: NDArray[np.float64],
+        section_time: Floats,
+        sections: Floats,
         impacts: NDArray[Any],
-        steps: NDArray[np.float64] | None = None,
+        steps: Floats | None = None,
+        intervals: Floats | None = None,
     ) -> None:
         """Add rows; whole shards go to the disk, the rest waits in memory.
 
@@ -156,8 +153,8 @@ class ResultWriter:
             The same for m Poincare sections.
         impacts
             (j,) structured, with the fields of `IMPACT`.
-        steps
-            (s, columns) accepted steps, in the order of the layout's names.
+        steps, intervals
+            (s, columns) accepted steps, (i, columns) extremes between samples, as the layout says.
 
         Raises
         ------
@@ -184,8 +181,9 @@ class ResultWriter:
         self._pyramid.append([*samples.T, sample_time])
         self._history.append([*samples.T, sample_time])
         self._sections.append([*sections.T, section_time])
-        if self._steps is not None and steps is not None:
-            self._steps.append(list(steps.T))
+        for table, rows in ((self._steps, steps), (self._intervals, intervals)):
+            if table is not None and rows is not None:
+                table.append(list(rows.T))
         if impacts.size:
             durable = self._impacts.durable
             self._impacts.append([impacts[str(name)] for name in IMPACT.names or ()])
@@ -242,14 +240,6 @@ class ResultWriter:
             still be resumed.
         """
         self._refuse_when_sealed()
-        if complete and (self.samples, self.sections) != (
-            self._layout.samples,
-            self._layout.sections,
-        ):
-            raise InvalidAppend(
-                f"{self.samples} of {self._layout.samples} samples and {self.sections} of "
-                f"{self._layout.sections} sections were appended: seal with complete=False"
-            )
         attributes = {
             "complete": complete,
             "samples": self.samples,
@@ -258,19 +248,9 @@ class ResultWriter:
             "summary": dict(summary),
         }
         more = {} if certificate is None else certificate_group.nodes(certificate)
-        try:
-            metadata.serialise(attributes)
-            metadata.serialise(more)
-        except (TypeError, ValueError) as error:
-            raise InvalidAppend(
-                f"summary and certificate must be finite JSON values: {error}"
-            ) from error
-        names = [channel.name for channel in self._layout.channels]
-        if unknown := peaks.keys() - set(names):
-            raise InvalidAppend(f"peaks of channels that the layout lacks: {sorted(unknown)}")
+        check_sealable(self._layout, attributes, more, peaks)
         self._sealed = True
-        rows = np.array([astuple(peaks.get(name, _NO_PEAK)) for name in names]).reshape(-1, 4)
-        self._peaks.append(list(rows.T))
+        self._peaks.append(peak_columns(self._layout, peaks))
         self._pyramid.close()
         shown = [table.rows for table in self._tables]
         nodes = documents(self._layout, shown, attributes, more)
@@ -291,13 +271,13 @@ class ResultWriter:
     @property
     def _growing(self) -> list[GrowingTable]:
         """Everything that is written shard by shard, in the order of the journal."""
-        steps = [] if self._steps is None else [self._steps]
-        return [*self._tables[:-1], *steps, self._peaks, *self._pyramid.levels]
+        wide = [table for table in (self._steps, self._intervals) if table is not None]
+        return [*self._tables[:-1], *wide, self._peaks, *self._pyramid.levels]
 
     def _internal(self) -> dict[str, metadata.Document]:
         """Give the documents, by key, of arrays that clients are not shown."""
-        steps = {} if self._steps is None else dict([self._steps.document()])
-        return self._pyramid.documents() | steps
+        wide = [table for table in self._growing if isinstance(table, WideTable)]
+        return self._pyramid.documents() | dict(table.document() for table in wide)
 
     def _show(self) -> None:
         """Let readers of the growing store see all samples to come and the impacts so far.

@@ -179,6 +179,8 @@ class StudyBlock:
                 self._part.column(f"{group}/{name}")[place] = value
         if end.reason:
             self._part.reasons[end.point] = end.reason
+        if end.document is not None:
+            self._part.documents[end.point] = end.document
         return end.point // self._layout.chunk[0]
 
     def _write_full_chunks(self, row: int) -> None:

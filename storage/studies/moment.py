@@ -23,7 +23,7 @@ from jointplay.storage.studies.block import lost, place_of
 from jointplay.storage.studies.layout import STUDY_SCHEMA, StudyLayout
 from jointplay.storage.studies.part import Part
 from jointplay.storage.studies.points import INDICATORS, STATISTICS, Points, together
-from jointplay.storage.studies.store import FAILURES, REASONS
+from jointplay.storage.studies.store import FAILURES, REASONS, RESULTS
 
 _PATIENCE = 100  # times that parts may be replaced while they are being read
 
@@ -165,6 +165,7 @@ class StudyMoment(StoreReader):
             np.empty((0, 0, 4)),
             self._failures(),
             self._reasons(),
+            self._documents(),
             {
                 f"{group}/{name}": np.asarray(array[:], np.float64)
                 for group, members in groups
@@ -189,6 +190,13 @@ class StudyMoment(StoreReader):
         except FileNotFoundError:
             return {}
         return {int(point): reason for point, reason in found.items()}
+
+    def _documents(self) -> dict[int, Mapping[str, Any]]:
+        try:
+            found: dict[str, dict[str, Any]] = json.loads(self.files.read(RESULTS))
+        except FileNotFoundError:
+            return {}
+        return {int(point): document for point, document in found.items()}
 
 
 def _specs(listed: Sequence[Sequence[str]]) -> tuple[Channel, ...]:

@@ -64,6 +64,7 @@ class Part(Points):
             "block": self.index,
             "failures": {str(point): failure for point, failure in sorted(self.failures.items())},
             "reasons": {str(point): reason for point, reason in sorted(self.reasons.items())},
+            "documents": {str(point): one for point, one in sorted(self.documents.items())},
         }
         arrays["carried"] = packed(self.carried)
         return checkpoint.encode(_KIND, layout.digest, facts, arrays)
@@ -114,6 +115,7 @@ class Part(Points):
         failures = facts["failures"].items()
         part.failures = {int(point): Failure(*failure) for point, failure in failures}
         part.reasons = {int(point): reason for point, reason in facts["reasons"].items()}
+        part.documents = {int(point): one for point, one in facts["documents"].items()}
         part.carried = arrays["carried"].tobytes()
         return part
 

@@ -28,6 +28,8 @@ class Points:
     """By point of the study."""
     reasons: dict[int, str] = field(default_factory=dict)
     """Grounds of verdicts, by point of the study."""
+    documents: dict[int, Mapping[str, Any]] = field(default_factory=dict)
+    """Results that are no numbers of a point, by point of the study."""
     numbers: dict[str, Floats] = field(default_factory=dict)
     """(points,) by group (`STATISTICS` or `INDICATORS`) and name: ``statistics/steps``."""
 
@@ -124,4 +126,5 @@ def together(
             points.column(name)[target] = numbers[source]
         points.failures |= {p: one for p, one in part.failures.items() if start <= p < stop}
         points.reasons |= {p: one for p, one in part.reasons.items() if start <= p < stop}
+        points.documents |= {p: one for p, one in part.documents.items() if start <= p < stop}
     return points

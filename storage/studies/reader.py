@@ -1,6 +1,7 @@
 """Read a study's store, also while it is being filled: what each of its points has."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +72,11 @@ class StudyReader(StudyMoment):
     def reasons(self) -> Mapping[int, str]:
         """Grounds of verdicts, by point."""
         return self.known.reasons
+
+    @property
+    def documents(self) -> Mapping[int, Mapping[str, Any]]:
+        """Results that are no numbers, by point: of a calibration what it found."""
+        return self.known.documents
 
     def peaks(self, channel: str) -> PeakColumns:
         """Give the extremes of a channel at every point; NaN at points that have not ended.

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -34,6 +34,8 @@ FAILURES: Final = "failures.json"
 """Failed points with code, sentence and time reached: what no array can hold."""
 REASONS: Final = "reasons.json"
 """Grounds of verdicts by point."""
+RESULTS: Final = "results.json"
+"""Results by point that are no numbers, such as what a calibration found."""
 
 
 def create(folder: Path, layout: StudyLayout) -> None:
@@ -135,7 +137,7 @@ def _files(
         return Part.read(finals[index], layout.digest)
 
     files = Running(folder, owner=layout.digest)
-    names, failures, reasons, ended = _survey(part_of, layout)
+    names, failures, reasons, found, ended = _survey(part_of, layout)
     codes = failure_codes(failures)
     yield from _values(layout)
     yield from _columns(part_of, layout, names, codes)
@@ -146,6 +148,8 @@ def _files(
         yield FAILURES, metadata.serialise(_as_json(failures))
     if reasons:
         yield REASONS, metadata.serialise({str(point): one for point, one in reasons.items()})
+    if found:
+        yield RESULTS, metadata.serialise({str(point): one for point, one in found.items()})
     attributes = {"complete": True, "failures": ["", *codes], "summary": ended}
     for key, document in documents.sealed(layout, names, attributes).items():
         yield key, metadata.serialise(document)
@@ -153,19 +157,24 @@ def _files(
 
 def _survey(
     part_of: Callable[[int], Part], layout: StudyLayout
-) -> tuple[list[str], dict[int, Failure], dict[int, str], dict[str, int]]:
-    """Names of all numbers, failed points, grounds of verdicts, how many are done and failed."""
+) -> tuple[
+    list[str], dict[int, Failure], dict[int, str], dict[int, Mapping[str, Any]], dict[str, int]
+]:
+    """Names of all numbers, failed points, grounds, documents, how many are done and failed."""
     names: set[str] = set()
     failures: dict[int, Failure] = {}
     reasons: dict[int, str] = {}
+    found_documents: dict[int, Mapping[str, Any]] = {}
     done = 0
     for index in range(len(layout.blocks)):
         found = part_of(index)
         names |= found.numbers.keys()
         failures |= found.failures
         reasons |= found.reasons
+        found_documents |= found.documents
         done += int((found.status == PointStatus.done).sum())
-    return ordered(names), failures, reasons, {"done": done, "failed": len(failures)}
+    counted = {"done": done, "failed": len(failures)}
+    return ordered(names), failures, reasons, found_documents, counted
 
 
 def _columns(

@@ -1,0 +1,148 @@
+"""Which solver computes a job: that of the program that admitted it, on processors of one class.
+
+Other sources and other processors give other bits, which must not be mixed in one store. A job that
+no worker's solver is any more is begun anew by another one, if it may be; a study that has begun
+waits, and its status says so.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+from sqlalchemy import ColumnElement, and_, delete, func, insert, or_, select, update
+
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.records import LIVE, QUEUES, BlockState, Job, Solver
+
+PATIENCE: Final = 60.0
+"""Seconds after which a worker that is silent, or a job that none has taken, is on its own."""
+UNSERVED: Final = "no worker has its solver"
+"""Activity of a job that no worker may take."""
+_FORGOTTEN: Final = 3600.0  # s
+_PART_OF_WAIT: Final = 0.25
+_LONGEST_PAUSE: Final = 300.0  # s
+_job, _block, _worker = tables.job, tables.block, tables.worker
+
+
+def fits(job: Job, solver: Solver) -> bool:
+    """Whether a job is to be computed by this solver."""
+    return job.solver_version == solver.version and job.processor in (None, solver.processor)
+
+
+def _fits(solver: Solver) -> ColumnElement[bool]:
+    of_class = or_(_job.c.processor.is_(None), _job.c.processor == solver.processor)
+    return and_(_job.c.solver_version == solver.version, of_class)
+
+
+def _served(unit: Unit) -> ColumnElement[bool]:
+    """Whether a worker that was heard of lately may take a job."""
+    of_class = or_(_job.c.processor.is_(None), _worker.c.processor == _job.c.processor)
+    own = and_(_worker.c.version == _job.c.solver_version, of_class)
+    lately = select(_worker.c.name).where(own, _worker.c.seen > unit.now - PATIENCE)
+    return lately.correlate(_job).exists()
+
+
+def _abandoned(unit: Unit) -> ColumnElement[bool]:
+    """Whether a job may be begun anew by any solver: none of its blocks builds on another."""
+    blocks = select(func.count()).where(_block.c.job == _job.c.id).correlate(_job)
+    alone = or_(_job.c.attempt == 0, blocks.scalar_subquery() == 1)
+    return and_(alone, _job.c.created <= unit.now - PATIENCE, ~_served(unit))
+
+
+def waiting_for(unit: Unit, solver: Solver, limit: int) -> tuple[str, ...]:
+    """Return queued blocks that a worker with this solver may claim, in the order of their turn."""
+    outbox = tables.outbox
+    ready = or_(outbox.c.due <= unit.now, outbox.c.tries > 0)  # sent: only others are woken by it
+    found: list[str] = []
+    for queue in QUEUES:  # by index: the cost is that of the answer
+        rows = unit.execute(
+            select(outbox.c.block)
+            .join(_block, _block.c.id == outbox.c.block)
+            .join(_job, _job.c.id == _block.c.job)
+            .where(outbox.c.queue == queue, ready, or_(_fits(solver), _abandoned(unit)))
+            .order_by(outbox.c.due, outbox.c.block)
+            .limit(limit - len(found))
+        )
+        found += rows.scalars()
+    return tuple(found)
+
+
+def take_over(unit: Unit, block_id: str, solver: Solver) -> bool:
+    """Make a block's job this solver's, if it was abandoned; what it had computed is left.
+
+    If it is another solver's, a worker of that one is woken again after a part of the time that the
+    block has waited.
+    """
+    queued = and_(_block.c.id == block_id, _block.c.state == BlockState.queued)
+    of_block = _job.c.id == select(_block.c.job).where(queued).scalar_subquery()
+    foreign = and_(of_block, _job.c.state.in_(LIVE), ~_fits(solver))
+    taken = unit.execute(
+        update(_job)
+        .where(foreign, _abandoned(unit))
+        .values(solver_version=solver.version, processor=solver.processor)
+        .returning(_job.c.id)
+    ).scalar_one_or_none()
+    if taken is not None:
+        anew = update(_block).where(_block.c.job == taken)
+        unit.execute(anew.values(checkpoint=None, watermark=0))
+        return True
+    outbox = tables.outbox
+    elsewhere = select(_job.c.id).where(foreign).exists()
+    waited = select(outbox.c.created).where(outbox.c.block == block_id, elsewhere)
+    created = unit.execute(waited).scalar_one_or_none()
+    if created is not None:
+        pause = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
+        again = update(outbox).where(outbox.c.block == block_id)
+        unit.execute(again.values(due=unit.now + pause, tries=0))
+    return False
+
+
+def machine_of(worker: str) -> str:
+    """Return what tells the machine of a worker from others: its boot, or else its name."""
+    host, _, _, boot, *_ = [*worker.split(":"), "", "", ""]
+    return boot or host
+
+
+def note_worker(unit: Unit, name: str, solver: Solver) -> None:
+    """Remember that a worker was heard of just now."""
+    facts = {"version": solver.version, "processor": solver.processor, "seen": unit.now}
+    known = update(_worker).where(_worker.c.name == name).values(facts)
+    if not unit.execute(known).rowcount:
+        unit.execute(insert(_worker).values(name=name, **facts))
+
+
+def note_holder(unit: Unit, block_id: str) -> None:
+    """Remember that the worker that holds a block was heard of just now."""
+    holder = select(_block.c.worker).where(_block.c.id == block_id).scalar_subquery()
+    unit.execute(update(_worker).where(_worker.c.name == holder).values(seen=unit.now))
+
+
+def forget_workers(unit: Unit, ended: Sequence[str]) -> None:
+    """Forget workers that have ended, and those that have been silent for long."""
+    silent = _worker.c.seen < unit.now - _FORGOTTEN
+    unit.execute(delete(_worker).where(or_(_worker.c.name.in_(ended), silent)))
+
+
+def workers(unit: Unit) -> dict[str, Solver]:
+    """Return the workers that were heard of lately, by name."""
+    lately = select(_worker).where(_worker.c.seen > unit.now - PATIENCE)
+    return {row.name: Solver(row.version, row.processor) for row in unit.execute(lately)}
+
+
+def unserved(unit: Unit) -> dict[str, Solver]:
+    """Return live jobs that have waited for long for a solver that no worker has."""
+    queued = (_block.c.job == _job.c.id) & (_block.c.state == BlockState.queued)
+    waits = select(_block.c.id).where(queued).correlate(_job).exists()
+    live = _job.c.state.in_(LIVE)
+    rows = unit.execute(
+        select(_job.c.id, _job.c.solver_version, _job.c.processor)
+        .where(live, _job.c.created <= unit.now - PATIENCE, waits, ~_served(unit))
+        .order_by(_job.c.id)
+    )
+    return {row.id: Solver(row.solver_version, row.processor or "") for row in rows}
+
+
+def note_unserved(unit: Unit) -> None:
+    """Have the status of such jobs say so."""
+    if found := list(unserved(unit)):
+        unit.execute(update(_job).where(_job.c.id.in_(found)).values(activity=UNSERVED))

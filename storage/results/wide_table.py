@@ -1,0 +1,142 @@
+"""Tables of many columns that are read together: a file holds all columns of some rows.
+
+One array of (rows, columns). It is no part of what clients are shown.
+"""
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from jointplay.records.arrays import Floats
+from jointplay.storage.packed import Files, Running
+from jointplay.storage.results import metadata, shards
+from jointplay.storage.results.growing_table import GrowingTable
+from jointplay.storage.results.metadata import DOUBLE
+from jointplay.storage.results.tables import Column, Table
+from jointplay.storage.results.waiting import Waiting
+
+ARRAY: Final = "rows"
+
+
+class WideTable(GrowingTable):
+    """The array being written.
+
+    Parameters
+    ----------
+    group
+        Where it is in the store.
+    columns
+        Names of the columns.
+    rows
+        In a file.
+    attributes
+        Of the array, besides the names.
+    files
+        Where its files are written.
+    """
+
+    def __init__(
+        self,
+        group: str,
+        columns: tuple[str, ...],
+        rows: int,
+        attributes: Mapping[str, Any],
+        files: Running,
+    ) -> None:
+        named = tuple(Column(name, DOUBLE, {}) for name in columns)
+        super().__init__(Table(group, group[:-1], named, None, rows, rows, dict(attributes)), files)
+
+    def shard_keys(self, index: int) -> list[str]:
+        """Name the one file of a shard, which holds all columns."""
+        return [f"{self.table.key(ARRAY)}/c/{index}/0"]
+
+    def document(self) -> tuple[str, metadata.Document]:
+        """Give key and document of the array, with as many rows as there are by now."""
+        names, rows = [column.name for column in self.table.columns], self.table.shard_rows
+        attributes = self.table.attributes
+        return f"{self.table.key(ARRAY)}/{metadata.FILE}", metadata.array(
+            [self.rows, len(names)],
+            [rows, 1],
+            DOUBLE,
+            [self.table.dimension, "column"],
+            {"long_name": attributes["long_name"], "columns": names, **attributes},
+            shard=[rows, len(names)],
+            compressor=shards.FAST,
+        )
+
+    def _contents(self) -> Iterator[bytes]:
+        whole = np.full(self.table.shard_rows, np.nan)
+        chunks = []
+        for column in self.pending():
+            whole[: len(column)] = column
+            chunks.append(shards.compress(whole, fast=True))
+        yield shards.pack(chunks)
+
+
+class StoredRows:
+    """The array of one store.
+
+    Parameters
+    ----------
+    files
+        Of the store.
+    group
+        Where it is.
+    waiting
+        Of a growing store, rows in shards, and those that wait for theirs; by default those in its
+        files.
+
+    Raises
+    ------
+    FileNotFoundError
+        The store has no such array.
+    """
+
+    def __init__(self, files: Files, group: str, waiting: Waiting | None) -> None:
+        document = json.loads(files.read(f"{group}/{ARRAY}/{metadata.FILE}"))
+        if not isinstance(files, Running):
+            waiting = Waiting(int(document["shape"][0]), ())
+        self.attributes: dict[str, Any] = document["attributes"]
+        self.columns = tuple(self.attributes["columns"])
+        self._rows = int(document["chunk_grid"]["configuration"]["chunk_shape"][0])
+        self._files = files
+        self._group = group
+        self._waiting = waiting or Waiting(rows_in_files(files, group, self._rows), ())
+        self._indices: dict[int, list[tuple[int, int]]] = {}
+
+    @property
+    def count(self) -> int:
+        """Rows that can be read."""
+        return self._waiting.rows
+
+    def column(self, column: int, first: int, last: int) -> Floats:
+        """Read rows [first, last) of a column."""
+        target = np.empty(last - first)
+        rows, durable = self._rows, self._waiting.durable
+        for file in range(first // rows, -(-min(last, durable) // rows)):
+            begin = file * rows
+            low, high = max(first, begin), min(last, begin + rows, durable)
+            target[low - first : high - first] = self._chunk(file, column)[
+                low - begin : high - begin
+            ]
+        if last > durable:
+            low = max(first, durable)
+            target[low - first :] = self._waiting.columns[column][low - durable : last - durable]
+        return target
+
+    def _chunk(self, file: int, column: int) -> Floats:
+        key = f"{self._group}/{ARRAY}/c/{file}/0"
+        index = self._indices.get(file)
+        if index is None:
+            size = self._files.entry(key).size
+            packed = self._files.read(key, size - shards.index_bytes(len(self.columns)), size)
+            index = self._indices[file] = shards.unpack_index(packed)
+        offset, length = index[column]
+        return shards.decompress(self._files.read(key, offset, offset + length), DOUBLE)
+
+
+def rows_in_files(files: Files, group: str, rows: int) -> int:
+    """Count the rows of a growing array that are in its files, so many in each."""
+    return rows * files.shards(f"{group}/{ARRAY}/c/{{}}/0") if isinstance(files, Running) else 0
