@@ -21,7 +21,12 @@ def main() -> None:
     arguments = parser.parse_args()
 
     import jointplay.worker.tasks  # noqa: F401 - registers the task; after the environment is set
-    from jointplay.worker.app import QUEUES, app
+    from jointplay.records.log_lines import begin
+    from jointplay.storage.catalogue.records import QUEUES
+    from jointplay.storage.settings import Settings
+    from jointplay.worker.app import app
+
+    begin(Settings().log_format)
 
     # without Celery's command line, whose libraries would be a tenth of the worker's start
     worker = app.Worker(
@@ -32,6 +37,7 @@ def main() -> None:
         without_mingle=True,
         without_heartbeat=True,
         loglevel="INFO",
+        quiet=True,  # no banner
     )
     worker.start()
     sys.exit(worker.exitcode)

@@ -9,11 +9,11 @@ stop listening for good after Redis was silent; `socket_timeout` is safe only wi
 from celery import Celery
 from kombu.entity import Exchange, Queue
 
+from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.settings import Settings
 
 RUN_BLOCK = "worker.run_block"
 KEY_PREFIX = "jointplay:"  # of all keys in Redis
-QUEUES = ("recovered", "jobs")  # in the order in which workers look at them
 
 
 def broker_url(redis_url: str | None) -> str:

@@ -10,16 +10,17 @@ from typing import Any, TypeVar
 
 from jointplay.records.failure import InvalidInput
 from jointplay.records.job import ErrorClass, JobError
+from jointplay.records.log_lines import about
 from jointplay.solver.kernels.watched import watched
-from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import BlockState, Claim, Verdict
 from jointplay.storage.errors import ResultsError
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import Answer, Outcome, Progress
+from jointplay.worker.holding import Holding
 from jointplay.worker.lease import Lease
 from jointplay.worker.passing import PASSING, waits_for
-from jointplay.worker.removal import withdraw
+from jointplay.worker.removal import tidy, withdraw
 from jointplay.worker.work import Work, work_of
 
 Answered = TypeVar("Answered")
@@ -49,7 +50,7 @@ class BlockRun:
     """
 
     def __init__(
-        self, catalogue: Catalogue, settings: Settings, claim: Claim, draining: threading.Event
+        self, catalogue: Holding, settings: Settings, claim: Claim, draining: threading.Event
     ) -> None:
         self._catalogue = catalogue
         self._settings = settings
@@ -71,6 +72,10 @@ class BlockRun:
 
         A block that another worker has taken over is left alone without a word.
         """
+        with about(job=self._job.id, block=self._block.id, attempt=self._block.attempt):
+            self._run()
+
+    def _run(self) -> None:
         try:
             with self._lease:
                 try:
@@ -99,18 +104,24 @@ class BlockRun:
                 )
         except Fenced as fenced:
             _log.warning("%s; leaving it", fenced)
-            withdraw(self._catalogue, self._settings, self._claim)
+            withdraw(self._catalogue, self._settings, self._block)
             return
         _log.info("block %s %s, job %s", self._block.id, outcome.state, state.value)
-        if state.terminal and self._work is not None:
-            self._work.tidy()
+        if state.terminal:
+            tidy(self._settings, self._block)
 
     def _insist(self, operation: Callable[..., Answered], *given: Any, **named: Any) -> Answered:
-        """Carry out an operation of the catalogue on the block, however long it takes."""
+        """Carry out an operation of the catalogue on the block, however long it takes.
+
+        A process that shall end waits no longer than the lease: then the block is anybody's.
+        """
+        began = time.monotonic()
         while True:
             try:
                 return operation(self._block.id, self._block.attempt, *given, **named)
             except Unavailable as fault:
+                if self._draining.is_set() and time.monotonic() - began > self._settings.lease:
+                    raise
                 _log.warning("block %s waits: %s", self._block.id, fault)
                 self._lease.advanced()
                 time.sleep(_ASK_AGAIN)

@@ -42,5 +42,8 @@ class RestartPoint:
             found = decode(path.read_bytes(), _KIND, SOLVER_VERSION)
         except OSError as error:
             raise UnusableCheckpoint(f"{path.name} cannot be read: {error}") from error
-        facts = found.facts | {"folder": path.parent / found.facts["folder"]}
+        name = str(found.facts["folder"])
+        if name in ("", ".", "..") or Path(name).name != name:
+            raise UnusableCheckpoint(f"{path.name} names a store {name!r}, which is none beside it")
+        facts = found.facts | {"folder": path.parent / name}
         return cls(found.content("simulation"), found.content("results"), **facts)

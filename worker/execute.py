@@ -202,13 +202,14 @@ def _advance(
             piece.section_time,
             piece.sections,
             piece.impacts,
-            piece.steps if writer.keeps_steps else None,
+            piece.steps,
+            piece.intervals,
         )
         time, fraction = piece.time, piece.fraction
 
 
 def restart_name(store: str) -> str:
-    """Name the restart point of the try whose store's folder has a name; it lies beside that."""
+    """Return the name of a try's restart point, a file beside the folder `store` of its results."""
     return f"block0-{store}"
 
 
@@ -238,4 +239,5 @@ def layout_of(admission: Admission) -> ResultLayout:
         },
         steps=step_columns(admission),
         steps_period=period_of_steps(admission),
+        intervals=not needs_no_steps(admission),
     )

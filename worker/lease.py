@@ -5,12 +5,14 @@ import os
 import signal
 import threading
 import time
+from contextvars import copy_context
+from functools import partial
 from typing import Self
 
-from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced, Unavailable
 from jointplay.storage.catalogue.records import Claim, Verdict
 from jointplay.storage.settings import Settings
+from jointplay.worker.holding import Holding
 
 _log = logging.getLogger(__name__)
 
@@ -22,16 +24,17 @@ class Lease:
     that does not return cannot be ended in any other way, and its block is then taken over.
     """
 
-    def __init__(self, catalogue: Catalogue, claim: Claim, settings: Settings) -> None:
+    def __init__(self, catalogue: Holding, claim: Claim, settings: Settings) -> None:
         self._catalogue = catalogue
         self._block, self._attempt = claim.block.id, claim.block.attempt
         self._settings = settings
         self._ended = threading.Event()
         self._fenced = threading.Event()
         self._advanced = time.monotonic()
-        self._thread = threading.Thread(target=self._beat, name="heartbeat", daemon=True)
 
     def __enter__(self) -> Self:
+        beat = partial(copy_context().run, self._beat)  # its lines are about the block, too
+        self._thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
         self._thread.start()
         return self
 

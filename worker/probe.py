@@ -1,30 +1,30 @@
-"""`python -m jointplay.worker.probe`: says what jobs will cost, by computing the beginning of each.
+"""`python -m jointplay.worker.probe FD`: says what jobs will cost, computing the beginning of each.
 
 Receives admitted job documents through the connection whose file descriptor is its argument, and
-answers each with a dictionary; ends with the connection, or after five minutes without a question.
-A job that is over within the budget is known exactly; of a longer one the pace at the end of the
-beginning is taken for the rest.
+answers each with a dictionary, until it is idle. A job that is over within the budget is known
+exactly; of a longer one the pace at the end of the beginning is taken for the rest.
 """
 
 import shutil
-import sys
 import tempfile
 import time
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
 from jointplay.records.failure import InvalidInput, SimulationFailed
 from jointplay.solver.kernels.cache import SPENT
 from jointplay.solver.kinds import Admission, Study, parse
+from jointplay.solver.runs.dense_output.columns import most_steps
 from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.results.certificate_group import CERTIFICATE
+from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.steps import GROUP as STEPS
+from jointplay.worker.answering import answer_questions
 from jointplay.worker.execute import Answer, Outcome, Progress, execute
 from jointplay.worker.study_block import computation_of
 
@@ -37,7 +37,7 @@ _BEGINNING = 0.2
 _STUDY_COMPRESSION = 0.8  # of sections and peaks; of a simulation it is measured
 _MEMORY = Path("/dev/shm")  # noqa: S108  (TemporaryDirectory makes a private folder in it)
 _ROOM = 2_000_000_000  # bytes
-_IDLE = 300.0  # s after which memory is given back
+_IDLE = 300.0  # s
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,11 @@ def _of_simulation(admission: Admission) -> Cost:
     return Cost(
         seconds=whole.seconds,
         steps=round(whole.steps),
-        bytes=round(fixed + growing / share + min(steps_kept / share, admission.steps_limit)),
+        bytes=round(
+            fixed
+            + growing / share * (1.0 if exact else 1.0 + 2.0 * _without_steps(admission, whole))
+            + min(steps_kept / share, admission.steps_limit)
+        ),
         compilation=0.0,
         points=1,
         blocks=1,
@@ -125,10 +129,16 @@ def _run(admission: Admission, budget: float) -> tuple[Outcome, list[Mark], int,
         if key.startswith(f"{STEPS}/"):
             steps += entry.size
         elif not key.endswith(".json") and not key.startswith(CERTIFICATE):
-            growing += entry.size
+            part = outcome.state == "cancelled" and key.startswith(f"{INTERVALS}/")
+            growing += 0 if part else entry.size
     if outcome.state == "cancelled":
         marks.pop()  # sealing a part says nothing about the rest
     return outcome, marks, total - growing - steps, growing, steps
+
+
+def _without_steps(admission: Admission, whole: Mark) -> float:
+    """Return the share of a run whose steps are beyond the limit: two extremes for each sample."""
+    return max(1.0 - most_steps(admission) / whole.steps, 0.0) if whole.steps else 0.0
 
 
 def _scratch() -> str | None:
@@ -191,16 +201,12 @@ def _extrapolated(marks: list[Mark]) -> Mark:
     )
 
 
-def main() -> None:
-    """Answer until nobody asks any more."""
-    with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
-        while asking.poll(_IDLE):
-            try:
-                answer = asdict(cost_of(asking.recv()))
-            except InvalidInput as error:
-                answer = {"refused": str(error)}
-            asking.send(answer)
+def _answer(document: dict[str, Any]) -> dict[str, Any]:
+    try:
+        return asdict(cost_of(document))
+    except InvalidInput as error:
+        return {"refused": str(error)}
 
 
 if __name__ == "__main__":
-    main()
+    answer_questions(_answer, _IDLE)

@@ -12,10 +12,12 @@ import time
 from kombu.exceptions import OperationalError
 from redis.exceptions import RedisError
 
+from jointplay.records.log_lines import about, begin
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.settings import Settings
-from jointplay.worker.app import KEY_PREFIX, QUEUES, RUN_BLOCK, make_app
+from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
 from jointplay.worker.presence import has_ended, own_name
 from jointplay.worker.removal import remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
@@ -24,6 +26,7 @@ _TASK = "relay"
 _LEAD_SECONDS = 5.0
 _LONGEST_TURN = 5.0  # s; between two turns of a process that was not stopped
 _UNDERWAY = 2.0  # s; a message is in a queue, or its block is claimed, after less than that
+_SOLVERS_PERIOD = 10.0  # s
 _REMOVAL_PATIENCE = 2.0  # s; the next leader goes on with it
 _log = logging.getLogger(__name__)
 
@@ -37,7 +40,7 @@ class Relay:
         self._app = make_app(settings.redis_url)
         self._redis = connection(settings.redis_url or "redis://")
         self._name = own_name()
-        self._reap_next = 0.0
+        self._reap_next = self._look_for_solvers_next = 0.0
         self._last_turn = time.time()
         self._queues_empty_since: float | None = None
         self._removing: threading.Thread | None = None
@@ -59,10 +62,17 @@ class Relay:
             ended = [name for name in self._catalogue.holders() if has_ended(name)]
             reaped = self._catalogue.reap(self._settings.max_attempts, ended)
             for block in reaped.requeued:
-                _log.warning("block %s lost its worker and is queued again", block)
+                with about(block=block):
+                    _log.warning("block %s lost its worker and is queued again", block)
             for job in reaped.ended:
-                _log.error("job %s lost too many workers", job)
+                with about(job=job):
+                    _log.error("job %s lost too many workers", job)
             self._remove_expired()
+        if now >= self._look_for_solvers_next:
+            self._look_for_solvers_next = now + _SOLVERS_PERIOD
+            ended = [name for name in self._catalogue.workers() if has_ended(name)]
+            self._catalogue.forget_workers(ended)
+            self._catalogue.note_unserved()
         self.publish()
 
     def _lead(self) -> bool:
@@ -98,10 +108,13 @@ class Relay:
         """Send every due wake-up to Redis; what cannot be sent stays due."""
         if self._lost_messages() and (lost := self._catalogue.announce_again()):
             _log.warning("Redis has lost %d wake-ups, which are sent again", lost)
-        due = self._catalogue.due_wake_ups(self._settings.relay_outstanding)
+        outstanding = self._settings.relay_outstanding
+        due = self._catalogue.due_wake_ups(outstanding)
         sent = []
         try:
-            for wake_up in due:
+            # what workers that joined have claimed stays there, if no other takes messages
+            room = outstanding - self._messages() if due else 0
+            for wake_up in due[: max(room, 0)]:
                 self._app.send_task(RUN_BLOCK, args=[wake_up.block], queue=wake_up.queue)
                 sent.append(wake_up.block)
         except (OperationalError, RedisError, OSError) as error:
@@ -115,7 +128,7 @@ class Relay:
             self._queues_empty_since = None
             return False
         try:
-            empty = not any(self._redis.llen(f"{KEY_PREFIX}{queue}") for queue in QUEUES)
+            empty = not self._messages()
         except RedisError:
             empty = False
         now = time.monotonic()
@@ -123,6 +136,10 @@ class Relay:
         lost = since is not None and now - since > _UNDERWAY
         self._queues_empty_since = None if lost else since
         return lost
+
+    def _messages(self) -> int:
+        """Count what waits in Redis for workers."""
+        return sum(int(self._redis.llen(f"{KEY_PREFIX}{queue}")) for queue in QUEUES)
 
     def release_lead(self) -> None:
         """Let another relay take over at once."""
@@ -135,11 +152,11 @@ class Relay:
 
 def main() -> None:
     """Relay and reap until SIGTERM or SIGINT."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
     settings = Settings()
+    begin(settings.log_format)
     if settings.redis_url is None:
         raise SystemExit("set JOINTPLAY_REDIS_URL, such as redis://localhost:6379/0")
     catalogue = Catalogue(settings.catalogue_url)

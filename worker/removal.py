@@ -3,11 +3,13 @@
 import logging
 import shutil
 
+from jointplay.records.log_lines import about
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
-from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.catalogue.records import Block
 from jointplay.storage.packed.running import remove
 from jointplay.storage.settings import Settings
+from jointplay.worker.holding import Holding
 from jointplay.worker.passing import PASSING
 
 _AT_ONCE = 50
@@ -25,23 +27,42 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
         _log.warning("nothing is removed now: %s", fault)
         return
     for job in jobs:
-        try:
-            settings.place.remove(settings.results_prefix(job))
-            if (folder := settings.running_folder(job)).exists():  # it ended without results
-                shutil.rmtree(folder)
-            remove(settings.running_folder(job))
-            catalogue.mark_removed([job])
-        except PASSING as error:
-            _log.warning("the results of job %s cannot be removed: %s", job, error)
-            continue
-        _log.info("removed the results of job %s", job)
+        with about(job=job):
+            _remove(catalogue, settings, job)
 
 
-def withdraw(catalogue: Catalogue, settings: Settings, claim: Claim) -> None:
-    """Remove what an attempt wrote after the job had ended without it; never raises."""
-    attempt = claim.block.attempt
+def _remove(catalogue: Catalogue, settings: Settings, job: str) -> None:
     try:
-        job = catalogue.get(claim.job.id)
+        settings.place.remove(settings.results_prefix(job))
+        if (folder := settings.running_folder(job)).exists():  # it ended without results
+            shutil.rmtree(folder)
+        remove(settings.running_folder(job))
+        catalogue.mark_removed([job])
+    except PASSING as error:
+        _log.warning("the results of job %s cannot be removed: %s", job, error)
+        return
+    _log.info("removed the results of job %s", job)
+
+
+def tidy(settings: Settings, block: Block) -> None:
+    """Remove what is of no use when a job has ended with an attempt at one of its blocks.
+
+    Of a study that ended without being sealed everything stays: other blocks may still arrive.
+    """
+    if settings.sealed_run(block.job, block.attempt).exists():
+        for attempt in range(1, block.attempt):
+            lost = settings.sealed_run(block.job, attempt)
+            lost.place.remove(lost.key)
+    elif not settings.sealed_study(block.job).exists():
+        return
+    remove(settings.running_folder(block.job))
+
+
+def withdraw(catalogue: Holding, settings: Settings, block: Block) -> None:
+    """Remove what an attempt wrote after the job had ended without it; never raises."""
+    attempt = block.attempt
+    try:
+        job = catalogue.get(block.job)
         if not job.state.terminal:
             return  # the attempt that ends the job removes everything
         if job.attempt != attempt:
@@ -50,4 +71,4 @@ def withdraw(catalogue: Catalogue, settings: Settings, claim: Claim) -> None:
         if any(results.exists() for results in sealed):
             remove(settings.running_folder(job.id))
     except (CatalogueError, OSError) as error:
-        _log.warning("what attempt %d of %s left stays: %s", attempt, claim.job.id, error)
+        _log.warning("what attempt %d of %s left stays: %s", attempt, block.job, error)

@@ -9,9 +9,10 @@ from redis import Redis
 from redis.exceptions import RedisError
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.reconciliation import Finding
 from jointplay.storage.settings import Settings
-from jointplay.worker.app import KEY_PREFIX, QUEUES
+from jointplay.worker.app import KEY_PREFIX
 from jointplay.worker.wake_up import connection
 
 WHERE = "broker"

@@ -9,6 +9,9 @@ from pathlib import Path
 from jointplay.records.channel import Channel
 from jointplay.records.job import JobError
 from jointplay.records.point import StudySlice
+from jointplay.solver.calibration.calibrate import NothingFits
+from jointplay.solver.calibration.plan import CalibrationStudy
+from jointplay.solver.calibration.run import CalibrationRun
 from jointplay.solver.kernels.watched import CompilationEnded
 from jointplay.solver.nonlinear.settling import SETTLINGS
 from jointplay.solver.nonlinear.verdict import VERDICTS
@@ -56,10 +59,12 @@ def layout_of(study: Study) -> StudyLayout:
 
 def computation_of(
     study: Study, index: int, checkpoint: bytes | None = None
-) -> StudyRun | WorkPrecisionRun:
+) -> StudyRun | WorkPrecisionRun | CalibrationRun:
     """Return the computation of a block, from where a restart point was made if there is one."""
     if isinstance(study, WorkPrecisionStudy):
         return WorkPrecisionRun(study, index, checkpoint)
+    if isinstance(study, CalibrationStudy):
+        return CalibrationRun(study, index, checkpoint)
     return StudyRun(study, index, checkpoint)
 
 
@@ -156,6 +161,9 @@ def _compute(
                 return Outcome("failed", 0.0, piece.fraction, _out_of_time(longest, piece.fraction))
             steps += sum(int(point.statistics.get("steps", 0)) for point in piece.ended)
             fraction = piece.fraction
+    except NothingFits as nothing:
+        block.flush(b"")
+        return Outcome("failed", 0.0, fraction, JobError("solver", "nothing-fits", str(nothing)))
     except CompilationEnded as ended:
         outcome = uncompiled(ended, 0.0, fraction)
         if outcome.state != "left":

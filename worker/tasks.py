@@ -4,11 +4,13 @@ import logging
 import os
 import signal
 import threading
+import time
+from contextlib import closing
 from functools import lru_cache
 from typing import Any
 
 from billiard.process import active_children
-from celery.signals import worker_init, worker_process_init, worker_shutting_down
+from celery.signals import setup_logging, worker_init, worker_process_init, worker_shutting_down
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -17,11 +19,13 @@ from jointplay.worker.app import RUN_BLOCK, app
 from jointplay.worker.block_run import (
     BlockRun,  # before the fork: all children share numba and the solver
 )
+from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
 _DRAIN_SIGNAL = signal.SIGUSR2
+_LOOK_AGAIN = 0.2  # s
 
 
 @lru_cache(maxsize=1)
@@ -38,7 +42,7 @@ def run_block(block: str) -> None:
     if _draining.is_set():
         return
     try:
-        claim = catalogue.claim_block(block, own_name(), settings.lease)
+        claim = catalogue.claim_block(block, own_name(), settings.lease, own_solver())
     except Unavailable as fault:
         _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
         return
@@ -46,19 +50,42 @@ def run_block(block: str) -> None:
         BlockRun(catalogue, settings, claim, _draining).run()
 
 
+@setup_logging.connect  # type: ignore[untyped-decorator]
+def _set_up_no_other_logs(**_: Any) -> None:
+    """Have Celery write where the program has begun to: it sets up nothing if somebody listens."""
+
+
 @worker_init.connect  # type: ignore[untyped-decorator]
 def _prepare(**_: Any) -> None:
-    """Before the fork: bring the schema up to date."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
-    settings = Settings()
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    catalogue.close()
+    """Before the fork: wait until an API or a relay has brought the schema up to date."""
+    with closing(Catalogue(Settings().catalogue_url)) as catalogue:
+        while not _is_migrated(catalogue):
+            time.sleep(_LOOK_AGAIN)
+
+
+def _is_migrated(catalogue: Catalogue) -> bool:
+    try:
+        return catalogue.is_migrated()
+    except Unavailable as fault:
+        _log.warning("waiting: %s", fault)
+        return False
 
 
 @worker_process_init.connect  # type: ignore[untyped-decorator]
 def _listen_for_drain(**_: Any) -> None:
     signal.signal(_DRAIN_SIGNAL, lambda *_: _draining.set())
+    threading.Thread(target=_be_present, name="presence", daemon=True).start()
+
+
+def _be_present() -> None:
+    """Tell the catalogue now and then that there is a worker with this solver."""
+    settings, catalogue = _platform()
+    while True:
+        try:
+            catalogue.note_worker(own_name(), own_solver())
+        except Unavailable as fault:
+            _log.debug("not known to be there: %s", fault)
+        time.sleep(settings.heartbeat)
 
 
 @worker_shutting_down.connect  # type: ignore[untyped-decorator]

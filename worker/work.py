@@ -10,7 +10,6 @@ from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.records import Claim
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore, IncompleteStudy, NotAStore
 from jointplay.storage.packed.reading import Packed
-from jointplay.storage.packed.running import remove
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
@@ -33,10 +32,6 @@ class Work(Protocol):
 
         `advanced` is for what has no slices.
         """
-        ...
-
-    def tidy(self) -> None:
-        """Remove what is of no use when the job has ended."""
         ...
 
 
@@ -72,14 +67,6 @@ class SimulationWork:
             resume_from=restart,
             longest=self._settings.longest,
         )
-
-    def tidy(self) -> None:
-        """Remove what earlier attempts left, and all that is needed only while the job runs."""
-        if self._sealed(self._block.attempt).exists():
-            for attempt in range(1, self._block.attempt):
-                lost = self._sealed(attempt)
-                lost.place.remove(lost.key)
-            remove(self._settings.running_folder(self._block.job))
 
     def _sealed(self, attempt: int) -> StoredObject:
         return self._settings.sealed_run(self._block.job, attempt)
@@ -129,9 +116,6 @@ class StudyWork:
             longest=self._settings.longest,
         )
 
-    def tidy(self) -> None:
-        """Leave everything: other blocks' work may still arrive."""
-
 
 class SealWork:
     """The end of a study: its store gets what all blocks left for it, and the manifest."""
@@ -162,10 +146,6 @@ class SealWork:
                     return outcome
             seal(self._folder, self._layout, self._target, advanced)
         return Outcome("succeeded", 0.0, 1.0)
-
-    def tidy(self) -> None:
-        """Remove what was needed only while the study ran."""
-        remove(self._settings.running_folder(self._job))
 
 
 _last_study: tuple[str, Study, StudyLayout] | None = None

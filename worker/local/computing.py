@@ -82,7 +82,7 @@ def compute(
 
 
 class _Reached:
-    """How far a run is, for the outcome of one that cannot say so."""
+    """Progress of a run, for the outcome of one that cannot tell it."""
 
     def __init__(self, report: Report) -> None:
         self._report = report
@@ -126,7 +126,7 @@ def _simulation(
 
 
 def _clear(folder: Path) -> None:
-    """Remove what an end before the last said of itself; what was computed is in `RUNNING`."""
+    """Remove what an earlier end left beside `RUNNING`, which has all that was computed."""
     for name in (OUTCOME_FILE, STORE):
         (folder / name).unlink(missing_ok=True)
     for path in folder.glob(f"*{durable.PARTIAL}"):

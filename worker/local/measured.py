@@ -26,7 +26,7 @@ _FRAME: Final = struct.Struct("<II")
 
 
 class Measured:
-    """What one calibration measured so far, and a file that grows by what it measures.
+    """Candidates that one calibration measured so far, and the file that they are kept in.
 
     Parameters
     ----------

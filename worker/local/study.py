@@ -53,7 +53,7 @@ def compute_study(
     -------
     Outcome
         The store is sealed if it is "succeeded", otherwise it keeps what was computed: "cancelled"
-        by a signal, or "failed" because one of the processes was ended from outside.
+        by a signal, or "failed" because a block did, or a process was ended from outside.
     """
     from jointplay.records.job import JobError
     from jointplay.storage.studies.store import seal
@@ -73,14 +73,17 @@ def compute_study(
     open_store(folder, layout)
     tries = tries_in(folder)
     try:
-        complete = (
+        ends = (
             _here(study, folder, tries, tell, asked_to_end)
             if wanted == 1
             else _spread(study, folder, tries, wanted, tell, asked_to_end)
         )
     except BrokenProcessPool:
         return Outcome("failed", 0.0, done, JobError("platform", "process-died", _DIED))
-    if not complete:
+    for outcome in ends:
+        if outcome.state == "failed":
+            return Outcome("failed", 0.0, done, outcome.error)
+    if [outcome.state for outcome in ends] != ["succeeded"] * len(study.blocks):
         return Outcome("cancelled", 0.0, done)
     report(1.0, f"{study.points} of {study.points} points")
     seal(folder, layout, target)
@@ -122,10 +125,11 @@ def _here(
     tries: Mapping[int, Try],
     report: Report,
     asked_to_end: Callable[[], bool],
-) -> bool:
-    """Compute all blocks in this process, one after the other."""
+) -> "list[Outcome]":
+    """Compute all blocks in this process, one after the other, until one does not succeed."""
     from jointplay.worker.execute import Progress
 
+    ends: list[Outcome] = []
     for index, (first, count) in enumerate(study.blocks):
 
         def go_on(done: Progress, first: int = first, count: int = count) -> bool:
@@ -134,10 +138,10 @@ def _here(
             report(fraction, f"{ended} of {study.points} points")
             return not asked_to_end()
 
-        state = compute_block(study, index, folder, tries.get(index, Try()), go_on)
-        if state != "succeeded":
-            return False
-    return True
+        ends.append(compute_block(study, index, folder, tries.get(index, Try()), go_on))
+        if ends[-1].state != "succeeded":
+            break
+    return ends
 
 
 def _spread(
@@ -147,7 +151,7 @@ def _spread(
     count: int,
     report: Report,
     asked_to_end: Callable[[], bool],
-) -> bool:
+) -> "list[Outcome]":
     """Compute the blocks in several processes, each taking the next one when it is free."""
     job = json.dumps(study.job)
     calls = [
@@ -161,9 +165,9 @@ def _spread(
 
     with processes(count, len(calls), asked_to_end) as pool:
         try:
-            return pool.make(calls, show) == ["succeeded"] * len(calls)
+            return pool.make(calls, show)
         except Interrupted:
-            return False
+            return []
 
 
 @lru_cache(maxsize=1)
@@ -174,7 +178,7 @@ def _study(job: str) -> "Study":
     return cast("Study", parse(json.loads(job)))
 
 
-def _block(job: str, folder: str, index: int, begin: Try, advance: Advance) -> str:
+def _block(job: str, folder: str, index: int, begin: Try, advance: Advance) -> "Outcome":
     """Compute one block in a process of the pool and return how it ended."""
     return compute_block(
         _study(job),
@@ -191,7 +195,7 @@ def compute_block(
     folder: Path,
     begin: Try,
     go_on: "Callable[[Progress], bool]",
-) -> str:
+) -> "Outcome":
     """Compute one block, with restart points, and return how it ended; "left" can go on."""
     from jointplay.worker.execute import Answer
     from jointplay.worker.local.keeping import Keeping
@@ -199,7 +203,6 @@ def compute_block(
 
     restart = None if begin.resume_from is None else (begin.resume_from, 0.0)
     keeping = Keeping(go_on, Answer.leave)
-    outcome = run_block(
+    return run_block(
         study, index, folder, report=keeping, attempt=begin.number, resume_from=restart
     )
-    return outcome.state

@@ -19,7 +19,7 @@ class Next(NamedTuple):
 
 
 class Newest(NamedTuple):
-    """The store that has most, and how many of its samples are on the disk; None: in shards."""
+    """The store that has most, and how many of its samples are on the disk; None: whole shards."""
 
     folder: Path
     samples: int | None

@@ -5,6 +5,7 @@ import numpy as np
 from jointplay.records.arrays import Floats
 
 LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
+"""Columns of a record, in the order of `jointplay.records.peak.PEAK`."""
 
 
 def between(edges: Floats, low: float, high: float) -> Floats:
@@ -30,9 +31,15 @@ def folded(edges: Floats, begins: Floats, records: Floats) -> Floats:
     bins = np.clip(np.searchsorted(edges, begins, side="right") - 1, 0, len(edges) - 2)
     found = np.full((len(edges) - 1, *records.shape[1:]), np.nan)
     for one, record in zip(bins, records, strict=True):
-        best = found[one]
-        lower = ~(record[:, LOWEST] >= best[:, LOWEST])
-        higher = ~(record[:, HIGHEST] <= best[:, HIGHEST])
-        best[lower, :HIGHEST] = record[lower, :HIGHEST]
-        best[higher, HIGHEST:] = record[higher, HIGHEST:]
+        found[one] = merged(found[one], record)
     return found
+
+
+def merged(first: Floats, second: Floats) -> Floats:
+    """Return the extremes (..., 4) of two pieces as of one; NaN of a piece that has none."""
+    best = first.copy()
+    lower = ~(second[..., LOWEST] >= best[..., LOWEST]) & ~np.isnan(second[..., LOWEST])
+    higher = ~(second[..., HIGHEST] <= best[..., HIGHEST]) & ~np.isnan(second[..., HIGHEST])
+    best[lower, :HIGHEST] = second[lower, :HIGHEST]
+    best[higher, HIGHEST:] = second[higher, HIGHEST:]
+    return best

@@ -8,6 +8,15 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 
+ROUNDED = (
+    "Computed on another processor, or by another version of the solver, than the run: values may"
+    " differ from its own by rounding."
+)
+WHOLE = (
+    "From {:.6g} s on, no steps are kept: extremes are those of the trajectory between two samples,"
+    " at a time between them. See 'steps_limit'."
+)
+
 
 @dataclass(frozen=True)
 class Question:
@@ -16,7 +25,7 @@ class Question:
     job: dict[str, Any]
     """The admitted job's document."""
     names: tuple[str, ...]
-    """Of channels."""
+    """Channels, by name."""
     steps: Floats | None
     """(n, columns) accepted steps around the window, as stored; None: the motion needs none."""
     times: Floats | None = None
@@ -24,7 +33,7 @@ class Question:
     edges: Floats | None = None
     """(bins + 1,) ascending, s."""
     methods: tuple[str, ...] = ()
-    """By the numbers that the last column of steps has."""
+    """Names of methods, by the numbers that the last column of steps has."""
     ranges: Floats | None = None
     """(names,) range of each channel in its run; 0 where it is not known."""
 
@@ -39,6 +48,18 @@ class Answer:
     """The last steps did not end where the run went on, bit for bit: another processor rounds."""
     refused: str = ""
     """A sentence, where the steps cannot be made again here."""
+    whole_from: float | None = None
+    """Time, s, from which extremes are of whole intervals between samples."""
+
+    @property
+    def note(self) -> str:
+        """What is to be known of the numbers; else empty."""
+        notes = []
+        if self.rounded:
+            notes.append(ROUNDED)
+        if self.whole_from is not None:
+            notes.append(WHOLE.format(self.whole_from))
+        return " ".join(notes)
 
 
 def together(answers: Sequence[Answer]) -> Answer:

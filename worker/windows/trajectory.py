@@ -9,14 +9,15 @@ import numpy as np
 
 from jointplay.records.arrays import Floats
 from jointplay.storage.results.reader import ResultReader
-from jointplay.worker.windows.pieces import between, folded
+from jointplay.worker.windows.intervals import Intervals
+from jointplay.worker.windows.pieces import between, folded, merged
 from jointplay.worker.windows.question import Answer, Question, together
 
 AT_ONCE = 200_000
-"""Steps of one question, each counted once and a tenth for each channel: 0.3 s of computing."""
+"""Steps of one question, each counted once and `A_CHANNEL` for each channel: 0.3 s of computing."""
+A_CHANNEL = 0.1
 MOST_PIECES = 4
 """Questions of one window: others' are answered between them."""
-A_CHANNEL = 0.1
 MOST_INSTANTS = 200_000
 """Instants of an ideal motion in one window: as long."""
 PARTS = 8
@@ -28,7 +29,7 @@ ROUNDING = 1e-12
 
 
 class Trajectory:
-    """What one run stored, between its samples too.
+    """A stored run at any time, between its samples too.
 
     Parameters
     ----------
@@ -46,7 +47,32 @@ class Trajectory:
     def reached(self) -> float:
         """Time of the last sample that can be read, s."""
         samples = self._reader.samples
+        if self._intervals is not None:
+            samples = self._intervals.behind
         return float(self._reader.history([], samples - 1, samples)[0][0]) if samples else 0.0
+
+    @cached_property
+    def _intervals(self) -> Intervals | None:
+        stored, steps = self._reader.intervals, self._reader.steps
+        end = steps.end if steps is not None else 0.0
+        return None if stored is None else Intervals(self._reader, stored, end)
+
+    def edges(self, start: float, stop: float, points: int) -> Floats:
+        """Return edges (at most `points` + 1,), s, between which extremes are known exactly.
+
+        They are even where steps are kept, and samples' times where they are not, from that before
+        the window to that behind it.
+        """
+        whole = self._intervals
+        if whole is None or stop <= whole.begin or not stop > start:
+            return np.linspace(start, stop, points + 1) if stop > start else np.array([start, stop])
+        _, times = whole.ends(max(start, whole.begin), stop)
+        share = max(whole.begin - start, 0.0) / (stop - start)
+        even = min(round(points * share), points - 1) if share else 0
+        count = min(points - even, len(times) - 1)
+        chosen = np.unique(np.linspace(0, len(times) - 1, count + 1).astype(np.int64))
+        before = np.linspace(start, times[0], even + 1)[:-1] if even else np.empty(0)
+        return np.concatenate([before, times[chosen]])
 
     def values(self, names: Sequence[str], times: Floats) -> Answer:
         """Return channels (m, names) at ascending times (m,), s: the bits that samples have."""
@@ -67,6 +93,23 @@ class Trajectory:
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Answer:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time."""
+        whole = self._intervals
+        if whole is None or edges[-1] <= whole.begin * (1.0 + ROUNDING):
+            return self._in_steps(names, edges)
+        found = np.full((len(edges) - 1, len(names), 4), np.nan)
+        known = Answer(found)
+        inner = edges[edges < whole.begin]
+        if len(inner):
+            known = self._in_steps(names, np.append(inner, whole.begin))
+            if known.values is None:
+                return known
+            found[: len(inner)] = known.values
+        begin = max(len(inner) - 1, 0)
+        beyond = whole.extremes(tuple(names), edges[begin:])
+        found[begin:] = merged(found[begin:], beyond)
+        return replace(known, values=found, whole_from=max(whole.begin, float(edges[0])))
+
+    def _in_steps(self, names: Sequence[str], edges: Floats) -> Answer:
         start, stop = float(edges[0]), float(edges[-1])
         pieces = self._pieces(names, start, stop, 8 * len(edges))
         if isinstance(pieces, str):
@@ -117,11 +160,11 @@ class Trajectory:
             return refusal if too_many else [(start, stop)]
         stored = self._reader.steps
         if stored is None or not stored.count:
-            return "The job keeps no steps, only samples; see its field 'steps_limit'."
+            return "The job keeps no steps; see its field 'steps_limit'."
         if stop > stored.end * (1.0 + ROUNDING):
             limit = self._reader.attributes["job"].get("steps_limit", 0)
             sentence = f"Steps are kept up to {stored.end:.6g} s, within {limit:g} bytes"
-            return f"{sentence}; beyond there are samples. See 'steps_limit'."
+            return f"{sentence}; beyond there are samples, and extremes between them."
         at_once = int(AT_ONCE / (1.0 + A_CHANNEL * len(names)))
         first, last = stored.around(start, stop)
         if last - first > MOST_PIECES * at_once:

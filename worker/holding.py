@@ -1,0 +1,88 @@
+"""What a worker asks of whoever keeps the catalogue, about one block that it holds."""
+
+from typing import Protocol
+
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue.records import BlockState, Job, JobState, Verdict
+
+
+class Holding(Protocol):
+    """The catalogue itself, or a service that is asked over HTTP.
+
+    The methods are those of `storage.catalogue.catalogue.Catalogue`, and raise what they raise:
+    `Fenced` where the attempt does not hold the block, `Unavailable` for what may pass.
+    """
+
+    def get(self, job: str, /) -> Job:
+        """Return the job."""
+        ...
+
+    def verdict(self, block_id: str, attempt: int, /) -> Verdict:
+        """Return whether to go on."""
+        ...
+
+    def heartbeat(self, block_id: str, attempt: int, lease: float, /) -> Verdict:
+        """Hold the block `lease` seconds longer."""
+        ...
+
+    def record_progress(
+        self,
+        block_id: str,
+        attempt: int,
+        lease: float,
+        /,
+        *,
+        time: float,
+        fraction: float,
+        steps: int | None = None,
+    ) -> Verdict:
+        """Tell how far the block is, and hold it longer."""
+        ...
+
+    def record_checkpoint(
+        self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
+    ) -> None:
+        """Name a restart point."""
+        ...
+
+    def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
+        """Tell what takes long."""
+        ...
+
+    def release(self, block_id: str, attempt: int, /) -> None:
+        """Give the block back."""
+        ...
+
+    def put_off(self, block_id: str, attempt: int, activity: str, /) -> None:
+        """Give the block back until a fault has passed."""
+        ...
+
+    def finish(
+        self,
+        block_id: str,
+        attempt: int,
+        outcome: BlockState,
+        error: JobError | None = None,
+        /,
+        *,
+        time: float | None = None,
+        fraction: float | None = None,
+        steps: int | None = None,
+    ) -> JobState:
+        """End the block."""
+        ...
+
+    def finish_repeatable(
+        self,
+        block_id: str,
+        attempt: int,
+        outcome: BlockState,
+        error: JobError | None = None,
+        /,
+        *,
+        time: float | None = None,
+        fraction: float | None = None,
+        steps: int | None = None,
+    ) -> JobState:
+        """End a block that is quickly found to have ended."""
+        ...

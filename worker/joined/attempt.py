@@ -1,0 +1,116 @@
+"""One attempt at a block, of which the service keeps the books: see `worker.holding`."""
+
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
+from jointplay.worker.joined import protocol
+from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.scratch import Scratch
+
+
+class JoinedAttempt:
+    """Tells the service of the attempt, after it has sent the files that this is about.
+
+    Whether to go on is known from the last answer: asking each time would take a round trip.
+    """
+
+    def __init__(self, connection: Connection, claim: Claim, scratch: Scratch) -> None:
+        self._connection = connection
+        self._claim = claim
+        self._scratch = scratch
+        self._verdict = Verdict.go_on
+
+    def get(self, job: str, /) -> Job:
+        """Return the job as it was claimed; the service itself removes what a late attempt left."""
+        return self._claim.job
+
+    def verdict(self, block_id: str, attempt: int, /) -> Verdict:
+        """Return what the service answered last."""
+        return self._verdict
+
+    def heartbeat(self, block_id: str, attempt: int, lease: float, /) -> Verdict:
+        """Hold the block for the service's own lease."""
+        return self._answered(self._connection.tell(self._claim.block, "heartbeat"))
+
+    def record_progress(
+        self,
+        block_id: str,
+        attempt: int,
+        lease: float,
+        /,
+        *,
+        time: float,
+        fraction: float,
+        steps: int | None = None,
+    ) -> Verdict:
+        """Tell how far the block is."""
+        told = protocol.Progress(time=time, fraction=fraction, steps=steps)
+        return self._answered(self._connection.tell(self._claim.block, "progress", told))
+
+    def record_checkpoint(
+        self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
+    ) -> None:
+        """Send what the restart point is made of, then name it."""
+        self._scratch.send()
+        told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint)
+        self._connection.tell(self._claim.block, "checkpoint", told)
+
+    def note_activity(self, block_id: str, attempt: int, activity: str, /) -> None:
+        """Tell what takes long."""
+        self._connection.tell(self._claim.block, "activity", protocol.Activity(activity=activity))
+
+    def release(self, block_id: str, attempt: int, /) -> None:
+        """Give the block back."""
+        self._connection.tell(self._claim.block, "release")
+
+    def put_off(self, block_id: str, attempt: int, activity: str, /) -> None:
+        """Give the block back until a fault has passed."""
+        self._connection.tell(self._claim.block, "put-off", protocol.Activity(activity=activity))
+
+    def finish(
+        self,
+        block_id: str,
+        attempt: int,
+        outcome: BlockState,
+        error: JobError | None = None,
+        /,
+        *,
+        time: float | None = None,
+        fraction: float | None = None,
+        steps: int | None = None,
+        repeatable: bool = False,
+    ) -> JobState:
+        """Send what was computed, then end the block."""
+        self._scratch.send()
+        self._scratch.send_sealed()
+        told = protocol.Finish(
+            outcome=outcome,
+            error=error,
+            time=time,
+            fraction=fraction,
+            steps=steps,
+            repeatable=repeatable,
+        )
+        answer = self._connection.tell(self._claim.block, "finish", told)
+        return protocol.Finished.model_validate_json(answer).state
+
+    def finish_repeatable(
+        self,
+        block_id: str,
+        attempt: int,
+        outcome: BlockState,
+        error: JobError | None = None,
+        /,
+        *,
+        time: float | None = None,
+        fraction: float | None = None,
+        steps: int | None = None,
+    ) -> JobState:
+        """End a block that is quickly found to have ended."""
+        reached = {"time": time, "fraction": fraction}
+        return self.finish(
+            block_id, attempt, outcome, error, **reached, steps=steps, repeatable=True
+        )
+
+    def _answered(self, content: bytes) -> Verdict:
+        self._verdict = protocol.Answered.model_validate_json(content).verdict
+        return self._verdict

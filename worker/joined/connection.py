@@ -1,0 +1,161 @@
+"""Requests of a worker to the service that it joined, and what their refusals mean to it."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Final, TypeVar
+from urllib.parse import quote
+
+import httpx
+
+from jointplay.storage.catalogue.errors import Fenced, Unavailable
+from jointplay.storage.catalogue.records import Block
+from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Document
+
+Answer = TypeVar("Answer", bound=Document)
+_LOOPBACK: Final = frozenset({"127.0.0.1", "localhost", "::1"})
+_TIMEOUT: Final = httpx.Timeout(20.0, connect=5.0)
+_PATIENCE: Final = 15.0  # s, beyond what a service may take to find a block
+_MAY_PASS: Final = frozenset({408, 422, 425, 429})  # 422: bytes that were changed on their way
+_FULL: Final = 507
+_GONE: Final = 404
+_LARGEST_KEY: Final = 4096
+
+
+class Refused(Exception):
+    """The service does not take this worker; the sentence says why."""
+
+
+class Connection:
+    """One worker's exchanges with a service; may be used by several threads.
+
+    Methods raise `Unavailable` for what may pass, `Fenced` if the block is another worker's, and
+    `Refused` for what will not.
+
+    Parameters
+    ----------
+    url
+        Of the service; the key goes over HTTPS only, or to this machine.
+    key
+        With the scope `worker`; none for a service that asks for none.
+    """
+
+    def __init__(self, url: str, key: str | None) -> None:
+        self.url = url.rstrip("/")
+        try:
+            parsed = httpx.URL(self.url)
+        except httpx.InvalidURL as error:
+            raise Refused(f"{url!r} is no address of a service: {error}") from error
+        local = parsed.host in _LOOPBACK
+        if parsed.scheme != "https" and not (local and parsed.scheme == "http"):
+            raise Refused(f"{url!r} must begin with https://; a key is sent there")
+        headers = {} if key is None else {"Authorization": f"Bearer {key}"}
+        self._http = httpx.Client(
+            base_url=self.url, headers=headers, timeout=_TIMEOUT, trust_env=not local
+        )
+
+    def close(self) -> None:
+        """Close the sockets."""
+        self._http.close()
+
+    def claim(self, request: ClaimRequest) -> Claimed | None:
+        """Wait for a block; None if there was none in the time that the request says."""
+        patient = httpx.Timeout(request.wait + _PATIENCE, connect=5.0)
+        with self._answering():
+            response = self._http.post("/v1/worker/claims", **_json(request), timeout=patient)
+        _require_success(response, None)
+        if response.status_code == httpx.codes.NO_CONTENT:
+            return None
+        return Claimed.model_validate_json(response.content)
+
+    def tell(self, block: Block, what: str, document: Document | None = None) -> bytes:
+        """POST something about a block that is held; return the answer."""
+        with self._answering():
+            sent = {} if document is None else _json(document)
+            response = self._http.post(f"{_path(block)}/{what}", **sent)
+        _require_success(response, block)
+        return response.content
+
+    def ask(self, block: Block, kind: type[Answer]) -> Answer:
+        """GET the list of files of a block."""
+        with self._answering():
+            response = self._http.get(f"{_path(block)}/files")
+        _require_success(response, block)
+        return kind.model_validate_json(response.content)
+
+    def read(self, block: Block, name: str) -> Iterator[bytes]:
+        """GET a file in pieces; FileNotFoundError if it is gone."""
+        with (
+            self._answering(),
+            self._http.stream("GET", f"{_path(block)}/files/{quote(name)}") as response,
+        ):
+            if response.status_code == _GONE:
+                raise FileNotFoundError(name)
+            if not response.is_success:
+                response.read()
+            _require_success(response, block)
+            yield from response.iter_bytes(2**20)
+
+    def write(
+        self, block: Block, name: str, content: Iterable[bytes], size: int, digest: str, offset: int
+    ) -> None:
+        """PUT a file, or what it has from an offset on."""
+        headers = {"Content-Length": str(size), "Content-Digest": digest}
+        query = {"offset": offset} if offset else {}
+        with self._answering():
+            response = self._http.put(
+                f"{_path(block)}/files/{quote(name)}",
+                content=content,
+                headers=headers,
+                params=query,
+            )
+        _require_success(response, block)
+
+    def remove(self, block: Block, name: str) -> None:
+        """DELETE a file."""
+        with self._answering():
+            response = self._http.delete(f"{_path(block)}/files/{quote(name)}")
+        _require_success(response, block)
+
+    @contextmanager
+    def _answering(self) -> Iterator[None]:
+        try:
+            yield
+        except httpx.TransportError as error:
+            reason = f"cannot be reached at {self.url} ({type(error).__name__})"
+            raise Unavailable(reason) from error
+
+
+def key_in(path: Path) -> str:
+    """Return the key that is the only line of a file; Refused if there is none."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        text = file.read(_LARGEST_KEY).strip()
+    if not text.startswith("jp_") or not text.isascii() or len(text.split()) != 1:
+        raise Refused(f"{path} holds no key; `jointplay key new --scope worker` makes one")
+    return text
+
+
+def _path(block: Block) -> str:
+    return f"/v1/worker/blocks/{block.id}/{block.attempt}"
+
+
+def _json(document: Document) -> dict[str, Any]:
+    content = document.model_dump_json().encode()
+    return {"content": content, "headers": {"Content-Type": "application/json"}}
+
+
+def _require_success(response: httpx.Response, block: Block | None) -> None:
+    if response.is_success:
+        return
+    try:
+        problem = response.json()
+        kind, detail = str(problem["type"]), str(problem["detail"])
+    except (ValueError, KeyError, TypeError):
+        kind, detail = "", f"it answers with status {response.status_code}"
+    if block is not None and kind.endswith("/not-held"):
+        raise Fenced(block.id, block.attempt)
+    if response.status_code == _FULL:
+        raise Unavailable("has no room for results", full=True)
+    if response.status_code in _MAY_PASS or response.is_server_error:
+        raise Unavailable(f"refuses for now: {detail}")
+    raise Refused(f"the service does not take this worker: {detail}")

@@ -1,0 +1,123 @@
+"""Documents between a service and the workers that joined it."""
+
+from typing import Annotated, Final, Self
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from jointplay.records.job import JobError
+from jointplay.storage.catalogue.records import BlockState, Claim, JobState, Solver, Verdict
+from jointplay.storage.settings import Settings
+
+LONGEST_WAIT: Final = 20.0
+"""Seconds after which a service says that there is no block."""
+_Word = Annotated[str, Field(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9._+-]+$")]
+_Count = Annotated[int, Field(ge=0, le=2**53)]
+_Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+_Time = Annotated[float, Field(ge=0.0, le=1e12)]
+
+
+def _an_end(state: BlockState) -> BlockState:
+    if state not in (BlockState.done, BlockState.failed, BlockState.cancelled):
+        raise ValueError("a block ends as done, failed or cancelled")
+    return state
+
+
+class Document(BaseModel):
+    """A document with these fields and no others, and finite numbers."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class ClaimRequest(Document):
+    """A worker that has nothing to do."""
+
+    program: _Word  # version of the whole program, whose major one must be the service's
+    worker: Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[A-Za-z0-9._:-]+$")]
+    version: _Word
+    processor: _Word
+    wait: Annotated[float, Field(ge=0.0, le=LONGEST_WAIT)] = LONGEST_WAIT
+
+    @property
+    def solver(self) -> Solver:
+        """The worker's."""
+        return Solver(self.version, self.processor)
+
+
+class Customs(Document):
+    """Settings of the service that its workers share; all are seconds."""
+
+    lease: float
+    heartbeat: float
+    progress_period: float
+    longest: float
+    longest_compilation: float
+    stall: float
+
+    @classmethod
+    def of(cls, settings: Settings) -> Self:
+        """Choose them."""
+        return cls(**{name: getattr(settings, name) for name in cls.model_fields})
+
+
+class Claimed(Document):
+    """A block that the worker holds now."""
+
+    claim: Claim
+    customs: Customs
+
+
+class File(Document):
+    """A file that the attempt builds on."""
+
+    name: str
+    size: int
+
+
+class Files(Document):
+    """All of them."""
+
+    files: tuple[File, ...]
+
+
+class Progress(Document):
+    """How far a block is; see `Catalogue.record_progress`."""
+
+    time: _Time
+    fraction: _Fraction
+    steps: _Count | None = None
+
+
+class Checkpoint(Document):
+    """A restart point whose files were sent."""
+
+    watermark: _Count
+    checkpoint: Annotated[str, Field(pattern=r"^(block0|\d{5})-a\d{1,9}$")]
+
+
+class Activity(Document):
+    """A few words for what takes long."""
+
+    activity: Annotated[str, Field(min_length=1, max_length=32)]
+
+
+class Finish(Document):
+    """The end of a block."""
+
+    outcome: Annotated[BlockState, AfterValidator(_an_end)]
+    error: JobError | None = None
+    time: _Time | None = None
+    fraction: _Fraction | None = None
+    steps: _Count | None = None
+    repeatable: bool = False
+
+
+class Answered(Document):
+    """Whether to go on."""
+
+    verdict: Verdict
+
+
+class Finished(Document):
+    """State of the job after the end of a block."""
+
+    state: JobState
