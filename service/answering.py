@@ -29,8 +29,9 @@ class AnsweringProcess:
     Parameters
     ----------
     module
-        Its program. It takes the file descriptor of a connection, answers each object it receives
-        from there with another, and ends with the connection, or when it is idle.
+        Its program, as `jointplay.worker.answering` has them: it takes the file descriptor of a
+        connection, answers each object it receives from there with another, and ends with the
+        connection, or when it is idle.
     patience
         Seconds for one answer; what takes longer is ended.
     """

@@ -18,9 +18,14 @@ import jointplay.service.page.endpoints
 import jointplay.service.problems.endpoints
 import jointplay.service.results.endpoints
 import jointplay.service.results.figures
+import jointplay.service.results.spectra
 import jointplay.service.scenes.endpoints
 import jointplay.service.scenes.looks
 import jointplay.service.studies.endpoints
+import jointplay.service.workers.attempts
+import jointplay.service.workers.claims
+import jointplay.service.workers.files
+import jointplay.service.workers.present
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, laws, metrics, problems, schemas
 from jointplay.service.access import links, needs
@@ -36,6 +41,7 @@ from jointplay.service.problems import ProblemDocument
 from jointplay.service.problems.handlers import install
 from jointplay.service.problems.kinds import INVALID_REQUEST, OF_THE_DOOR
 from jointplay.service.readiness import Readiness
+from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.scenes.looks import SceneLooker
 from jointplay.service.windows import WindowProcess
@@ -55,6 +61,7 @@ is an RFC 9457 problem document whose `errors` point at the fields.
 _REFERENCE = "#/components/schemas/{model}"
 _JOBS = needs("jobs:read", "jobs:write")
 _RESULTS = needs("results:read")
+_WORKERS = needs("worker")
 _BEHIND_THE_DOOR = (
     (jointplay.service.jobs.endpoints, _JOBS),
     (events, _JOBS),
@@ -64,9 +71,14 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.studies.endpoints, _RESULTS),
     (jointplay.service.results.endpoints, _RESULTS),
     (jointplay.service.results.figures, _RESULTS),
+    (jointplay.service.results.spectra, _RESULTS),
     (jointplay.service.zarr.endpoints, _RESULTS),
     (links, _RESULTS),
     (metrics, needs("metrics")),
+    (jointplay.service.workers.present, needs("jobs:read")),
+    (jointplay.service.workers.claims, _WORKERS),
+    (jointplay.service.workers.files, _WORKERS),
+    (jointplay.service.workers.attempts, _WORKERS),
 )
 _OPEN = (
     jointplay.service.scenes.endpoints,
@@ -124,6 +136,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.settings = settings
+    if settings.log_format == "json":
+        app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)
     install(app)
     app.add_exception_handler(CorruptStore, answer_damage)

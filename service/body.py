@@ -9,6 +9,7 @@ from jointplay.service.problems import RequestRefused, kinds
 
 LARGEST_BODY = 8 * 1024 * 1024  # bytes; a job of 100 000 points, each with three parameters
 LARGEST_BATCH = 32 * 1024 * 1024  # 10 000 jobs of 3 kilobytes
+LARGEST_WORD = 64 * 1024  # of a worker
 MOST_DROPPED = 64 * 1024 * 1024
 
 
@@ -57,4 +58,5 @@ def _json_body(largest: int) -> Callable[[Request], Awaitable[bytes]]:
 
 
 JobBody = Annotated[bytes, Depends(_json_body(LARGEST_BODY))]
+WordBody = Annotated[bytes, Depends(_json_body(LARGEST_WORD))]
 BatchBody = Annotated[bytes, Depends(_json_body(LARGEST_BATCH))]

@@ -1,10 +1,12 @@
 """``/v1/estimates``: what a job will cost, before anything is queued."""
 
+from dataclasses import replace
 from typing import Annotated
 
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
+from jointplay.service.access import CallerDependency
 from jointplay.service.body import JobBody
 from jointplay.service.checking import check_job
 from jointplay.service.dependencies import (
@@ -55,6 +57,7 @@ def estimate_job(
     body: JobBody,
     catalogue: CatalogueDependency,
     checker: CheckerDependency,
+    caller: CallerDependency,
     prober: Annotated[Prober, of_the_application("prober")],
 ) -> Estimate:
     """Say what a job will cost, and queue nothing.
@@ -64,5 +67,6 @@ def estimate_job(
     """
     found = checker.check(check_job, body)
     (new,) = found.jobs
-    cached = found.reuse and catalogue.identical(new) is not None
+    own = replace(new, owner=caller.owner)
+    cached = found.reuse and catalogue.identical(own) is not None
     return Estimate(**prober.cost_of(new.spec), cached=cached)

@@ -1,4 +1,4 @@
-"""Who asks, and what he may do: keys, scopes, owners; and which pages of a browser may ask.
+"""Callers of the service: their keys, scopes and owners, and the pages of a browser that may ask.
 
 A service that listens on its own machine only asks for no key, but looks at where a request was
 sent to and which page sent it. Any other asks for a key, with one header:
@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final
 
 from fastapi import Depends, Request
 
+from jointplay.records.log_lines import note
 from jointplay.service.problems import RequestRefused, kinds
 
 _READING: Final = frozenset({"GET", "HEAD"})
@@ -42,6 +43,8 @@ class Caller:
 
 async def _caller(request: Request) -> Caller:
     found: Caller = await request.app.state.door.caller(request)
+    if found.key:
+        note(key=found.key)  # its id: nobody learns its secret from a log
     return found
 
 

@@ -33,7 +33,7 @@ class Door:
         self._catalogue = catalogue
         self._asks = settings.keys == "required"
         self._hosts = settings.host_names
-        self._rates = Rates(settings.rate)
+        self._rates = Rates(settings.rate, settings.redis_url)
         self._known: OrderedDict[str, tuple[Key, float]] = OrderedDict()
 
     async def caller(self, request: Request) -> Caller:
@@ -57,7 +57,7 @@ class Door:
                 "This service asks for a key that is valid: Authorization: Bearer jp_...",
                 headers={"WWW-Authenticate": 'Bearer realm="jointplay"'},
             )
-        self._rates.count(key.owner)
+        await self._rates.count(key.owner)
         return Caller(key.owner, key.scopes, key.id)
 
     async def _of_link(self, link: Link) -> Caller:
@@ -67,7 +67,7 @@ class Door:
             sentence = "This link has expired, or its key was revoked, or it was changed."
             challenge = {"WWW-Authenticate": 'Bearer realm="jointplay"'}
             raise RequestRefused(kinds.KEY_MISSING, sentence, headers=challenge)
-        self._rates.count(key.owner)
+        await self._rates.count(key.owner)
         return Caller(key.owner, key.scopes & {"results:read", "admin"}, key.id)
 
     async def _key(self, name: str) -> Key | None:

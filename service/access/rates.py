@@ -1,25 +1,33 @@
-"""How much one owner may ask for: requests a second, and jobs that have not ended."""
+"""Limits of one owner: requests a second, and jobs that have not ended."""
 
+import logging
 import math
 import time
 from typing import Final
 
+from fastapi.concurrency import run_in_threadpool
 from limits import RateLimitItem, RateLimitItemPerSecond
-from limits.storage import MemoryStorage
+from limits.storage import MemoryStorage, RedisStorage
 from limits.strategies import FixedWindowRateLimiter
+from redis.exceptions import RedisError
 
 from jointplay.service.access import Caller
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import SubmissionKey
 from jointplay.storage.settings import Settings
 
 _WINDOW: Final = 10
 """Seconds in which requests are counted together: who was silent may send some at once."""
 
 
+_PATIENCE: Final = 0.5  # s a request waits for Redis
+_ASK_AGAIN: Final = 5.0  # s after which a Redis that did not answer is asked again
+_log = logging.getLogger(__name__)
+
+
 class Rates:
-    """Counts the requests of owners; each process for itself.
+    """Counts the requests of owners, in Redis for all APIs together.
+
+    Without Redis, and while it does not answer, each process counts for itself.
 
     Parameters
     ----------
@@ -27,44 +35,47 @@ class Rates:
         Requests; 0: as many as they like.
     """
 
-    def __init__(self, a_second: float) -> None:
-        self._limiter = FixedWindowRateLimiter(MemoryStorage())
+    def __init__(self, a_second: float, redis_url: str | None) -> None:
+        self._own = FixedWindowRateLimiter(MemoryStorage())
+        self._shared: FixedWindowRateLimiter | None = None
+        self._ask_at = 0.0
         self._most: RateLimitItem | None = None
         if a_second:
             self._most = RateLimitItemPerSecond(max(round(a_second * _WINDOW), 1), _WINDOW)
+            if redis_url is not None:
+                storage = RedisStorage(
+                    redis_url,
+                    key_prefix="jointplay:rate",
+                    socket_timeout=_PATIENCE,
+                    socket_connect_timeout=_PATIENCE,
+                )
+                self._shared = FixedWindowRateLimiter(storage)
 
-    def count(self, owner: str) -> None:
+    async def count(self, owner: str) -> None:
         """Count a request; refuse it with 429 if there were too many."""
-        if self._most is None or self._limiter.hit(self._most, owner):
+        if self._most is None:
             return
-        window = self._limiter.get_window_stats(self._most, owner)
+        if self._shared is not None and time.monotonic() >= self._ask_at:
+            try:
+                await run_in_threadpool(_count, self._shared, self._most, owner)
+                return
+            except RedisError as error:
+                self._ask_at = time.monotonic() + _ASK_AGAIN
+                _log.warning("requests are counted by this process alone: %s", error)
+        _count(self._own, self._most, owner)
+
+
+def _count(limiter: FixedWindowRateLimiter, most: RateLimitItem, owner: str) -> None:
+    if not limiter.hit(most, owner):
+        window = limiter.get_window_stats(most, owner)
         seconds = max(math.ceil(window.reset_time - time.time()), 1)
         raise RequestRefused(
             kinds.TOO_MANY_REQUESTS,
-            f"{owner} sent more than {self._most.amount} requests in {_WINDOW} s.",
+            f"{owner} sent more than {most.amount} requests in {_WINDOW} s.",
             headers={"Retry-After": str(seconds)},
         )
 
 
-def require_quota(
-    caller: Caller,
-    catalogue: Catalogue,
-    settings: Settings,
-    more: int,
-    key: SubmissionKey | None,
-) -> None:
-    """Refuse further jobs with 403 where an owner would have too many that have not ended.
-
-    A request that is sent again, with its key, asks for no further ones. Several requests at once
-    may exceed the number by what they ask for together.
-    """
-    most = settings.most_live
-    if not most or not caller.owner or caller.sees_all:
-        return
-    live = catalogue.live_jobs(caller.owner)
-    if live + more > most and not catalogue.is_answered(key):
-        raise RequestRefused(
-            kinds.QUOTA_EXCEEDED,
-            f"{caller.owner} has {live} jobs that have not ended, and may have {most};"
-            f" this would be {more} more.",
-        )
+def most_live(caller: Caller, settings: Settings) -> int:
+    """Return how many jobs that have not ended a caller may have; 0: any number."""
+    return settings.most_live if caller.owner and not caller.sees_all else 0

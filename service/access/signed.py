@@ -16,7 +16,7 @@ from typing import Final, Self
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from jointplay.records.job import is_job_id
-from jointplay.storage.catalogue.keys import Key
+from jointplay.storage.catalogue.keys import ID, Key
 
 PREFIX: Final = "/v1/shared/"
 SIGNED: Final = "jointplay.signed"
@@ -27,7 +27,7 @@ _LONGEST: Final = 4 * (_SIGNED.size + sha256().digest_size) // 3 + 4
 
 @dataclass(frozen=True)
 class Link:
-    """What a token says; nothing of it is true before `is_signed_by` says so."""
+    """Content of a token; nothing of it is true before `is_signed_by` says so."""
 
     job: str
     until: int
@@ -45,7 +45,7 @@ class Link:
             link = cls(job.decode("ascii"), until, key.decode("ascii"), content[_SIGNED.size :])
         except (Error, struct.error, ValueError):
             return None
-        return link if is_job_id(link.job) else None
+        return link if is_job_id(link.job) and ID.fullmatch(link.key) else None
 
     def signed_by(self, key: Key) -> str:
         """Return the token of this link."""

@@ -4,17 +4,15 @@ What is refused is answered as the problem that clients read, which is short how
 """
 
 import logging
-import sys
-from contextlib import suppress
-from multiprocessing.connection import Connection
 
 from jointplay.records.strict_json import parse
 from jointplay.service.checking import Check, Checked
 from jointplay.service.problems import RequestRefused
 from jointplay.service.problems.handlers import refusal
 from jointplay.storage.settings import Settings
+from jointplay.worker.answering import answer_questions
 
-_IDLE = 60.0  # s after which memory is given back
+_IDLE = 60.0  # s
 _log = logging.getLogger(__name__)
 
 
@@ -28,12 +26,5 @@ def _answer(what: Check, body: bytes, path: str, settings: Settings) -> Checked 
         return refused
 
 
-def main() -> None:
-    """Answer until nobody asks any more."""
-    with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
-        while asking.poll(_IDLE):
-            asking.send(_answer(*asking.recv()))
-
-
 if __name__ == "__main__":
-    main()
+    answer_questions(lambda question: _answer(*question), _IDLE)

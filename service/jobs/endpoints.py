@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.access import Caller, CallerDependency
-from jointplay.service.access.rates import require_quota
+from jointplay.service.access.rates import most_live
 from jointplay.service.body import JobBody
 from jointplay.service.checking import Checker, check_job
 from jointplay.service.dependencies import (
@@ -86,8 +86,9 @@ def _submit(
         found = checker.check(check_job, body, repeatable.path)
         (new,) = found.jobs
         key = repeatable.key_for(found.fingerprint)
-        require_quota(caller, catalogue, settings, 1, key)
-        submitted = catalogue.submit(replace(new, owner=caller.owner), key, reuse=found.reuse)
+        own = replace(new, owner=caller.owner)
+        most = most_live(caller, settings)
+        submitted = catalogue.submit(own, key, reuse=found.reuse, most_live=most)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted

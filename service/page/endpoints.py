@@ -1,4 +1,4 @@
-"""``/``, ``/docs``, ``/favicon.ico`` and ``/page/…``: HTML, styles and modules for browsers.
+"""``/``, ``/docs``, ``/report``, ``/favicon.ico``, ``/page/…``: HTML, styles and modules.
 
 They are no part of the API: the OpenAPI document does not list them.
 """
@@ -7,7 +7,8 @@ from typing import Final
 
 from fastapi import APIRouter, Request, Response
 
-from jointplay.service.page.files import page_file
+from jointplay.service.dependencies import SettingsDependency
+from jointplay.service.page.files import PageFile, page_file, report_file
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
 router = APIRouter(include_in_schema=False)
@@ -26,8 +27,19 @@ CONTENT_POLICY: Final = "; ".join(
     )
 )
 """Nothing from elsewhere, no script or style inside HTML, no text that is made into a script."""
+REPORT_POLICY: Final = "; ".join(
+    (
+        "default-src 'none'",
+        "style-src 'unsafe-inline'",
+        "img-src data:",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+        "sandbox",
+    )
+)
+"""A document with its own style and pictures, in which nothing is carried out or loaded."""
 _HEADERS: Final = {
-    "Content-Security-Policy": CONTENT_POLICY,
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-cache",  # asks again after an upgrade, and is told 304 otherwise
@@ -58,11 +70,26 @@ def show_file(request: Request, name: str) -> Response:
     return _file(request, name)
 
 
+@router.api_route("/report", methods=["GET", "HEAD"])
+def show_report(request: Request, settings: SettingsDependency) -> Response:
+    """Show the reproduction's report, as it was written, or how to make one."""
+    found = report_file(settings.report)
+    return (
+        _file(request, "report/index.html")
+        if found is None
+        else _sent(request, found, REPORT_POLICY)
+    )
+
+
 def _file(request: Request, name: str) -> Response:
     found = page_file(name)
     if found is None:
         raise RequestRefused(kinds.NOT_FOUND, f"The page has no file {clipped(name)!r}.")
-    headers = _HEADERS | {"ETag": f'"{found.digest}"'}
+    return _sent(request, found, CONTENT_POLICY)
+
+
+def _sent(request: Request, found: PageFile, policy: str) -> Response:
+    headers = _HEADERS | {"ETag": f'"{found.digest}"', "Content-Security-Policy": policy}
     if headers["ETag"] in request.headers.get("If-None-Match", ""):
         return Response(status_code=304, headers=headers)
     return Response(found.content, headers=headers, media_type=found.media_type)

@@ -1,11 +1,14 @@
 """Files of the page: what may be asked for, its media type and its digest."""
 
 import hashlib
+import logging
 from dataclasses import dataclass
 from importlib import resources
 from importlib.resources.abc import Traversable
+from pathlib import Path
 from typing import Final
 
+_log = logging.getLogger(__name__)
 MEDIA_TYPES: Final = {
     "html": "text/html; charset=utf-8",
     "css": "text/css; charset=utf-8",
@@ -47,6 +50,18 @@ def page_file(name: str) -> PageFile | None:
     found = names().get(name)
     if found is None:
         return None
-    content = found.read_bytes()
-    media_type = MEDIA_TYPES[name.rpartition(".")[2]]
+    return _read(found, MEDIA_TYPES[name.rpartition(".")[2]])
+
+
+def report_file(path: Path | None) -> PageFile | None:
+    """Return the report that the operator names, or None where there is none to read."""
+    try:
+        return None if path is None else _read(path, MEDIA_TYPES["html"])
+    except OSError as error:
+        _log.warning("the report is not shown: %s", error)
+        return None
+
+
+def _read(file: Traversable, media_type: str) -> PageFile:
+    content = file.read_bytes()
     return PageFile(content, media_type, hashlib.sha256(content).hexdigest())

@@ -19,7 +19,13 @@ from jointplay.service.problems import (
     clipped,
     kinds,
 )
-from jointplay.storage.catalogue.errors import JobNotFinished, KeyReused, Unavailable
+from jointplay.storage.catalogue.errors import (
+    Fenced,
+    JobNotFinished,
+    KeyReused,
+    QuotaExceeded,
+    Unavailable,
+)
 
 _log = logging.getLogger(__name__)
 _MOST_ERRORS = 100  # in one document; their count is in its detail
@@ -128,10 +134,20 @@ def _(error: ConnectionError) -> RequestRefused:
 
 
 @refusal.register
+def _(error: Fenced) -> RequestRefused:
+    return RequestRefused(kinds.NOT_HELD, f"A{str(error)[1:]}.")
+
+
+@refusal.register
 def _(error: KeyReused) -> RequestRefused:
     sentence = f"{str(error).capitalize()}."
     errors = [ErrorDetail(parameter="Idempotency-Key", detail=clipped(sentence))]
     return RequestRefused(kinds.KEY_REUSED, sentence, errors)
+
+
+@refusal.register
+def _(error: QuotaExceeded) -> RequestRefused:
+    return RequestRefused(kinds.QUOTA_EXCEEDED, f"{error}.")
 
 
 @refusal.register

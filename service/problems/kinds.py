@@ -163,6 +163,18 @@ RESULTS_NOT_READY = _kind(
     "There are no results yet",
     "Ask again in a moment: results can be read as soon as the job runs and has committed some.",
 )
+NOT_HELD = _kind(
+    "not-held",
+    409,
+    "The attempt does not hold the block",
+    "Another worker has it by now, or the job has ended: drop what was computed, and claim again.",
+)
+OTHER_VERSION = _kind(
+    "other-version",
+    409,
+    "The worker is of another version",
+    "Install the version of jointplay that the problem's `detail` names, and join again.",
+)
 BODY_TOO_LARGE = _kind(
     "body-too-large",
     413,

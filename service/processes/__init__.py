@@ -1,7 +1,6 @@
 """Running the service on one machine: broker, API, relay and workers under one supervisor."""
 
 import json
-import logging
 import os
 import subprocess
 import sys
@@ -47,7 +46,6 @@ def serve(
     StartFailed
         It could not start; `WrongSetting` if other arguments or variables are needed.
     """
-    logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
 
     def announce(url: str) -> None:
         if as_json:

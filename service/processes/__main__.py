@@ -1,7 +1,6 @@
 """The service behind `running_service`: a process that ends with its standard input."""
 
 import argparse
-import logging
 import sys
 from pathlib import Path
 
@@ -16,7 +15,6 @@ def main() -> int:
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--workers", type=int, default=1)
     given = parser.parse_args()
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s")
     pipe = sys.stdin.fileno()
     try:
         serve("127.0.0.1", 0, given.data, given.workers, as_json=True, parent_pipe=pipe)

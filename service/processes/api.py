@@ -7,8 +7,10 @@ import socket
 import uvicorn
 from fastapi import FastAPI
 
+from jointplay.records.log_lines import begin
 from jointplay.service.access.first_key import require_key_beyond_this_machine
 from jointplay.service.memory import keep_no_free_memory
+from jointplay.storage.settings import Settings
 
 LONGEST_HEAD = 256 * 1024
 """Bytes of a request's line and headers: 20 000 characters of a query, each of up to nine bytes."""
@@ -22,6 +24,7 @@ def main() -> None:
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
     arguments = parser.parse_args()
     keep_no_free_memory()
+    begin(Settings().log_format)
     inherited = None if arguments.fd is None else [socket.socket(fileno=arguments.fd)]
     host = inherited[0].getsockname()[0] if inherited else arguments.host
     require_key_beyond_this_machine(host)
@@ -30,7 +33,8 @@ def main() -> None:
         factory=True,
         host=arguments.host,
         port=arguments.port,
-        access_log=False,  # clients poll; the log would say little else
+        access_log=False,  # clients poll; the log would say little else than `request_log` says
+        log_config=None,  # its lines are written as ours are
         limit_concurrency=256,
         timeout_keep_alive=30,
         timeout_graceful_shutdown=5,

@@ -16,6 +16,7 @@ from types import FrameType
 
 from pydantic import ValidationError
 
+from jointplay.records.log_lines import begin
 from jointplay.service.processes.broker import Broker, answers
 from jointplay.service.processes.child import Child, StartFailed, WrongSetting
 from jointplay.service.processes.folder_lock import holding
@@ -65,6 +66,7 @@ class Supervisor:
         StartFailed
             Something could not be started; what had been started is stopped again.
         """
+        begin(self._settings.log_format, logging.WARNING)
         with ExitStack() as stack:
             say = stack.enter_context(holding(self._settings.data))
             wake = stack.enter_context(self._signals())
@@ -101,7 +103,7 @@ class Supervisor:
         for name, arguments, inherited in (
             ("API", api, (listener.fileno(),)),
             ("relay", ["jointplay.worker.relay"], ()),
-            ("worker", worker, ()),
+            *([("worker", worker, ())] if self._workers else []),
         ):
             child = Child(
                 name,

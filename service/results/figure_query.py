@@ -31,10 +31,10 @@ def _field(option: Option) -> tuple[Any, Any]:
         return Literal[option.choices] | None, Field(default=None, description=description)
     if option.is_text:
         return str | None, Field(default=None, max_length=int(option.most), description=description)
+    bounds: dict[str, Any] = {"default": None, "ge": option.least, "le": option.most}
     if option.unit:
-        bounds: dict[str, Any] = {"ge": option.least, "le": option.most}
-        return float | None, in_unit(option.unit, description, default=None, **bounds)
-    return float | None, Field(default=None, allow_inf_nan=False, description=description)
+        return float | None, in_unit(option.unit, description, **bounds)
+    return float | None, Field(description=description, **bounds)
 
 
 PAGE_FIELDS: dict[str, Any] = {name: _field(option) for name, option in OPTIONS.items()}

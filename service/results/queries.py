@@ -67,9 +67,8 @@ class HistoryQuery(Selection):
         default=None,
         ge=1,
         le=MOST_POINTS,
-        description="Pairs of smallest and largest values to show, such as pixels of a screen; "
-        "where a job keeps no steps, a window of no more samples shows these. Default: every "
-        "sample.",
+        description="Pairs of smallest and largest values to show, such as pixels of a screen. "
+        "Default: every sample.",
     )
     step: float | None = in_unit(
         "s", "Time between instants to compute channels at, however close.", default=None, gt=0.0

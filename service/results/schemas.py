@@ -151,8 +151,8 @@ class Statistics(Partial):
     rough_steps: int | None = Field(
         default=None,
         description="Steps in which a channel left its values at both ends by more than 0.003 of"
-        " its range, of those that were looked at for this: one in 256, and 256 after each rough"
-        " one. Where there are many, extremes between the ends of earlier steps may be missed.",
+        " its range, of those that were looked at for this. Where there are many, extremes between"
+        " the ends of others may be missed.",
     )
     smallest_step: float | None = in_unit("s", default=None)
     solver_seconds: float | None = in_unit("s", "Processor time of the solver.", default=None)

@@ -10,6 +10,7 @@ from typing import Annotated, Any, TypeVar
 from fastapi import Depends, Request
 
 from jointplay.service.dependencies import CatalogueDependency, JobOfThePath, SettingsDependency
+from jointplay.service.memory import let_go_when_unused
 from jointplay.service.problems import RequestRefused, kinds
 from jointplay.solver.kinds import KINDS
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -23,7 +24,7 @@ from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
 
-_OPEN_STORES = 64  # a reader of a sealed store holds metadata only, some 100 kB
+_OPEN_STORES = 16  # a reader of a sealed store holds metadata only: 0.9 MB of a hundred channels
 _OPEN_STUDIES = 8  # this one also holds what has one number a point: 20 MB of the largest study
 Reader = TypeVar("Reader", ResultReader, StudyReader)
 
@@ -170,12 +171,14 @@ class ResultsOfJob:
         raise RequestRefused(kinds.NO_RESULTS, sentence)
 
 
+@let_go_when_unused
 @lru_cache(maxsize=_OPEN_STORES)
 def _sealed_run(source: StoredObject, version: str) -> ResultReader:
     """Return a reader to be shared, of one version of an object: another is checked anew."""
     return ResultReader(Packed(source))
 
 
+@let_go_when_unused
 @lru_cache(maxsize=_OPEN_STUDIES)
 def _sealed_study(source: StoredObject, version: str) -> StudyReader:
     return StudyReader(Packed(source))

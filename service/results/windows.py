@@ -19,11 +19,6 @@ from jointplay.service.windows import WindowProcess
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.trajectory import Trajectory
 
-_ROUNDED = (
-    "Computed on another processor, or by another version of the solver, than the run: values may"
-    " differ from its own by rounding."
-)
-
 
 @dataclass(frozen=True)
 class ExactRun:
@@ -48,7 +43,7 @@ class ExactRun:
             complete=self.run.complete,
             time=schemas.Series.of(TIME, values=times),
             channels=series(self.run, columns),
-            note=_ROUNDED if found.rounded else "",
+            note=found.note,
         )
 
     def overview(
@@ -57,7 +52,7 @@ class ExactRun:
         """Return extremes of equal spans of time, or a sentence: why they are not known exactly."""
         check_points(points, len(names))
         first, last = self._window(start, stop)
-        edges = np.linspace(first, last, points + 1) if last > first else np.array([first, last])
+        edges = self.trajectory.edges(first, last, points)
         try:
             found = self.trajectory.extremes(names, edges)
         except RequestRefused as busy:
@@ -70,7 +65,7 @@ class ExactRun:
             bins=bins(np.column_stack([edges[:-1], edges[1:]])),
             extremes=extremes(self.run, names, found.values[:, :, ::2]),
             exact=True,
-            note=_ROUNDED if found.rounded else "",
+            note=found.note,
         )
 
     def peaks(self, start: float | None, stop: float | None) -> dict[str, Peak]:

@@ -1,9 +1,6 @@
 """`python -m jointplay.service.scenes FD`: looks at scenes that it receives, until it is idle."""
 
 import logging
-import sys
-from contextlib import suppress
-from multiprocessing.connection import Connection
 from typing import Any
 
 from jointplay.figures import NotDrawable, Options, render_mechanism
@@ -13,8 +10,9 @@ from jointplay.service.problems import RequestRefused, kinds
 from jointplay.service.problems.handlers import refusal
 from jointplay.service.scenes.findings import branches_of, findings_of
 from jointplay.solver.kinds.assembled import AssembledScene, assembled_scene
+from jointplay.worker.answering import answer_questions
 
-_IDLE = 60.0  # s after which memory is given back
+_IDLE = 60.0  # s
 _log = logging.getLogger(__name__)
 
 
@@ -47,12 +45,5 @@ def _drawing(scene: AssembledScene, form: Form, page: dict[str, Any]) -> bytes:
         raise RequestRefused(kinds.NOT_DRAWABLE, str(error)) from None
 
 
-def main() -> None:
-    """Answer until nobody asks any more."""
-    with Connection(int(sys.argv[1])) as asking, suppress(EOFError, BrokenPipeError):
-        while asking.poll(_IDLE):
-            asking.send(_answer(*asking.recv()))
-
-
 if __name__ == "__main__":
-    main()
+    answer_questions(lambda question: _answer(*question), _IDLE)

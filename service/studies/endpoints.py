@@ -1,4 +1,4 @@
-"""``/v1/jobs/{id}/bifurcation``, ``/sweep``, ``/accuracy`` and ``/poincare``, as they grow."""
+"""``/v1/jobs/{id}/bifurcation``, ``/sweep``, ``/accuracy``, ``/calibration``, ``/poincare``."""
 
 from typing import Annotated
 
@@ -11,6 +11,7 @@ from jointplay.service.results.forms import AS_FILES, JSON, Form
 from jointplay.service.results.schemas import Poincare, as_json
 from jointplay.service.results.stores import ResultsOfThePath, StudyOfThePath
 from jointplay.service.studies import answers, schemas
+from jointplay.service.studies.calibration_schema import Calibration
 from jointplay.service.studies.queries import BifurcationQuery, PoincareQuery, SweepQuery
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 
@@ -47,6 +48,23 @@ def show_accuracy(study: StudyOfThePath) -> Response:
     are those of the machine and the moment.
     """
     return as_json(schemas.Accuracy.model_validate(WorkPrecision.of(study).document()))
+
+
+@router.get("/calibration", response_model=Calibration, dependencies=[NO_PARAMETERS])
+def show_calibration(results: ResultsOfThePath) -> Response:
+    """Return the parameters that were found, how far each is known, and the search's history.
+
+    It is there when the search has ended; the same calibration finds the same.
+    """
+    results.insist("calibration")
+    study = results.study()
+    if 0 in study.documents:
+        return as_json(Calibration.model_validate(study.documents[0]))
+    job = results.job
+    if not job.state.terminal:
+        raise results.not_ready("what it found is there when its search has ended")
+    why = f" {job.error.detail}" if job.error else ""
+    raise RequestRefused(kinds.NO_RESULTS, f"Job {job.id} is {job.state} and found nothing.{why}")
 
 
 @router.get(

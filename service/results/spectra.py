@@ -1,0 +1,75 @@
+"""``/v1/jobs/{id}/spectrum``: power over frequency of a window of time, as its figure shows it."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Response
+from pydantic import Field
+
+from jointplay.figures.kind import NotDrawable, Selection, at_most
+from jointplay.figures.power_density import NOTHING, PowerDensity, aliased, power_density
+from jointplay.figures.quantity import per_hertz
+from jointplay.figures.time_history import MOST_PANELS, declared
+from jointplay.records.channel import Channel, by_name
+from jointplay.service.fields import in_unit
+from jointplay.service.problems import RequestRefused, kinds, problems
+from jointplay.service.results.queries import Selection as SelectionQuery
+from jointplay.service.results.queries import chosen_channels
+from jointplay.service.results.schemas import Described, Partial, Values, as_json
+from jointplay.service.results.windows import ExactRunOfThePath
+
+router = APIRouter(
+    prefix="/v1/jobs/{job_id}", tags=["results"], responses=problems(*kinds.OF_RESULTS)
+)
+
+
+class SpectralDensity(Described):
+    """Power spectral density of one channel less its mean: its area is the variance."""
+
+    frequency: Values = Field(
+        description="Hz, above zero. Of more than 2000, those of the largest and the smallest power"
+        " in each of 1000 columns of a logarithmic axis: frequencies are there twice."
+    )
+    density: Values = Field(description="One-sided, by Welch's method with Hann windows.")
+    band_limit: float = in_unit(
+        "Hz", "Half of the instants a second: what is faster appears below it."
+    )
+
+
+class Spectrum(Partial):
+    """Power spectral densities in a window of time."""
+
+    spectra: dict[str, SpectralDensity]
+    note: str = Field(description="What is to be known of these numbers; mostly empty.")
+
+
+@router.get("/spectrum", response_model=Spectrum)
+def show_spectrum(exact: ExactRunOfThePath, query: Annotated[SelectionQuery, Query()]) -> Response:
+    """Return the power spectral density of channels in a window; default: the declared outputs.
+
+    It is computed of instants 10 us apart or, in windows above 1.3 s, of 131 073 instants, where
+    the run keeps its steps; else of its samples.
+    """
+    run = exact.run
+    run.trajectory = exact.trajectory
+    names = chosen_channels(query.channels, run.channels) if query.channels else []
+    selection = Selection(tuple(names), (), *query.checked())
+    try:
+        chosen = at_most(MOST_PANELS, declared(run, selection))
+        found = {name: power_density(run, name, selection) for name in chosen}
+    except NotDrawable as error:
+        cause = error.cause if error.cause == "start" else "channels"
+        raise RequestRefused.of_parameter(cause, str(error)) from None
+    described = by_name(run.channels)
+    shown = {name: _shown(described[name], one) for name, one in found.items()}
+    nothing = [f"{name}: {NOTHING}." for name, one in found.items() if not len(one.frequency)]
+    rough = aliased(run, chosen, max(one.step for one in found.values()))
+    note = " ".join(filter(None, [rough, *nothing]))
+    return as_json(Spectrum.model_construct(complete=run.complete, spectra=shown, note=note))
+
+
+def _shown(channel: Channel, found: PowerDensity) -> SpectralDensity:
+    frequency, density = found.thinned() if len(found.frequency) else (found.frequency, found.power)
+    shown = SpectralDensity.of(
+        channel, frequency=frequency, density=density, band_limit=found.band_limit
+    )
+    return shown.model_copy(update={"unit": per_hertz(channel.unit)})

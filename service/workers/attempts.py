@@ -1,0 +1,102 @@
+"""``/v1/worker/blocks/{block}/{attempt}``: what a worker says of the block that it holds."""
+
+from typing import Annotated
+
+from fastapi import APIRouter
+
+from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.service.problems import RequestRefused
+from jointplay.service.workers.words import HELD, Attempt, BlockId, HeldBlock, said
+from jointplay.worker.joined import protocol
+from jointplay.worker.joined.protocol import Answered, Finished
+from jointplay.worker.removal import tidy
+
+router = APIRouter(
+    prefix="/v1/worker/blocks/{block}/{attempt}", dependencies=[HELD], include_in_schema=False
+)
+
+
+@router.post("/heartbeat")
+def heartbeat(
+    catalogue: CatalogueDependency, settings: SettingsDependency, block: BlockId, attempt: Attempt
+) -> Answered:
+    """Hold the block longer."""
+    return Answered(verdict=catalogue.heartbeat(block, attempt, settings.lease))
+
+
+@router.post("/progress")
+def record_progress(
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    block: BlockId,
+    attempt: Attempt,
+    told: Annotated[protocol.Progress, said(protocol.Progress)],
+) -> Answered:
+    """Note how far the block is, and hold it longer."""
+    known = told.model_dump()
+    return Answered(verdict=catalogue.record_progress(block, attempt, settings.lease, **known))
+
+
+@router.post("/checkpoint", status_code=204)
+def record_checkpoint(
+    catalogue: CatalogueDependency,
+    block: BlockId,
+    attempt: Attempt,
+    told: Annotated[protocol.Checkpoint, said(protocol.Checkpoint)],
+) -> None:
+    """Name a restart point, whose files are there."""
+    catalogue.record_checkpoint(block, attempt, **told.model_dump())
+
+
+@router.post("/activity", status_code=204)
+def note_activity(
+    catalogue: CatalogueDependency,
+    block: BlockId,
+    attempt: Attempt,
+    told: Annotated[protocol.Activity, said(protocol.Activity)],
+) -> None:
+    """Show what takes long."""
+    catalogue.note_activity(block, attempt, told.activity)
+
+
+@router.post("/release", status_code=204)
+def release(catalogue: CatalogueDependency, block: BlockId, attempt: Attempt) -> None:
+    """Take the block back; it is not a loss."""
+    catalogue.release(block, attempt)
+
+
+@router.post("/put-off", status_code=204)
+def put_off(
+    catalogue: CatalogueDependency,
+    block: BlockId,
+    attempt: Attempt,
+    told: Annotated[protocol.Activity, said(protocol.Activity)],
+) -> None:
+    """Take the block back until a fault of the worker has passed."""
+    catalogue.put_off(block, attempt, told.activity)
+
+
+@router.post("/finish")
+def finish(
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    held: HeldBlock,
+    told: Annotated[protocol.Finish, said(protocol.Finish)],
+) -> Finished:
+    """End the block and, with its last block, the job."""
+    end = catalogue.finish_repeatable if told.repeatable else catalogue.finish
+    try:
+        state = end(
+            held.id,
+            held.attempt,
+            told.outcome,
+            told.error,
+            time=told.time,
+            fraction=told.fraction,
+            steps=told.steps,
+        )
+    except ValueError as error:
+        raise RequestRefused.of_parameter("outcome", f"{error}.") from error
+    if state.terminal:
+        tidy(settings, held)
+    return Finished(state=state)

@@ -1,0 +1,66 @@
+"""``/v1/worker/claims``: a block for a worker that has nothing to do."""
+
+import asyncio
+import time
+from dataclasses import replace
+from importlib.metadata import version
+from typing import Annotated
+
+from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+
+from jointplay.service.access import CallerDependency
+from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.workers.words import own_name, said
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Solver
+from jointplay.worker.joined.protocol import Claimed, ClaimRequest, Customs
+
+router = APIRouter(prefix="/v1/worker", include_in_schema=False)
+_FIRST_PAUSE, _LONGEST_PAUSE = 0.02, 0.5
+"""Seconds between two looks for a block."""
+
+
+@router.post("/claims", response_model=None)
+async def claim_block(
+    request: Request,
+    catalogue: CatalogueDependency,
+    settings: SettingsDependency,
+    caller: CallerDependency,
+    asked: Annotated[ClaimRequest, said(ClaimRequest)],
+) -> Claimed | Response:
+    """Answer with a block as soon as there is one that the worker's solver may compute.
+
+    With 204 if there is none in the time that the worker waits.
+    """
+    _require_same_program(asked.program)
+    worker = own_name(caller, asked.worker)
+    await run_in_threadpool(_begin, catalogue, worker, asked.solver)
+    deadline = time.monotonic() + asked.wait
+    pause = _FIRST_PAUSE
+    while not await request.is_disconnected():
+        arguments = worker, settings.lease, asked.solver
+        claim = await run_in_threadpool(catalogue.claim_next, *arguments)
+        if claim is not None:
+            shown = replace(claim, job=replace(claim.job, owner="", label=None))
+            return Claimed(claim=shown, customs=Customs.of(settings))
+        if time.monotonic() + pause > deadline:
+            break
+        await asyncio.sleep(pause)
+        pause = min(1.5 * pause, _LONGEST_PAUSE)
+    return Response(status_code=204)
+
+
+def _begin(catalogue: Catalogue, worker: str, solver: Solver) -> None:
+    """Note that the worker is there, and take back what it was given without hearing of it."""
+    catalogue.note_worker(worker, solver)
+    for block in catalogue.held_by(worker):
+        catalogue.release(block.id, block.attempt)
+
+
+def _require_same_program(program: str) -> None:
+    own = version("jointplay")
+    if program.partition(".")[0] != own.partition(".")[0]:
+        sentence = f"This service is jointplay {own}, and the worker {program}."
+        raise RequestRefused(kinds.OTHER_VERSION, sentence)

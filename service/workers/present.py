@@ -1,0 +1,54 @@
+"""``/v1/workers``: who computes, and what each one has."""
+
+from fastapi import APIRouter
+from pydantic import BaseModel, Field
+
+from jointplay.service.access import CallerDependency
+from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency
+from jointplay.service.jobs.schemas import Moment
+from jointplay.service.problems import kinds, problems
+
+router = APIRouter(prefix="/v1/workers", tags=["workers"])
+
+
+class BlockAtWork(BaseModel):
+    """A part of a job that a worker is computing."""
+
+    job: str | None = Field(description="Id of the job; null: another owner's.")
+    block: int = Field(ge=0, description="Its place among the blocks of the job, from 0.")
+    attempt: int = Field(ge=1, description="Counts from 1.")
+    since: Moment
+
+
+class Worker(BaseModel):
+    """One process that computes blocks of jobs."""
+
+    name: str = Field(description="Of its machine and process, as events of jobs have it.")
+    version: str = Field(description="Version of its solver; jobs keep to the one they began with.")
+    processor: str = Field(description="Class of the processor that it compiles for.")
+    seen: Moment = Field(description="When it was heard of last.")
+    blocks: list[BlockAtWork]
+
+
+class Workers(BaseModel):
+    """Workers that were heard of in the last minute, by name."""
+
+    workers: list[Worker]
+
+
+@router.get("", dependencies=[NO_PARAMETERS], responses=problems(kinds.INVALID_REQUEST))
+def list_workers(catalogue: CatalogueDependency, caller: CallerDependency) -> Workers:
+    """List the workers that are alive; none: what is queued waits until one is started."""
+    found = []
+    for one in catalogue.workers_at_work():
+        blocks = [
+            {
+                "job": held.job if caller.sees(held.owner) else None,
+                "block": held.index,
+                "attempt": held.attempt,
+                "since": held.since,
+            }
+            for held in one.blocks
+        ]
+        found.append(Worker.model_validate(vars(one) | {"blocks": blocks}))
+    return Workers(workers=found)
