@@ -14,7 +14,9 @@ from typing import Any, Final, NamedTuple
 
 from jointplay.figures import page, saving, scene_facts, study_facts
 from jointplay.figures.adjustment import drawn
+from jointplay.figures.animation import ANIMATION, Pace, film
 from jointplay.figures.bifurcation import BIFURCATION
+from jointplay.figures.calibration import CALIBRATION
 from jointplay.figures.certificate import CERTIFICATE
 from jointplay.figures.contact_force import CONTACT_FORCE
 from jointplay.figures.energy import ENERGY
@@ -58,12 +60,14 @@ __all__ = [
     "Listed",
     "NotDrawable",
     "Options",
+    "Pace",
     "Selection",
     "UnknownFigure",
     "available",
     "chosen_options",
     "draw",
     "draw_mechanism",
+    "film",
     "is_study",
     "render",
     "render_mechanism",
@@ -80,6 +84,7 @@ ROSTER: Final[dict[str, RunFigure]] = {
         PHASE_PORTRAIT,
         SPECTRUM,
         MECHANISM,
+        ANIMATION,
         TIME_HISTORY,
         XY,
         FORCE_ROSE,
@@ -91,7 +96,8 @@ ROSTER: Final[dict[str, RunFigure]] = {
 }
 """Figures of one run, in the order of lists."""
 STUDY_ROSTER: Final[dict[str, StudyFigure]] = {
-    figure.name: figure for figure in (BIFURCATION, EXPONENTS, SWEEP, SECTION, WORK_PRECISION)
+    figure.name: figure
+    for figure in (BIFURCATION, EXPONENTS, SWEEP, SECTION, WORK_PRECISION, CALIBRATION)
 }
 """Figures of a study."""
 
@@ -171,7 +177,8 @@ def render(
     options: Options | None = None,
 ) -> bytes:
     """Draw a figure and give the bytes of a file; errors as for `draw`."""
-    with page.style():
+    options = options or Options()
+    with page.style(options.font, options.font_size):
         return saving.save(draw(source, name, selection, options), form)
 
 

@@ -4,6 +4,8 @@ import math
 from collections.abc import Callable
 from typing import Literal
 
+import numpy as np
+
 from jointplay.figures import log_axis, page
 from jointplay.figures.kind import NotDrawable
 from jointplay.figures.options import Options
@@ -15,6 +17,7 @@ _MARGIN = 0.02
 """White beside values, in their span."""
 _ROUNDING = 1e-9
 """A span of an axis below this, in the unit shown or in its values, is rounding."""
+_LONGEST = 1000  # axis of a panel that is drawn to scale, as a multiple of the other
 _MILLIMETRES_AN_INCH = 25.4
 
 
@@ -27,7 +30,7 @@ def drawn(draw: Callable[[], page.Figure], options: Options | None = None) -> pa
         As `adjust`.
     """
     options = options or Options()
-    with page.style(), showing(options.shown_units):
+    with page.style(options.font, options.font_size), showing(options.shown_units):
         figure = draw()
         adjust(figure, options)
     return figure
@@ -57,6 +60,7 @@ def adjust(figure: page.Figure, options: Options) -> None:
                 _rescale(axes, which, scale)
             if ends != (None, None):
                 _limit(axes, which, *ends)
+                _insist_on_proportions(axes, named)
     for axes in panels:
         if axes.name != "polar":
             _flatten_rounding(axes)
@@ -123,6 +127,14 @@ def _limit(axes: page.Axes, which: str, low: float | None, high: float | None) -
         log_axis.number(axis)
 
 
+def _insist_on_proportions(axes: page.Axes, option: str) -> None:
+    """Refuse ends with which a panel that is drawn to scale would be a line."""
+    narrow, wide = sorted(float(np.ptp(ends)) for ends in (axes.get_xlim(), axes.get_ylim()))
+    if axes.get_aspect() != "auto" and wide > _LONGEST * narrow:
+        sentence = f"This figure is drawn to scale; one axis would be {_LONGEST} times the other."
+        raise NotDrawable(sentence, option)
+
+
 def _flatten_rounding(axes: page.Axes) -> None:
     """Widen axes whose values differ by rounding only, so that they show a constant as one."""
     for which in ("x", "y"):
@@ -150,9 +162,9 @@ def _resize(figure: page.Figure, options: Options) -> None:
 def _entitle(figure: page.Figure, title: str) -> None:
     """Write a title above everything, on a page that is higher by it."""
     width, height = figure.get_size_inches()
-    figure.set_size_inches(width, height + _TITLE_HEIGHT / _MILLIMETRES_AN_INCH)
+    figure.set_size_inches(width, height + page.in_font(_TITLE_HEIGHT) / _MILLIMETRES_AN_INCH)
     if figure.legends:  # the layout leaves room for one thing above the panels
         figure.legends[0].set_title(title)
-        figure.legends[0].get_title().set_fontsize(_TITLE_SIZE)
+        figure.legends[0].get_title().set_fontsize(page.in_font(_TITLE_SIZE))
     else:
-        figure.suptitle(title, fontsize=_TITLE_SIZE)
+        figure.suptitle(title, fontsize=page.in_font(_TITLE_SIZE))

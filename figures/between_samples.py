@@ -23,13 +23,16 @@ def curve(source: Source, name: str, selection: Selection) -> tuple[Floats, Floa
     trajectory, (start, stop) = source.trajectory, ends(source, selection)
     if trajectory is None or not start < stop:
         return None
-    found = trajectory.extremes([name], np.linspace(start, stop, SPANS + 1))
-    outer = trajectory.values([name], np.array([start, stop]))
-    if found.values is None or outer.values is None:
+    found = trajectory.extremes([name], trajectory.edges(start, stop, SPANS))
+    if found.values is None:
         return None
     rows = found.values[:, 0]
-    time = np.concatenate([[start], rows[:, 1], rows[:, 3], [stop]])
-    values = np.concatenate([outer.values[:1, 0], rows[:, 0], rows[:, 2], outer.values[1:, 0]])
+    time = np.concatenate([rows[:, 1], rows[:, 3]])
+    values = np.concatenate([rows[:, 0], rows[:, 2]])
+    outer = trajectory.values([name], np.array([start, stop]))
+    if outer.values is not None:
+        time = np.concatenate([[start], time, [stop]])
+        values = np.concatenate([outer.values[:1, 0], values, outer.values[1:, 0]])
     order = np.argsort(time, kind="stable")
     return time[order], values[order]
 

@@ -15,6 +15,8 @@ _MOST_JOINTS: Final = 4
 _PANEL_HEIGHT: Final = 48.0  # mm
 _BETWEEN: Final = 22.5 + 45.0 * np.arange(8)
 """Directions [deg] in which numbers of forces may stand, between two that are named."""
+_OUTERMOST: Final = 0.8
+"""Radius of the last number, of the rim's: beyond it would stand among the directions."""
 _AROUND: Final = 20.0
 """Degrees to either side that a number covers."""
 _CAPTION: Final = (
@@ -54,8 +56,9 @@ def _rose(axes: page.Axes, edges: Floats, forces: Floats, quantity: str, colour:
         edges[:-1], forces / newtons.factor, np.diff(edges), align="edge", color=colour, linewidth=0
     )
     axes.set_xticks(np.arange(8) * np.pi / 4.0)
-    numbers = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(0.0, axes.get_ylim()[1])
-    axes.set_yticks([one for one in numbers if 0.0 < one <= axes.get_ylim()[1]])
+    rim = axes.get_ylim()[1]
+    numbers = MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(0.0, rim)
+    axes.set_yticks([one for one in numbers if 0.0 < one <= _OUTERMOST * rim])
     axes.set_rlabel_position(_emptiest(edges, forces))  # type: ignore[attr-defined]  # of polar axes
     axes.tick_params(pad=-1.0)
     axes.grid(linewidth=0.3)

@@ -98,19 +98,19 @@ def _loop(axes: page.Axes, pair: str, contact: Any, depth: Floats, force: Floats
     x, y = depth / metres.factor, force / newtons.factor
     turn = int(np.argmax(depth))
     look: page.Look = {"color": colours.COMPUTED, "rasterized": len(x) > page.MOST_VECTOR_MARKS}
-    axes.fill(x, y, **look | {"color": colours.UNKNOWN}, linewidth=0.0, zorder=0.5, label="taken")
+    axes.fill(
+        x, y, **look | {"color": colours.UNKNOWN}, linewidth=0.0, zorder=0.5, label="dissipated"
+    )
     axes.plot(x[: turn + 1], y[: turn + 1], label="loading", **look)
     axes.plot(x[turn:], y[turn:], linestyle="--", label="unloading", **look)
     axes.set_xlabel(metres.label("penetration"))
     axes.set_ylabel(newtons.label("normal force"))
     axes.set_xlim(left=min(0.0, float(x.min())))
     axes.set_ylim(bottom=0.0)
-    taken = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(depth)))
-    joules = scale("J", np.array([taken]))
-    page.corner_text(
-        axes,
-        f"{pair} at {contact['onset']:.6g} s\n{taken / joules.factor:.3g} {joules.unit} taken",
-    )
+    energy = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(depth)))
+    joules = scale("J", np.array([energy]))
+    lost = f"{energy / joules.factor:.3g} {joules.unit} dissipated"
+    page.corner_text(axes, f"{pair} at {contact['onset']:.6g} s\n{lost}")
 
 
 IMPACT_LOOP = RunFigure(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from jointplay.figures import page
-from jointplay.records.channel_choice import choose
+from jointplay.records.channel_choice import choose_in_turn
 from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
@@ -133,7 +133,7 @@ def select(
     source
         The results.
     channels
-        Names or globs; all that the figure is about if empty.
+        Names or globs, drawn in this order; all that the figure is about if empty.
     joints, start, stop
         As in `Selection`.
 
@@ -144,5 +144,5 @@ def select(
     """
     offered = (*source.observables, *source.channels) if is_study(source) else source.channels
     known = [channel.name for channel in offered]
-    chosen = choose(",".join(channels), known) if channels else ()
+    chosen = choose_in_turn(",".join(channels), known) if channels else ()
     return Selection(tuple(chosen), tuple(joints), start, stop)

@@ -14,7 +14,7 @@ MOST_MARKS: Final = 100_000
 """Most marks of a colour; of more, those that lie within half a dot of each other become one."""
 _DOTS: Final = 2000
 _BLOCK: Final = 1_000_000
-_LARGEST, _SMALLEST = 1.6, 0.4  # diameter, points
+_LARGEST, _SMALLEST = 2.5, 0.4  # diameter, points
 
 
 def sections(source: StudySource, observable: str, points: slice) -> Floats:

@@ -1,32 +1,18 @@
 """The mechanism at a pose: bodies with their points, joints, and which of them have clearance."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from jointplay.figures import page, sampling, saving, scene_facts
 from jointplay.figures.adjustment import drawn
 from jointplay.figures.kind import NotDrawable, RunFigure, Selection
-from jointplay.figures.mechanism_cams import cam_curves, draw_cams
-from jointplay.figures.mechanism_elements import (
-    circles,
-    draw_elements,
-    draw_wheels,
-    elements,
-    wheels,
-)
-from jointplay.figures.mechanism_geometry import Pose, geometry
+from jointplay.figures.mechanism_geometry import Pose
 from jointplay.figures.mechanism_labels import draw_labels
-from jointplay.figures.mechanism_marks import draw_bodies, draw_gravity, draw_joints, draw_rails
+from jointplay.figures.mechanism_marks import draw_gravity
+from jointplay.figures.mechanism_scene import View, draw_placed, place
 from jointplay.figures.options import Options
-from jointplay.figures.quantity import scale
 from jointplay.records.figure_form import Form
 from jointplay.records.run import Source
-
-_MARGIN = 0.1
-"""White around the mechanism, in its largest extent."""
-_LEAST_HEIGHT, _MOST_HEIGHT = 45.0, 90.0  # mm
-_FRAME_WIDTH, _FRAME_HEIGHT = 12.0, 16.0  # mm that axes labels and the legend take
 
 
 def draw_mechanism(
@@ -57,41 +43,20 @@ def render_mechanism(
     scene: Mapping[str, Any], pose: Pose, form: Form, options: Options | None = None
 ) -> bytes:
     """Draw a scene at a pose and give the bytes of a file."""
-    with page.style():
+    options = options or Options()
+    with page.style(options.font, options.font_size):
         return saving.save(draw_mechanism(scene, pose, options), form)
 
 
 def _draw(scene: Mapping[str, Any], pose: Pose) -> page.Figure:
-    shape, curves, gears = geometry(scene, pose), cam_curves(scene, pose), wheels(scene, pose)
-    wide = [curve for pair in curves for curve in pair] + [c for g in gears for c in circles(g)]
-    more = [(x, y) for curve in wide for x, y in curve.T.tolist()]
-    shape = replace(shape, fixed_points=(*shape.fixed_points, *more))
-    (left, right), (low, high) = shape.extent
-    metres = scale("m", shape.corners)
-    margin = _MARGIN * max(right - left, high - low)
-    width, height = right - left + 2.0 * margin, high - low + 2.0 * margin
-    frame = page.COLUMN_WIDTH - _FRAME_WIDTH
-    height = max(height, width * (_LEAST_HEIGHT - _FRAME_HEIGHT) / frame)
-    width = max(width, height * frame / (_MOST_HEIGHT - _FRAME_HEIGHT))
-    figure, ((axes,),) = page.panels(1, 1, frame * height / width + _FRAME_HEIGHT)
-    axes.set_aspect("equal")
-    axes.locator_params(nbins=6)
-    for set_limits, middle, span in (
-        (axes.set_xlim, (left + right) / 2.0, width),
-        (axes.set_ylim, (low + high) / 2.0, height),
-    ):
-        set_limits((middle - span / 2.0) / metres.factor, (middle + span / 2.0) / metres.factor)
-    draw_rails(axes, shape, metres.factor)
-    draw_cams(axes, curves, metres.factor)
-    draw_wheels(axes, gears, metres.factor)
-    draw_bodies(axes, shape, metres.factor)
-    draw_joints(axes, shape, metres.factor)
-    draw_elements(axes, elements(scene, pose), shape.size, metres.factor)
-    points = frame * 72.0 / 25.4  # of a printer
-    draw_labels(axes, shape, metres.factor, points / width)
-    draw_gravity(axes, shape)
-    axes.set_xlabel(metres.label("x"))
-    axes.set_ylabel(metres.label("y"))
+    placed = place(scene, pose)
+    view = View.of(placed)
+    figure, ((axes,),) = page.panels(1, 1, view.page_height)
+    view.frame(axes)
+    metre = view.metres.factor
+    draw_placed(axes, placed, metre)
+    draw_labels(axes, placed.shape, metre, view.points_a_metre)
+    draw_gravity(axes, placed.shape)
     page.legend(figure, axes)
     return figure
 

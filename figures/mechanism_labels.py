@@ -56,7 +56,7 @@ class _Place:
     def box(self, text: str, points_per_metre: float) -> _Box:
         """Left, low, right and high edge of the text [points], estimated."""
         horizontal, vertical = self.alignment
-        width, height = _LETTER_WIDTH * len(text), 1.2 * _SIZE
+        width, height = page.in_font(_LETTER_WIDTH) * len(text), page.in_font(1.2 * _SIZE)
         x = self.point[0] * points_per_metre + self.apart * math.cos(self.angle)
         y = self.point[1] * points_per_metre + self.apart * math.sin(self.angle)
         left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[horizontal] * width
@@ -95,7 +95,7 @@ def draw_labels(axes: page.Axes, shape: Geometry, metre: float, points_per_metre
             textcoords="offset points",
             ha=horizontal,
             va=vertical,
-            fontsize=_SIZE,
+            fontsize=page.in_font(_SIZE),
             zorder=6,
             **look,
         )

@@ -26,6 +26,10 @@ class Options:
         Text above the panels.
     units
         Units to show, separated by commas, where an axis has such a quantity.
+    font
+        Family of the letters: "sans-serif", "serif" or "monospace".
+    font_size
+        Of the labels of axes [pt]; numbers, legends and captions are in proportion to it.
 
     Raises
     ------
@@ -43,6 +47,8 @@ class Options:
     y_scale: str | None = None
     title: str | None = None
     units: str | None = None
+    font: str | None = None
+    font_size: float | None = None
 
     def __post_init__(self) -> None:
         """Check every value."""
@@ -82,9 +88,9 @@ def chosen_options(given: Mapping[str, Any]) -> Options:
 def _check(name: str, option: Option, value: Any) -> None:
     if option.choices:
         if value not in option.choices:
-            raise NotDrawable(
-                f"The option {name} is {value!r}; it is {' or '.join(option.choices)}.", name
-            )
+            *others, last = option.choices
+            allowed = f"{', '.join(others)} or {last}"
+            raise NotDrawable(f"The option {name} is {value!r}; it is {allowed}.", name)
     elif option.is_text:
         if not isinstance(value, str) or len(value) > option.most or not value.isprintable():
             raise NotDrawable(
@@ -93,8 +99,9 @@ def _check(name: str, option: Option, value: Any) -> None:
     elif isinstance(value, str | bool) or not math.isfinite(value):
         raise NotDrawable(f"The option {name} is {value!r}; it is a number.", name)
     elif not option.least <= value <= option.most:
+        unit = f" {option.unit}".rstrip()
         raise NotDrawable(
-            f"The option {name} is {value:g} {option.unit}; it lies between {option.least:g} and"
-            f" {option.most:g} {option.unit}.",
+            f"The option {name} is {value:g}{unit}; it lies between {option.least:g} and"
+            f" {option.most:g}{unit}.",
             name,
         )

@@ -38,7 +38,8 @@ def draw_overlay(
     options
         Of its page.
     """
-    with page.style():
+    options = options or Options()
+    with page.style(options.font, options.font_size):
         return saving.save(drawn(lambda: _draw(panels), options), form)
 
 

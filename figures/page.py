@@ -47,19 +47,54 @@ _LONGEST_LABEL: Final = 20
 _CAPTION_WIDTH: Final = 76
 """Letters in a line of a caption."""
 _MILLIMETRES_AN_INCH: Final = 25.4
+_TYPEFACES: Final = {
+    "sans-serif": "DejaVu Sans",
+    "serif": "DejaVu Serif",
+    "monospace": "DejaVu Sans Mono",
+}
+"""Typefaces that come with matplotlib: the same everywhere."""
+_WIDER: Final = {"DejaVu Serif": 1.05, "DejaVu Sans Mono": 1.2}
+"""Widths of letters, as multiples of those of the style sheet's typeface."""
+_SIZES: Final = (
+    *("font.size", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize"),
+)
 _STYLE: Final = Path(__file__).with_name("journal.mplstyle")
 _lock: Final = RLock()
 
 
 @contextmanager
-def style() -> Iterator[None]:
-    """Draw and save in our style; one thread at a time, since matplotlib's settings are global."""
+def style(font: str | None = None, font_size: float | None = None) -> Iterator[None]:
+    """Draw and save in our style; one thread at a time, since matplotlib's settings are global.
+
+    Parameters
+    ----------
+    font, font_size
+        As in `Options`; None for those of the style sheet.
+    """
     import matplotlib as mpl
 
     with _lock, mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(_settings())
+        if font is not None:
+            mpl.rcParams["font.family"] = _TYPEFACES[font]
+        if font_size is not None:
+            mpl.rcParams.update(_sizes(font_size))
         yield
+
+
+def in_font(size: float) -> float:
+    """Return what is `size` long at the style sheet's size of letters at the present one."""
+    import matplotlib as mpl
+
+    ratio: float = mpl.rcParams["font.size"] / _settings()["font.size"]
+    return size * ratio
+
+
+def _sizes(font_size: float) -> Any:
+    """Return sizes of letters in the style sheet's proportions, as matplotlib's settings."""
+    own = _settings()
+    return {name: font_size * (own[name] / own["font.size"]) for name in _SIZES}
 
 
 @cache
@@ -80,14 +115,14 @@ def panels(
     row_heights: Sequence[float] | None = None,
     projection: Literal["polar"] | None = None,
 ) -> tuple[Figure, Panels]:
-    """Make a figure of column width and this height [mm].
+    """Make a figure of column width, or as wide as larger letters need, and this height [mm].
 
     `share_x`, `share_y` and `projection` are matplotlib's; `row_heights` are relative, by default
     all the same.
     """
     from matplotlib.figure import Figure as NewFigure
 
-    size = (COLUMN_WIDTH / _MILLIMETRES_AN_INCH, height / _MILLIMETRES_AN_INCH)
+    size = (_width() / _MILLIMETRES_AN_INCH, height / _MILLIMETRES_AN_INCH)
     figure = NewFigure(figsize=size, layout="constrained")
     grid = figure.subplots(
         rows,
@@ -101,11 +136,20 @@ def panels(
     return figure, [list(row) for row in grid]
 
 
+def _width() -> float:
+    """Return the width of a page [mm] on which captions and legends have room."""
+    import matplotlib as mpl
+
+    (typeface,) = mpl.rcParams["font.family"]
+    return COLUMN_WIDTH * max(in_font(_WIDER.get(typeface, 1.0)), 1.0)
+
+
 def stack(
     heights: Sequence[float], legend_rows: int = 0, caption_height: float = 0.0
 ) -> tuple[Figure, list[Axes]]:
     """Make panels of these heights [mm] below one another, over the same horizontal axis."""
-    height = sum(heights) + AXIS_HEIGHT + LEGEND_HEIGHT * legend_rows + caption_height
+    words = in_font(AXIS_HEIGHT + LEGEND_HEIGHT * legend_rows)
+    height = sum(heights) + words + caption_height
     figure, grid = panels(len(heights), 1, height, share_x=True, row_heights=heights)
     return figure, [row[0] for row in grid]
 
@@ -139,7 +183,7 @@ def in_columns(
 
 def corner_text(axes: Axes, text: str) -> None:
     """Name a panel above its upper left corner."""
-    axes.set_title(text, loc="left", fontsize=7.0, pad=2.5)
+    axes.set_title(text, loc="left", fontsize=in_font(7.0), pad=2.5)
 
 
 def in_two_lines(label: str) -> str:
@@ -194,14 +238,14 @@ def legend_of_marks(figure: Figure, entries: Mapping[str, tuple[str, str]]) -> N
 
 def caption_height(sentence: str) -> float:
     """Return the height of a caption [mm]; 0 of none."""
-    return CAPTION_LINE * len(_caption_lines(sentence))
+    return in_font(CAPTION_LINE) * len(_caption_lines(sentence))
 
 
 def caption(figure: Figure, sentence: str) -> None:
     """Write a sentence below the panels."""
     if sentence:
         text = "\n".join(_caption_lines(sentence))
-        figure.supxlabel(text, x=0.01, ha="left", fontsize=6.0)
+        figure.supxlabel(text, x=0.01, ha="left", fontsize=in_font(6.0))
 
 
 def _caption_lines(sentence: str) -> list[str]:

@@ -16,7 +16,7 @@ _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6
 _SCALABLE = re.compile(r"m|s|N|J|W|N m|N s|m/s|m/s\^2|rad|rad/s")
 _NEVER_LARGER = re.compile(r"(m|s|rad)(/s(\^2)?)?")  # no mechanism is measured in kilometres
 _NEVER_SMALLER = re.compile(r"rad(/s)?")
-"""Of angles a thousandth is the finest that is read; beyond are powers of ten."""
+"""Angles are read to a thousandth at the finest; beyond are powers of ten."""
 _OTHER: Final = {
     "deg": ("rad", math.pi / 180.0),
     "deg/s": ("rad/s", math.pi / 180.0),

@@ -43,7 +43,7 @@ def chosen_joints(source: Source, selection: Selection) -> dict[str, float]:
     joints = scene(source).get("joints", {})
     found = clearances(scene(source))
     known = {name: play for name, play in found.items() if joints[name]["type"] == "revolute"}
-    _check_joints(known, selection)
+    check_joints(known, selection)
     return {name: known[name] for name in selection.joints or known}
 
 
@@ -56,12 +56,19 @@ def chosen_pairs(source: Source, selection: Selection) -> list[str]:
         There is none, or one was asked for that has no clearance.
     """
     owners = (pair.partition(".")[0] for pair in source.joints)
-    _check_joints(list(dict.fromkeys([*owners, *source.joints])), selection)
+    check_joints(list(dict.fromkeys([*owners, *source.joints])), selection)
     chosen = selection.joints or source.joints
     return [pair for name in chosen for pair in source.joints if f"{pair}.".startswith(f"{name}.")]
 
 
-def _check_joints(known: Collection[str], selection: Selection) -> None:
+def check_joints(known: Collection[str], selection: Selection) -> None:
+    """Refuse chosen joints that are not among the known ones with clearance, or if there is none.
+
+    Raises
+    ------
+    NotDrawable
+        As that says.
+    """
     if not known:
         raise NotDrawable("This figure needs a joint with clearance, and the scene has none.")
     for name in selection.joints:

@@ -11,6 +11,8 @@ from jointplay.records.study import StudySource
 _MOST_PANELS = 8
 _INTERVALS = 8
 """Intervals of the axis of a panel as wide as the page: its numbers stand apart."""
+_MARGIN = 0.08
+"""White beside the marks, in their span: a few of them may be at its ends alone."""
 _PANEL_HEIGHT = 40.0  # mm
 _SINGLE_HEIGHT = 65.0
 
@@ -79,6 +81,7 @@ def _scatter(
     for group in groups:
         x, y = (one[group.members[points]].ravel() for one in values)
         marks.draw_cloud(axes, x / across.factor, y / up.factor, group.colour, size)
+    axes.margins(_MARGIN)
     axes.set_xlabel(across.label(_short(pair[0])))
     axes.set_ylabel(up.label(_short(pair[1])))
     owners = {name.rpartition(".")[0] for name in pair}

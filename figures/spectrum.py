@@ -1,59 +1,42 @@
 """Power spectra of channels: lines where the motion is regular, a continuum where it is chaotic."""
 
-from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
-
-from jointplay.figures import between_samples, colours, log_axis, page, sampling, scene_facts
+from jointplay.figures import colours, log_axis, page, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
+from jointplay.figures.power_density import NOTHING, aliased, driving_frequency, power_density
 from jointplay.figures.quantity import per_hertz
 from jointplay.figures.time_history import declared
-from jointplay.records.arrays import Floats
 from jointplay.records.run import Source
 
-_FEWEST_SAMPLES: Final = 32
-_MOST_SAMPLES: Final = 2**20
-"""Most samples: of a longer window its end is taken, where transients are over."""
-_APART: Final = 1e-5
-"""Seconds between instants of a trajectory that is known between samples, unless they are"""
-_MOST_INSTANTS: Final = 2**17
-"""more than so many."""
-_RESOLVED: Final = 2e-5
-"""Seconds between instants that resolve an impact."""
-_PERIODS: Final = 8
-"""Periods of the drivers in one segment: their lines are four steps of resolution apart."""
-_MOST_SEGMENTS: Final = 15
 _DECADES: Final = 12
 """Shown below the strongest power: what lies deeper is rounding."""
-_COLUMNS: Final = 1000
-"""Columns of the page on a logarithmic axis: each shows its largest and smallest power."""
-_NOTHING: Final = "fewer than 32 samples, or no change"
-_ROUGH: Final = ("N", "N m", "m/s^2", "rad/s^2")
-"""Units of channels that impacts change within microseconds."""
+_MARGIN: Final = 0.9
+"""Left end of the axis, in lowest frequencies: the drivers' may be the lowest."""
 _PANEL_HEIGHT: Final = 34.0  # mm
 
 
 def _draw(source: Source, selection: Selection) -> page.Figure:
     names = declared(source, selection)
-    drive = _driving_frequency(source)
-    samples = [_samples(source, name, selection) for name in names]
-    spectra = [_spectrum(*one, drive) for one in samples]
-    marked = any(len(one) and one[0] <= drive <= one[-1] for one, _ in spectra)
-    note = _aliased(source, names, max(step for _, step in samples))
+    drive = driving_frequency(source)
+    spectra = [power_density(source, name, selection) for name in names]
+    found = [one.frequency for one in spectra]
+    marked = any(len(one) and one[0] <= drive <= one[-1] for one in found)
+    note = aliased(source, names, max(one.step for one in spectra))
     figure, panels = page.stack([_PANEL_HEIGHT] * len(names), marked, page.caption_height(note))
     page.caption(figure, note)
-    for axes, name, (frequency, power) in zip(panels, names, spectra, strict=True):
+    for axes, name, spectrum in zip(panels, names, spectra, strict=True):
         unit = scene_facts.channel(source, name).unit
         axes.set_ylabel(f"{name}\n[{per_hertz(unit)}]")
+        frequency, power = spectrum.frequency, spectrum.power
         if not len(frequency):
-            axes.text(0.5, 0.5, _NOTHING, transform=axes.transAxes, ha="center", va="center")
+            axes.text(0.5, 0.5, NOTHING, transform=axes.transAxes, ha="center", va="center")
             axes.set_yticks([])
             continue
-        axes.loglog(*_thinned(frequency, power), color=colours.COMPUTED, linewidth=0.6)
+        axes.loglog(*spectrum.thinned(), color=colours.COMPUTED, linewidth=0.6)
         top = float(power.max())
         axes.set_ylim(max(top * 10.0**-_DECADES, float(power.min()) / 3.0), 3.0 * top)
-        axes.set_xlim(frequency[0], frequency[-1])
+        axes.set_xlim(_MARGIN * frequency[0], frequency[-1])
         if marked:
             look: page.Look = {"color": colours.MARKED, "linewidth": 0.7, "linestyle": (0, (4, 3))}
             axes.axvline(drive, zorder=1.5, label="once a period of the drivers", **look)
@@ -62,74 +45,6 @@ def _draw(source: Source, selection: Selection) -> page.Figure:
     explained = next(axes for axes in panels if axes.lines) if marked else None
     page.finish_stack(figure, panels, "frequency [Hz]", explained)
     return figure
-
-
-def _aliased(source: Source, names: Sequence[str], step: float) -> str:
-    """Say what samples make of forces and accelerations, which jump in less than a step."""
-    if all(scene_facts.channel(source, name).unit not in _ROUGH for name in names):
-        return ""
-    if between_samples.knows(source) and step <= _RESOLVED:
-        return ""
-    return (
-        "Forces and accelerations change faster than their samples: what lies above the highest"
-        " frequency appears below it. A smaller output_step shows how much that is."
-    )
-
-
-def _driving_frequency(source: Source) -> float:
-    period = source.attributes.get("period") or 0.0
-    return 1.0 / period if period > 0.0 else 0.0
-
-
-def _samples(source: Source, name: str, selection: Selection) -> tuple[Floats, float]:
-    """Give (n,) values that are equally far apart, and how far [s]."""
-    first, last = sampling.window(source, selection)
-    start, stop = between_samples.ends(source, selection)
-    if between_samples.knows(source) and stop > start:
-        count = int(np.clip((stop - start) / _APART, _FEWEST_SAMPLES, _MOST_INSTANTS)) + 1
-        exact = between_samples.at(source, [name], np.linspace(start, stop, count))
-        if exact is not None:
-            return exact[1][name], (stop - start) / (count - 1)
-    time, columns = sampling.joined(source, [name], max(first, last - _MOST_SAMPLES), last)
-    values = columns[name]
-    missing = np.flatnonzero(~np.isfinite(values))
-    known = int(missing[0]) if len(missing) else len(values)
-    if known > 2 and time[known - 1] - time[known - 2] < 0.99 * (time[1] - time[0]):
-        known -= 1  # the end of the run, between two output steps
-    step = float(time[known - 1] - time[0]) / (known - 1) if known > 1 else 0.0
-    return values[:known], step
-
-
-def _spectrum(values: Floats, step: float, drive: float) -> tuple[Floats, Floats]:
-    """Give (m,) frequencies above zero [Hz] and power spectral density [unit^2/Hz].
-
-    Welch's average over half-overlapping Hann windows, as many as leave `_PERIODS` of the drivers
-    in each; its sum over frequency is the variance. m = 0 where there is nothing to be seen.
-    Importing SciPy's takes longer than drawing the figure.
-    """
-    if len(values) < _FEWEST_SAMPLES or np.ptp(values) == 0.0:
-        return np.empty(0), np.empty(0)
-    apart = drive * step * len(values) / _PERIODS  # without drivers 0: one window, sharp lines
-    segments = int(np.clip(2.0 * apart - 1.0, 1, min(_MOST_SEGMENTS, len(values) // 16)))
-    length = 2 * len(values) // (segments + 1)
-    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
-    pieces = np.lib.stride_tricks.sliding_window_view(values, length)[:: length - length // 2]
-    parts = np.fft.rfft(window * (pieces - pieces.mean(axis=1, keepdims=True)))
-    power = (np.abs(parts) ** 2).mean(axis=0) * (2.0 * step / float((window**2).sum()))
-    if length % 2 == 0:
-        power[-1] *= 0.5  # half the sampling frequency has no twin below zero
-    frequency = np.fft.rfftfreq(length, step)
-    return np.asarray(frequency[1:], np.float64), np.asarray(power[1:], np.float64)
-
-
-def _thinned(frequency: Floats, power: Floats) -> tuple[Floats, Floats]:
-    """Keep the largest and the smallest power of each column of the page."""
-    column = np.floor(_COLUMNS * np.log(frequency / frequency[0]) / np.log(len(frequency)))
-    starts = np.flatnonzero(np.diff(column, prepend=-1.0))
-    if 2 * len(starts) >= len(frequency):
-        return frequency, power
-    extremes = [np.minimum.reduceat(power, starts), np.maximum.reduceat(power, starts)]
-    return np.repeat(frequency[starts], 2), np.column_stack(extremes).ravel()
 
 
 SPECTRUM = RunFigure(

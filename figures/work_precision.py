@@ -9,8 +9,8 @@ from jointplay.records.study import StudySource
 
 _PANEL_HEIGHT = 55.0  # mm
 _LEGEND_COLUMNS = 3  # names of methods are long
-_MOST_ASTRAY = 0.05
-"""Share of energy astray beyond which methods are refused."""
+_MOST_RESIDUAL = 0.05
+"""Residual of the energy, as a share of the losses, beyond which methods are refused."""
 
 
 def _channels(source: StudySource, selection: Selection) -> tuple[str, ...]:
@@ -28,9 +28,10 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         raise NotDrawable("No run has been compared with the reference yet.")
     admitted = np.array([run["admitted"] for run in runs])
     cost = _column(source, "evaluations")
-    drawn = {"error": errors, "energy astray / losses": _column(source, "astray")}
-    if not (drawn["energy astray / losses"][measured] > 0.0).any():  # nothing takes any
-        del drawn["energy astray / losses"]
+    drawn = {"error": errors}
+    residual = _column(source, "astray")
+    if (residual[measured] > 0.0).any():  # of no losses there is no share
+        drawn["energy residual / losses"] = residual
     uncertainty = float(errors[references - 1])
     explained = _explained(bool(uncertainty > 0.0), len(drawn) > 1, bool(admitted[measured].all()))
     height = _PANEL_HEIGHT * len(drawn) + page.caption_height(explained)
@@ -61,7 +62,7 @@ def _draw(source: StudySource, selection: Selection) -> page.Figure:
         above.axhspan(0.1 * low, uncertainty, color=colours.UNKNOWN, linewidth=0.0)
         above.set_ylim(bottom=low)
     if last is not above:
-        last.axhline(_MOST_ASTRAY, color=colours.AUXILIARY, linewidth=0.6, linestyle="--")
+        last.axhline(_MOST_RESIDUAL, color=colours.AUXILIARY, linewidth=0.6, linestyle="--")
     last.set_xlabel("evaluations of the equations of motion")
     page.caption(figure, explained)
     figure.align_ylabels()
@@ -87,7 +88,7 @@ def _column(source: StudySource, name: str) -> Floats:
 
 WORK_PRECISION = StudyFigure(
     name="work-precision",
-    title="Error, and energy astray, of every method and tolerance over its evaluations",
+    title="Error, and residual of the energy, of every method and tolerance over its evaluations",
     uses=(),
     channels=_channels,
     draw=_draw,

@@ -1,0 +1,102 @@
+"""A slider in its guide, and a pin in its slot, magnified, as they stand in the world."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from jointplay.figures import page
+from jointplay.figures.animation.magnified import DEEPEST, GAP, WALL, arrow, shown, turned
+from jointplay.figures.mechanism_geometry import GROUND, Pose
+from jointplay.figures.mechanism_marks import EDGE, TINTS
+from jointplay.records.arrays import Floats
+
+CORNERS: Final = {
+    "corner_1": (1.0, 1.0),
+    "corner_2": (-1.0, 1.0),
+    "corner_3": (-1.0, -1.0),
+    "corner_4": (1.0, -1.0),
+}
+"""Places along the axis and across it, in halves of the slider's length and height."""
+SIDES: Final = {"wall_1": (0.0, 1.0), "wall_2": (0.0, -1.0)}
+_LEAST_HALF, _MOST_HALF = 0.3, 0.7
+"""Half the height of a slider whose half length is 1."""
+_THICK, _LONG = 0.17, 1.35
+"""Thickness of a wall, and half its length."""
+
+
+class BetweenWalls:
+    """The picture of a prismatic joint, or of a pin in a slot, with play.
+
+    Parameters
+    ----------
+    name
+        Of the joint.
+    joint
+        As the scene has it.
+    columns
+        (m,) values by channel; NaN where they were not computed.
+    """
+
+    def __init__(self, name: str, joint: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
+        clearance = joint["clearance"]
+        self._is_pin = joint["type"] == "pin-in-slot"
+        self._owner = joint["slot" if self._is_pin else "guide"].partition(".")[0]
+        self._heading = math.atan2(joint["axis"][1], joint["axis"][0])
+        parts = SIDES if self._is_pin else CORNERS
+        self._places = np.array([*parts.values()])
+        self._depth = np.stack([columns[f"{name}.{part}.penetration"] for part in parts])
+        self._force = np.stack([columns[f"{name}.{part}.normal_force"] for part in parts])
+        self._play = float(clearance["wall_clearance"])
+        self._deepest = max(float(np.nanmax(self._depth, initial=0.0)), 1e-9)
+        self._strongest = float(np.nanmax(self._force, initial=0.0)) or 1.0
+        if self._is_pin:
+            size, self._half = clearance["pin_radius"], 1.0 - GAP
+        else:
+            size, slim = clearance["height"] / 2.0, clearance["height"] / clearance["length"]
+            self._half = min(max(slim, _LEAST_HALF), _MOST_HALF)
+        drawn = size / self._half
+        self.magnified = GAP * drawn / self._play, DEEPEST * drawn / self._deepest
+
+    @staticmethod
+    def channels(name: str, joint: Mapping[str, Any]) -> tuple[str, ...]:
+        """Name what it is drawn from."""
+        parts = SIDES if joint["type"] == "pin-in-slot" else CORNERS
+        return tuple(f"{name}.{p}.{one}" for p in parts for one in ("penetration", "normal_force"))
+
+    def force(self, at: int) -> float:
+        """Give the sum of the normal forces [N] at an instant."""
+        return float(self._force[:, at].sum())
+
+    def draw(self, axes: page.Axes, at: int, pose: Pose) -> None:
+        """Draw it at an instant."""
+        from matplotlib.patches import Circle
+
+        angle = self._heading + (0.0 if self._owner == GROUND else pose[self._owner][2])
+        inner = self._half + GAP
+        band = [(-_LONG, inner), (_LONG, inner), (_LONG, inner + _THICK), (-_LONG, inner + _THICK)]
+        for side in (1.0, -1.0):
+            wall = turned(angle, np.array(band) * [1.0, side])
+            axes.fill(*wall.T, facecolor=WALL, edgecolor="none", zorder=1)
+            axes.plot(*wall[:2].T, color=EDGE, linewidth=0.8, zorder=2)
+        touching = self.touching(at)
+        look: page.Look = {"facecolor": TINTS[0], "edgecolor": EDGE, "linewidth": 0.8, "zorder": 3}
+        if self._is_pin:
+            nearest = int(np.argmax(self._depth[:, at]))
+            centre = touching[nearest] - self._half * self._places[nearest]
+            axes.add_patch(Circle(tuple(turned(angle, centre)), self._half, **look))
+        else:
+            axes.fill(*turned(angle, touching).T, **look)
+        outwards = turned(angle, self._places * [0.0, 1.0])
+        for tip, normal, force in zip(
+            turned(angle, touching), outwards, self._force[:, at], strict=True
+        ):
+            arrow(axes, tip, normal, force / self._strongest)
+
+    def touching(self, at: int) -> Floats:
+        """Return where corners, or a pin's sides, are drawn at an instant, along and across."""
+        distances = (self._depth[:, at] + self._play).tolist()
+        off = [shown(one, self._play, self._deepest) for one in distances]
+        across = self._half + np.array(off)
+        return np.asarray(self._places * np.stack([np.ones(len(off)), across], axis=1))
