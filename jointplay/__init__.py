@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     __version__: str
-    from jointplay.client import Client, Job
+    from jointplay.client import AsyncClient, Client, Job
     from jointplay.local import load, resume, run
 
-__all__ = ["Client", "Job", "load", "resume", "run"]
+__all__ = ["AsyncClient", "Client", "Job", "load", "resume", "run"]
 
 
 def __getattr__(name: str) -> Any:
     """Load what is asked for: the command line's parser needs none of it."""
     from importlib import import_module
 
-    if name in ("Client", "Job"):
+    if name in ("AsyncClient", "Client", "Job"):
         return getattr(import_module("jointplay.client"), name)
     if name in ("load", "resume", "run"):
         return getattr(import_module("jointplay.local"), name)

@@ -32,6 +32,9 @@ from jointplay.client.results import Impacts, Peak, Results
 from jointplay.client.window import ChannelSeries, Window
 
 if TYPE_CHECKING:
+    from jointplay.client.asynchronous.batch import AsyncBatch
+    from jointplay.client.asynchronous.client import AsyncClient
+    from jointplay.client.asynchronous.job import AsyncJob
     from jointplay.client.batches import Batch
     from jointplay.client.client import Client
     from jointplay.client.connection import DEFAULT_URL
@@ -39,6 +42,9 @@ from jointplay.records.job import JobError, Progress
 
 __all__ = [
     "DEFAULT_URL",
+    "AsyncBatch",
+    "AsyncClient",
+    "AsyncJob",
     "Batch",
     "ChannelSeries",
     "Client",
@@ -71,7 +77,14 @@ __all__ = [
     "Window",
 ]
 
-_ONLINE = {"Batch": "batches", "Client": "client", "DEFAULT_URL": "connection"}
+_ONLINE = {
+    "AsyncBatch": "asynchronous.batch",
+    "AsyncClient": "asynchronous.client",
+    "AsyncJob": "asynchronous.job",
+    "Batch": "batches",
+    "Client": "client",
+    "DEFAULT_URL": "connection",
+}
 
 
 def __getattr__(name: str) -> Any:

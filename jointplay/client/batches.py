@@ -3,14 +3,12 @@
 import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
-from datetime import datetime
 from typing import Any, Self
 
+from jointplay.client.batch_record import BatchRecord, read_batch
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import FieldProblem, TimedOut
 from jointplay.client.job import Job
-from jointplay.client.notebook import html_table
 from jointplay.client.service_job import ServiceJob
 
 _INDEX = re.compile(r"^/jobs/(\d+)")
@@ -19,35 +17,17 @@ _LONGEST_PAUSE = 1.0  # ... this, so that a long batch costs one request a secon
 _LATE = 0.05  # ... and no answer comes later than by this part of the time it took
 
 
-@dataclass
-class Batch:
-    """A batch as it was last seen.
+class Batch(BatchRecord):
+    """A batch of a service; what is known of it changes with `refresh`, `cancel` and `wait`."""
 
-    ``counts`` has the number of jobs in each state, ``fraction`` says how much of the whole is
-    done, 0 to 1.
-    """
-
-    id: str
-    label: str | None
-    created: datetime
-    size: int
-    counts: Mapping[str, int]
-    fraction: float
-    is_finished: bool
-    _connection: Connection = field(repr=False, compare=False)
-
-    def _repr_html_(self) -> str:
-        return html_table("batch", {"id": self.id, "label": self.label, "jobs": self.states})
-
-    @property
-    def states(self) -> str:
-        """Numbers of jobs in each state, in words."""
-        counts = [f"{count} {state}" for state, count in self.counts.items() if count]
-        return f"{self.size} jobs: {', '.join(counts)}"
+    def __init__(self, document: Mapping[str, Any], connection: Connection) -> None:
+        super().__init__(**read_batch(document))
+        self._connection = connection
+        self._path = f"/v1/batches/{segment(self.id)}"
 
     def refresh(self) -> Self:
         """Look at the batch once more."""
-        vars(self).update(_read(self._connection.get(self._path)))
+        self.renew(self._connection.get(self._path))
         return self
 
     def jobs(self) -> Iterator[Job]:
@@ -56,7 +36,7 @@ class Batch:
 
     def cancel(self) -> Self:
         """Ask for every job that is not finished to be cancelled."""
-        vars(self).update(_read(self._connection.post(f"{self._path}/cancel")))
+        self.renew(self._connection.post(f"{self._path}/cancel"))
         return self
 
     def wait(
@@ -82,21 +62,7 @@ class Batch:
             pause = min(max(_LATE * waited, _SHORTEST_PAUSE), _LONGEST_PAUSE)
             if timeout is not None and waited + pause > timeout:
                 raise TimedOut(f"Batch {self.id} is at {self.fraction:.0%} after {timeout:g} s.")
-            time.sleep(pause)
-
-    def to_document(self) -> dict[str, Any]:
-        """Return the batch as JSON takes it."""
-        found = {one.name: getattr(self, one.name) for one in fields(self) if one.repr}
-        return found | {"created": self.created.isoformat()}
-
-    @property
-    def _path(self) -> str:
-        return f"/v1/batches/{segment(self.id)}"
-
-
-def batch_of(connection: Connection, document: Mapping[str, Any]) -> Batch:
-    """Return the batch that the service describes."""
-    return Batch(**_read(document), _connection=connection)
+            self._connection.network.sleep(pause)
 
 
 def jobs_of(
@@ -111,18 +77,6 @@ def jobs_of(
         token = page["next_page_token"]
         if token is None:
             return
-
-
-def _read(document: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        "id": document["id"],
-        "label": document["label"],
-        "created": datetime.fromisoformat(document["created"]),
-        "size": document["jobs"],
-        "counts": document["states"],
-        "fraction": document["progress"]["fraction"],
-        "is_finished": document["finished"],
-    }
 
 
 def counted_from(first: int, problems: Iterable[FieldProblem]) -> tuple[FieldProblem, ...]:

@@ -1,20 +1,21 @@
 """`Client`: jobs, batches and scenes of one service."""
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
+from functools import partial
 from inspect import Parameter, signature
 from typing import Any, Concatenate, ParamSpec, Self
 
 import httpx
 
 from jointplay import jobs as documents
-from jointplay.client.batches import Batch, batch_of, counted_from, jobs_of
-from jointplay.client.connection import DEFAULT_URL, Connection, segment
+from jointplay.client.batches import Batch, counted_from, jobs_of
+from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import ClientError, Refused
 from jointplay.client.job import Job
 from jointplay.client.job_record import Estimate
+from jointplay.client.network import BlockingNetwork
 from jointplay.client.service_job import ServiceJob
 from jointplay.scene_choice import Scene, scene_document, with_parameters
 
@@ -57,8 +58,8 @@ class Client:
     url
         Address of the service; default the variable JOINTPLAY_URL, else this machine.
     key
-        Sent with each request as a bearer token, for a proxy before the service, which does not
-        read it; default the variable JOINTPLAY_KEY.
+        Key of the service, where it asks for one, or of a proxy before it: sent with each request
+        as a bearer token; default the variable JOINTPLAY_KEY.
     timeout
         Longest wait for one answer, s.
     transport
@@ -73,9 +74,15 @@ class Client:
         timeout: float = 60.0,
         transport: httpx.BaseTransport | None = None,
     ) -> None:
-        address = os.environ.get("JOINTPLAY_URL", DEFAULT_URL) if url is None else url
-        secret = os.environ.get("JOINTPLAY_KEY") if key is None else key
-        self._connection = Connection(address, secret, timeout, transport)
+        network = partial(BlockingNetwork, transport=transport)
+        self._connection = Connection(url, key, timeout, network)
+
+    @classmethod
+    def _over(cls, connection: Connection) -> Self:
+        """Return a client of a connection that is there."""
+        client = cls.__new__(cls)
+        client._connection = connection
+        return client
 
     def __enter__(self) -> Self:
         return self
@@ -88,7 +95,7 @@ class Client:
 
     def close(self) -> None:
         """Close the connection."""
-        self._connection.close()
+        self._connection.network.close()
 
     simulate = _submitting(documents.simulate)
     bifurcation = _submitting(documents.bifurcation)
@@ -96,6 +103,7 @@ class Client:
     poincare = _submitting(documents.poincare)
     ensemble = _submitting(documents.ensemble)
     accuracy_study = _submitting(documents.accuracy_study)
+    calibration = _submitting(documents.calibration)
 
     def submit(self, document: Mapping[str, Any], *, idempotency_key: str | None = None) -> Job:
         """Queue a job that is given as a document; `Refused` names every field that is wrong.
@@ -149,7 +157,7 @@ class Client:
     def submit_batch(self, jobs: Sequence[Mapping[str, Any]], label: str = "") -> Batch:
         """Queue many jobs, or none; `Refused` names every field that is wrong, by index."""
         body = {"jobs": [dict(document) for document in jobs], "label": label}
-        return batch_of(self._connection, self._connection.post("/v1/batches", body))
+        return Batch(self._connection.post("/v1/batches", body), self._connection)
 
     def estimate(self, document: Mapping[str, Any]) -> Estimate:
         """Return what a job will cost; nothing is queued."""
@@ -186,7 +194,7 @@ class Client:
     def batch(self, batch_id: str) -> Batch:
         """Return a batch by its id, as it is now."""
         found = self._connection.get(f"/v1/batches/{segment(batch_id)}")
-        return batch_of(self._connection, found)
+        return Batch(found, self._connection)
 
     def batches(self) -> Iterator[Batch]:
         """Yield batches, newest first, fetching pages as they are needed."""
@@ -194,12 +202,12 @@ class Client:
         while True:
             page = self._connection.get("/v1/batches", {"page_token": token})
             for found in page["batches"]:
-                yield batch_of(self._connection, found)
+                yield Batch(found, self._connection)
             token = page["next_page_token"]
             if token is None:
                 return
 
-    def check_scene(self, scene: Scene, **parameters: Any) -> dict[str, Any]:
+    def check_scene(self, /, scene: Scene, **parameters: Any) -> dict[str, Any]:
         """Return whether a scene can be put together and move; ``problems`` say why not."""
         chosen = with_parameters(scene_document(scene), parameters)
         return self._connection.post("/v1/scenes/check", chosen)

@@ -1,19 +1,20 @@
 """One exchange with the service: send, repeat what was lost, turn failures into typed errors."""
 
 import json
+import os
 import random
-import time
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 from typing import Any, Final
 from urllib.parse import quote
 
 import httpx
-from httpx_sse import ServerSentEvent, connect_sse
+from httpx_sse import ServerSentEvent
 
 from jointplay.client.errors import ClientError, Unreachable, error_from
+from jointplay.client.network import Network
 
 DEFAULT_URL = "http://127.0.0.1:8000"
 _LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
@@ -34,11 +35,24 @@ class Connection:
 
     Every request can be repeated without harm: a POST carries an Idempotency-Key, by which the
     service finds what the first one made.
+
+    Parameters
+    ----------
+    url, key
+        Address of the service and the key to send; default JOINTPLAY_URL and JOINTPLAY_KEY.
+    timeout
+        Longest wait for one answer, s.
+    network
+        Makes the network of the connection from settings of httpx.
     """
 
     def __init__(
-        self, url: str, key: str | None, timeout: float, transport: httpx.BaseTransport | None
+        self, url: str | None, key: str | None, timeout: float, network: Callable[..., Network]
     ) -> None:
+        if url is None:
+            url = os.environ.get("JOINTPLAY_URL", DEFAULT_URL)
+        if key is None:
+            key = os.environ.get("JOINTPLAY_KEY")
         self.url = url.rstrip("/")
         if not self.url.startswith(("http://", "https://")):
             sentence = (
@@ -49,16 +63,14 @@ class Connection:
         try:
             # a proxy from the environment cannot reach this machine's own addresses
             self.trusts_environment = httpx.URL(self.url).host not in _LOOPBACK
-            self._http = httpx.Client(
+            self.network = network(
                 base_url=self.url,
                 headers=self.headers,
                 timeout=timeout,
-                transport=transport,
                 trust_env=self.trusts_environment,
             )
         except httpx.InvalidURL as error:
             raise ClientError(f"{url!r} is not an address such as {DEFAULT_URL}.") from error
-        self.close = self._http.close
 
     def get(self, path: str, query: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """GET the JSON document at ``path``; parameters that are None are left out."""
@@ -89,13 +101,8 @@ class Connection:
 
     def events(self, path: str, silence: float) -> Iterator[ServerSentEvent]:
         """Yield the events of a stream; `Unreachable` after `silence` seconds without a byte."""
-        timeout = httpx.Timeout(self._http.timeout.connect, read=silence)
         try:
-            with connect_sse(self._http, "GET", path, timeout=timeout) as source:
-                if not source.response.is_success:
-                    source.response.read()
-                    raise error_from(source.response)
-                yield from source.iter_sse()
+            yield from self.network.events(path, silence)
         except httpx.TransportError as error:
             raise self._unreachable(error) from error
 
@@ -116,7 +123,7 @@ class Connection:
             pause = _pause_before(repetition, response)
             if repetition == ATTEMPTS or pause > LONGEST_PAUSE:
                 break
-            sleep(pause)
+            self.network.sleep(pause)
         if response is not None:
             raise error_from(response)
         raise self._unreachable(failure) from failure
@@ -125,7 +132,7 @@ class Connection:
         self, method: str, path: str, **arguments: Any
     ) -> tuple[httpx.Response | None, httpx.TransportError | None]:
         try:
-            return self._http.request(method, path, **arguments), None
+            return self.network.request(method, path, **arguments), None
         except (httpx.UnsupportedProtocol, httpx.InvalidURL) as error:
             raise ClientError(f"{self.url!r} is not an address such as {DEFAULT_URL}.") from error
         except httpx.TransportError as error:
@@ -178,8 +185,3 @@ def _asked_for(retry_after: str) -> float:
         return 0.0
     zoned = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
     return max((zoned - datetime.now(UTC)).total_seconds(), 0.0)
-
-
-def sleep(seconds: float) -> None:
-    """Wait; here so that tests can see how long."""
-    time.sleep(seconds)

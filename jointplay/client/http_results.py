@@ -1,13 +1,14 @@
 """Results of a job of a service."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jointplay.client import studies
 from jointplay.client.connection import Connection, segment
-from jointplay.client.errors import NotFound
+from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
 from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
@@ -95,6 +96,10 @@ class HttpResults:
         """Return what every method and tolerance costs and buys."""
         return self._get("accuracy")
 
+    def calibration(self) -> dict[str, Any]:
+        """Return what a calibration found."""
+        return self._get("calibration")
+
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyDataset:
@@ -129,6 +134,26 @@ class HttpResults:
         query = _query(**shown, start=start, stop=stop) | options.given()
         path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
         return self._connection.content(path, query)
+
+    def film(
+        self,
+        path: Path,
+        *,
+        joints: Sequence[str],
+        start: Seconds,
+        stop: Seconds,
+        rate: float | None,
+        frames_per_second: int,
+        impact_to_impact: bool,
+        options: "Options",
+        report: Callable[[float], object],
+    ) -> None:
+        """Refuse: a service draws single frames, its page saves films."""
+        sentence = (
+            "A service draws no films; its page saves them, and one frame is there as svg, png, pdf"
+            " or eps. Films are drawn of a folder that `jointplay run` made."
+        )
+        raise Refused(sentence, problem="not-drawable", fields=[FieldProblem("form", sentence)])
 
     def _window(
         self, name: str, channels: Names, start: Seconds = None, stop: Seconds = None

@@ -91,31 +91,35 @@ class Job(ReadableJob):
         Unreachable
             The service was lost and did not come back.
         """
-        deadline = None if timeout is None else time.monotonic() + timeout
         with _shown(self) if progress else nullcontext(lambda: None) as show:
-
-            def notify() -> None:
+            for _ in self.follow(timeout):
                 show()
                 if report is not None:
                     report(self)
-
-            if not self.is_finished:
-                self.refresh()
-            notify()
-            if not self.is_finished:
-                self._watch(notify, deadline)
         if check:
             self.check()
         return self
 
-    def _watch(self, notify: Callable[[], None], deadline: float | None) -> None:
+    def follow(self, timeout: float | None = None) -> Iterator[Self]:
+        """Yield the job as it is, and again whenever it has changed, until it is finished.
+
+        Parameters
+        ----------
+        timeout
+            Longest wait, s; then `TimedOut`.
+        """
+        deadline = None if timeout is None else time.monotonic() + timeout
+        begun = self if self.is_finished else self.refresh()
+        yield begun
+        if begun.is_finished:
+            return
         for _ in self._follow(deadline):
             if not self.is_finished:
-                notify()
+                yield self
         if not self.is_finished:
             raise TimedOut(f"Job {self.id} is still {self.state}; the time to wait is over.")
         self.refresh()
-        notify()
+        yield self
 
     def check(self) -> None:
         """Raise `JobFailed` or `JobCancelled` if the job ended so."""

@@ -1,6 +1,6 @@
 """A job's results for notebooks: arrays, tables, windows and pictures."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     from jointplay.exports.table_columns import Table
+    from jointplay.figures import Options
 
 Names = str | Sequence[str]
 
@@ -58,6 +59,14 @@ class ReadableJob(TabledJob):
     def accuracy(self) -> dict[str, Any]:
         """Costs and errors of an accuracy-study's ``points`` as they are now, and ``advice``."""
         return self.results.accuracy()
+
+    @property
+    def calibration(self) -> dict[str, Any]:
+        """Findings of a calibration: its ``parameters`` with their spread, ``targets``, ``search``.
+
+        `ResultsNotReady` until its search has ended.
+        """
+        return self.results.calibration()
 
     def study(
         self,
@@ -130,6 +139,7 @@ class ReadableJob(TabledJob):
 
     def figure(
         self,
+        /,
         name: str,
         *,
         channel: Names = (),
@@ -154,15 +164,10 @@ class ReadableJob(TabledJob):
         options
             Of the page: width and height in mm, ``x_min``, ``x_max``, ``y_min``, ``y_max`` in the
             unit that the axis shows, ``x_scale``, ``y_scale`` "linear" or "log", ``title``,
-            ``units`` such as "mm,kN"; see `jointplay.figures.Options`.
+            ``units`` such as "mm,kN", ``font`` "serif" and ``font_size`` in points; see
+            `jointplay.figures.Options`.
         """
-        from jointplay.figures import NotDrawable, chosen_options
-
-        try:
-            page = chosen_options(options)
-        except NotDrawable as error:
-            field = FieldProblem(error.cause, str(error))
-            raise Refused(str(error), problem="not-drawable", fields=[field]) from None
+        page = _page(options)
 
         def draw(form: Form) -> bytes:
             return self.results.figure(
@@ -177,8 +182,74 @@ class ReadableJob(TabledJob):
 
         return Picture(draw(form), form, draw)
 
+    def film(
+        self,
+        /,
+        path: Path | str,
+        *,
+        joint: Names = (),
+        start: float | None = None,
+        stop: float | None = None,
+        rate: float | None = None,
+        frames_per_second: int = 20,
+        impact_to_impact: bool = False,
+        report: Callable[[float], object] = lambda share: None,
+        **options: Any,
+    ) -> Path:
+        """Write a film of the mechanism, its joints with play magnified; of a run in a folder.
+
+        Parameters
+        ----------
+        path
+            Ends in ``.gif``, ``.mp4`` or ``.webm``; the last two need ffmpeg, which
+            ``pip install 'jointplay[film]'`` brings along.
+        joint
+            What to magnify, one or several; the first six with play if not given.
+        start, stop
+            Window of time, s; the first turn of the drivers if not given.
+        rate
+            Seconds of motion in one second of film; if not given, the film lasts 6 s.
+        frames_per_second
+            Of the film, which has at most 300 frames.
+        impact_to_impact
+            Show the middle of each impact, one a frame; there is no rate then.
+        report
+            Called with the share that is done.
+        options
+            Of the page, as those of `figure`.
+
+        Returns
+        -------
+        Path
+            Of the file.
+        """
+        file = Path(path)
+        self.results.film(
+            file,
+            joints=_listed(joint) or (),
+            start=start,
+            stop=stop,
+            rate=rate,
+            frames_per_second=frames_per_second,
+            impact_to_impact=impact_to_impact,
+            options=_page(options),
+            report=report,
+        )
+        return file
+
 
 def _listed(names: Names | None) -> list[str] | None:
     if names is None:
         return None
     return [names] if isinstance(names, str) else list(names)
+
+
+def _page(options: dict[str, Any]) -> "Options":
+    """Return the options of a figure's page; what cannot be is refused as a service does."""
+    from jointplay.figures import NotDrawable, chosen_options
+
+    try:
+        return chosen_options(options)
+    except NotDrawable as error:
+        field = FieldProblem(error.cause, str(error))
+        raise Refused(str(error), problem="not-drawable", fields=[field]) from None

@@ -1,7 +1,8 @@
 """Results as plain numbers: what a job gives however it is reached, without pandas or xarray."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -93,6 +94,9 @@ class Results(Protocol):
     def accuracy(self) -> dict[str, Any]:
         """Return what every method and tolerance costs and buys, of an accuracy-study."""
 
+    def calibration(self) -> dict[str, Any]:
+        """Return what a calibration found."""
+
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudySource:
@@ -116,3 +120,18 @@ class Results(Protocol):
         options: "Options",
     ) -> bytes:
         """Return a figure as a file's bytes."""
+
+    def film(
+        self,
+        path: Path,
+        *,
+        joints: Sequence[str],
+        start: Seconds,
+        stop: Seconds,
+        rate: float | None,
+        frames_per_second: int,
+        impact_to_impact: bool,
+        options: "Options",
+        report: Callable[[float], object],
+    ) -> None:
+        """Write a film of a simulation, and report the share that is done."""

@@ -3,12 +3,17 @@
 import random
 import time
 from collections.abc import Iterator, Mapping
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import ServiceFailure, Unreachable
 from jointplay.client.http_results import HttpResults
 from jointplay.client.job import Job
+from jointplay.client.results import Store
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _SILENCE = 45.0  # s without a word, where one comes every 15 s: the connection is lost
 _PATIENCE = 20.0  # s for which a lost service is looked for again
@@ -29,6 +34,9 @@ class ServiceJob(Job):
 
     def _open_results(self) -> HttpResults:
         return HttpResults(self._connection, self._path, self)
+
+    def _open(self, store: Store, group: str) -> "xr.Dataset":
+        return self._connection.network.call(partial(super()._open, store, group))
 
     def _look(self) -> dict[str, Any]:
         return self._connection.get(self._path)
@@ -54,7 +62,7 @@ class ServiceJob(Job):
                 if now - lost_since > _PATIENCE:
                     raise
             # not all clients of a service that was lost come back in the same moment
-            time.sleep(pause * random.uniform(0.5, 1.0))  # noqa: S311
+            self._connection.network.sleep(pause * random.uniform(0.5, 1.0))  # noqa: S311
             pause = min(2 * pause, _LONGEST_PAUSE)
 
     def _snapshots(self, deadline: float | None) -> Iterator[Mapping[str, Any]]:

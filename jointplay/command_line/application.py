@@ -18,6 +18,7 @@ COMMANDS: Final = (
     "demo",
     "reproduce",
     "serve",
+    "worker",
     "submit",
     "batch",
     "ls",

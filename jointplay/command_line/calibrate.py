@@ -76,7 +76,7 @@ def calibrate(
     --target A.normal_force@0:0.012=1020`
     """
     from jointplay.command_line.calibration_table import calibration_lines
-    from jointplay.solver.calibration.problem import admit_calibration
+    from jointplay.solver.kinds import admit_calibration
 
     if resume is not None:
         if source is not None or output is not None:
@@ -96,7 +96,8 @@ def calibrate(
             tolerance=tolerance,
         )
     outcome = computed(admit_calibration(given), processes, output)
-    document = compact_json(outcome.document())
+    found = outcome.document()
+    document = compact_json(found)
     if output is not None:
         output.write_text(document + "\n")
         _measured_beside(output).unlink(missing_ok=True)
@@ -105,7 +106,7 @@ def calibrate(
 
         name = re.sub(r"[^A-Za-z0-9-]", "-", preset_out.stem)[:32]
         preset_out.write_text(compact_json(fitted_scene(outcome, name)) + "\n")
-    for line in [document] if as_json else calibration_lines(outcome):
+    for line in [document] if as_json else calibration_lines(found):
         typer.echo(line)
 
 
@@ -135,16 +136,17 @@ def computed(
     with interruption() as asked_to_end, progress("calibrate") as report:
         report(0.0, "preparing the kernels")
         from jointplay.solver.calibration import calibrate as search
-        from jointplay.solver.calibration.measure import measures
         from jointplay.solver.runs.processes import Interrupted, cores
         from jointplay.worker.local.measured import Measured
+        from jointplay.worker.local.measures import measures
 
         kept = None if output is None else Measured(_measured_beside(output), calibration)
         try:
             with measures(calibration, processes or cores(), asked_to_end) as (fitted, every):
                 if kept is not None:
                     fitted, every = kept.of(fitted, every=False), kept.of(every, every=True)
-                outcome = search.calibrate(calibration, fitted, every, report)
+                cost = search.costs_of(calibration, fitted)
+                outcome = search.calibrate(calibration, cost, every, report)
         except Interrupted:
             raise Stopped(_interrupted(output), Exit.INTERRUPTED) from None
         except search.NothingFits as nothing:

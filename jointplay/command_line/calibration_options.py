@@ -63,7 +63,7 @@ def calibration_document(
 def _cases(
     scene: dict[str, Any], targets: Sequence[str], duration: float | None
 ) -> list[dict[str, Any]]:
-    from jointplay.solver.calibration.reported import reported_cases
+    from jointplay.solver.kinds.reported_cases import reported_cases
     from jointplay.solver.scene import presets
 
     if targets:

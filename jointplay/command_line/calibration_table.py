@@ -2,20 +2,16 @@
 
 from collections.abc import Iterator
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from jointplay.command_line.output import aligned
-
-if TYPE_CHECKING:
-    from jointplay.solver.calibration.outcome import Outcome
 
 ROUGH = 0.5  # tolerances: more than that between neighbours is no place for a fit
 TOGETHER = 0.8  # correlation from which parameters are said to make up for one another
 
 
-def calibration_lines(outcome: "Outcome") -> Iterator[str]:
+def calibration_lines(document: dict[str, Any]) -> Iterator[str]:
     """Yield the targets beside what was fitted, the parameters with their spread, and notes."""
-    document = outcome.document()
     targets, parameters = document["targets"], document["parameters"]
     yield from aligned([_TARGET_HEAD, *map(_target_row, targets)])
     yield ""

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 
 SAMPLES = 10_000  # of each case: fine enough that figures show the impacts
+FIGURES = ("mechanism", "outputs", "contact-force", "orbit")
+"""Figures of each case, where there are such; the others can be drawn of what is kept."""
 
 
 def demo(
@@ -30,7 +32,8 @@ def demo(
 ) -> None:
     """Start a service, run a scene's published cases over HTTP, and stop everything.
 
-    Figures of every case go to the folder; the published numbers are printed beside ours.
+    Figures of every case go to the folder; the published numbers are printed beside ours. The jobs
+    are kept there, too: the last lines printed are the commands that draw other figures of them.
 
     Example: `jointplay demo seven-bar-press -o demo`
     """
@@ -57,7 +60,12 @@ def demo(
         scene["description"],
         *table(rows),
     ]
-    tell(facts, [*lines, f"figures are in {output}/"], as_json=as_json)
+    lines += [
+        f"figures are in {output}/; all others of a case can be drawn while its service is up:",
+        f"  jointplay serve --data {data}",
+        f"  jointplay plot {jobs[-1].id}",
+    ]
+    tell(facts, lines, as_json=as_json)
 
 
 def _finished(jobs: list["Job"]) -> list["Job"]:
@@ -79,7 +87,7 @@ def _fetch_figures(cases: "list[Case]", jobs: list["Job"], output: Path) -> None
     from jointplay.progress import progress
 
     pairs = zip(cases, jobs, strict=True)
-    wanted = [(case, job, name) for case, job in pairs for name in job.figures]
+    wanted = [(case, job, name) for case, job in pairs for name in job.figures if name in FIGURES]
     with progress("fetching figures") as report:
         for done, (case, job, name) in enumerate(wanted):
             report(done / len(wanted), f"{case.label}: {name}")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from jointplay.figures import Options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-_METAVARS = {"mm": "MM", "": "VALUE"}
+_METAVARS = {"mm": "MM", "pt": "POINTS", "": "VALUE"}
 
 
 def form_of(path: Path, *others: str) -> Form:

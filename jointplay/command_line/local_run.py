@@ -62,10 +62,14 @@ def _write(found: dict[str, Any], output: Path) -> Path:
 
     if found["accuracy"] is not None:
         table, text = output / "accuracy.json", json_text(found["accuracy"]) + "\n"
+    elif found["calibration"] is not None:
+        table, text = output / "calibration.json", json_text(found["calibration"]) + "\n"
     elif (study := found["points"]) is not None:
         channels = [channel.name for channel in study.channels]
         lines = point_lines(study, channels, range(study.points), units(study))
         table, text = output / "points.csv", "".join(lines)
+    elif found["peaks"] is None:  # a calibration that did not come to its end has nothing
+        return output
     else:
         table, text = output / "peaks.csv", "".join(peak_lines(found["peaks"]))
     table.write_text(text)

@@ -18,8 +18,7 @@ URL = Annotated[
     typer.Option(
         "--url",
         envvar="JOINTPLAY_URL",
-        help="Address of the service; JOINTPLAY_KEY is sent to it as a bearer token, for a proxy"
-        " that asks for one.",
+        help="Address of the service; where it asks for a key, JOINTPLAY_KEY has it.",
     ),
 ]
 AS_JSON = Annotated[bool, typer.Option("--json", help="Print one JSON document instead.")]

@@ -1,12 +1,13 @@
 """``jointplay plot``: figures of a local run or of a service's job."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 import typer
 
 from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import page_of, with_figure_options
+from jointplay.command_line.film import draw_film, is_film
 from jointplay.command_line.options import (
     AS_JSON,
     DEFAULT_URL,
@@ -19,7 +20,7 @@ from jointplay.command_line.options import (
 )
 from jointplay.command_line.output import tell
 from jointplay.progress import progress
-from jointplay.records.figure_form import Form
+from jointplay.records.figure_form import FilmForm, Form
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -43,7 +44,23 @@ def plot(
     folder: Annotated[
         Path, typer.Option("-o", "--output", metavar="FOLDER", help="Where the files go.")
     ] = Path(),
-    form: Annotated[Form, typer.Option("--format", help="File type.")] = "png",
+    form: Annotated[
+        Literal[Form, FilmForm] | None,
+        typer.Option("--format", help="File type; default png, of the animation alone gif."),
+    ] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SHARE",
+            help="Of an animation, seconds of motion in one second; default so that it lasts 6 s.",
+        ),
+    ] = None,
+    frames_per_second: Annotated[
+        int | None, typer.Option(metavar="N", help="Of an animation; default 20.")
+    ] = None,
+    impact_to_impact: Annotated[
+        bool, typer.Option("--impact-to-impact", help="Of an animation, a frame for each impact.")
+    ] = False,
     as_json: AS_JSON = False,
     url: URL = DEFAULT_URL,
     **options: Any,
@@ -52,17 +69,29 @@ def plot(
 
     Examples: `jointplay plot OUT acceleration A.normal_force --format pdf -o figures`,
     `jointplay plot OUT orbit --units um --width 170 --title "Journal centres"`,
-    `jointplay plot OUT section --start 42 --stop 43` for one value of a bifurcation diagram
+    `jointplay plot OUT section --start 42 --stop 43` for one value of a bifurcation diagram,
+    `jointplay plot OUT animation --start 0.2 --stop 0.21 --rate 0.002` for slow motion
     """
     chosen = {"channels": channels, "joints": joints, "start": start, "stop": stop}
     given = [name for name, value in chosen.items() if value is not None]
     if given and not names:
         raise Stopped(f"--{given[0]} chooses what a figure shows; name the figure.")
     page = page_of(options)
-    shown = {"channel": listed(channels) or (), "joint": listed(joints) or ()}
-    window = {"start": start, "stop": stop}
+    asked = {
+        "rate": rate,
+        "frames_per_second": frames_per_second,
+        "impact_to_impact": impact_to_impact or None,
+    }
+    pace = {name: value for name, value in asked.items() if value is not None}
+    shown = {"joint": listed(joints) or (), "start": start, "stop": stop, **page.given()}
     with job_of(results, url) as job:
-        written = draw_all(job, folder, names, form, **shown, **window, **page.given())
+        if is_film(names, form, pace):
+            if channels is not None:
+                raise Stopped("--channels: a film shows none; leave them out.")
+            written = draw_film(job, folder, form or "gif", **shown, **pace)
+        else:
+            shown["channel"] = listed(channels) or ()
+            written = draw_all(job, folder, names, cast("Form", form or "png"), **shown)
     tell({"figures": written}, [one["path"] for one in written], as_json=as_json)
 
 

@@ -18,7 +18,12 @@ def serve(
         ),
     ] = Path(".jointplay"),
     workers: Annotated[
-        int, typer.Option(min=1, max=256, help="How many jobs are computed at a time.")
+        int,
+        typer.Option(
+            min=0,
+            max=256,
+            help="How many jobs are computed at a time here; 0: only by workers that join.",
+        ),
     ] = 2,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print address and data as JSON once it answers.")

@@ -6,6 +6,7 @@ from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING, Any
 
 from jointplay.command_line.accuracy import accuracy_lines
+from jointplay.command_line.calibration_table import calibration_lines
 from jointplay.command_line.certificate import headlines
 from jointplay.command_line.peaks import peak_rows, peak_table
 
@@ -20,10 +21,14 @@ def results_of(job: "Job") -> dict[str, Any]:
     """Return what is there so far: statistics and peaks, or the points of a study; else None."""
     from jointplay.client import NotFound, ResultsNotReady
 
-    found: dict[str, Any] = dict.fromkeys(("statistics", "peaks", "points", "accuracy"))
+    found: dict[str, Any] = dict.fromkeys(
+        ("statistics", "peaks", "points", "accuracy", "calibration")
+    )
     try:
         if "accuracy" in job.links:
             found["accuracy"] = job.accuracy
+        elif "calibration" in job.links:
+            found["calibration"] = job.calibration
         elif job.is_study:
             found["points"] = job.study(sections=(0, 1))
         elif job.is_finished:
@@ -54,6 +59,8 @@ def result_lines(
         yield from _study_lines(found["points"])
     if found["accuracy"] is not None:
         yield from accuracy_lines(found["accuracy"])
+    if found["calibration"] is not None:
+        yield from calibration_lines(found["calibration"])
 
 
 def _summary_of(source: "StudySource") -> dict[str, Any]:

@@ -65,15 +65,15 @@ def _job(results: str, url: str, processes: int | None) -> "Verification":
 
 
 def _calibration(path: Path, processes: int | None) -> "Verification":
-    from jointplay.local.repeated_calibration import compared_calibrations
+    from jointplay.local.verification import verified_calibration
     from jointplay.records.strict_json import parse
-    from jointplay.solver.calibration.problem import admit_calibration
+    from jointplay.solver.kinds import admit_calibration
 
     stored = parse(path.read_bytes())
     if not isinstance(stored, dict) or "calibration" not in stored:
         raise Stopped(f"{path} is not what `jointplay calibrate` left, nor a folder of results.")
     again = computed(admit_calibration(stored["calibration"]), processes).document()
-    return compared_calibrations(str(path), stored, again)
+    return verified_calibration(str(path), stored, again)
 
 
 def _lines(found: "Verification") -> Iterator[str]:

@@ -46,14 +46,8 @@ def columns_of(
     ----------
     table
         By default the history of a simulation, of a study the sections or, without any, points.
-    channels
-        Names or globs; all if None.
-    start, stop
-        Window of time, s; of a study the first point, and the one before which to end.
-    points
-        Of a history, most pairs of smallest and largest values.
-    step
-        Of a history, time between instants, s.
+    channels, start, stop, points, step
+        As `ReadableJob.export` takes them.
 
     Raises
     ------

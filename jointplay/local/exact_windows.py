@@ -48,13 +48,13 @@ def exact_window(
         if found.values is None:
             return found.refused
         return window_of(run, times, dict(zip(names, found.values.T, strict=True)))
-    edges = np.linspace(first, last, points + 1) if points and last > first else [first, last]
-    found = trajectory.extremes(names, np.array(edges))
+    edges = trajectory.edges(first, last, points or 1)
+    found = trajectory.extremes(names, edges)
     if found.values is None:
         return found.refused
     time = np.column_stack([edges[:-1], edges[1:]]).ravel()
     columns = {name: found.values[:, c, ::2].ravel() for c, name in enumerate(names)}
-    return window_of(run, time, columns, exact=False, between_samples=True)
+    return window_of(run, time, columns, exact=False, between_samples=True, note=found.note)
 
 
 def exact_peaks(

@@ -139,4 +139,6 @@ def _results_of(source: "ResultReader | StudyReader") -> list[str]:
         return ["history", "peaks", "poincare", "impacts", "statistics", "certificate"]
     if "runs" in source.attributes:
         return ["accuracy"]
+    if source.kind == "calibration":
+        return ["calibration"]
     return ["poincare"] if source.record else ["sweep"]

@@ -1,6 +1,6 @@
 """Results of a job in a folder."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -122,6 +122,15 @@ class FolderResults:
             raise NotFound(f"{self._store} is of a {study.kind}; it has points and no accuracy.")
         return WorkPrecision.of(study).document()
 
+    def calibration(self) -> dict[str, Any]:
+        """Return what a calibration found."""
+        study = self.study(None, None, None)
+        if study.kind != "calibration":
+            raise NotFound(f"{self._store} is of a {study.kind}; it found no parameters.")
+        if 0 not in study.documents:
+            raise NotFound(f"The search in {self._store} did not end.")
+        return dict(study.documents[0])
+
     def study(
         self, observables: Names, channels: Names, sections: tuple[int, int] | None
     ) -> StudyReader:
@@ -153,6 +162,26 @@ class FolderResults:
         with _refusals():
             chosen = figures.select(self._reader, channels, joints, start, stop)
             return figures.render(self._reader, name, form, chosen, options)
+
+    def film(
+        self,
+        path: Path,
+        *,
+        joints: Sequence[str],
+        start: Seconds,
+        stop: Seconds,
+        rate: float | None,
+        frames_per_second: int,
+        impact_to_impact: bool,
+        options: Options,
+        report: Callable[[float], object],
+    ) -> None:
+        """Write a film."""
+        run = self._run("film")
+        with _refusals():
+            chosen = figures.select(run, (), joints, start, stop)
+            pace = figures.Pace(rate, frames_per_second, impact_to_impact)
+            figures.film(run, path, chosen, options, pace, report)
 
     def _run(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):

@@ -1,4 +1,4 @@
-"""What a calibration found, against what its repetition found."""
+"""Findings of a calibration, against those of its repetition."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
@@ -6,17 +6,16 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from jointplay.local.verification import Verification
 from jointplay.storage.results.comparison import Compared, compared_values
 
 _SOLVER: Final = "solver"
 """Field of the document that has the solver's version."""
 
 
-def compared_calibrations(
-    name: str, stored: Mapping[str, Any], again: Mapping[str, Any]
-) -> Verification:
-    """Compare what two calibrations found; a table of numbers is an array."""
+def compared_findings(
+    stored: Mapping[str, Any], again: Mapping[str, Any]
+) -> tuple[tuple[Compared, ...], tuple[str, ...]]:
+    """Compare what two calibrations found: tables of numbers as arrays, all else by name."""
     arrays: list[Compared] = []
     others: list[str] = []
     results = [{key: one[key] for key in one if key != _SOLVER} for one in (stored, again)]
@@ -25,9 +24,7 @@ def compared_calibrations(
             arrays.append(compared_values(place, one, other))
         elif one != other:
             others.append(place)
-    versions = stored.get(_SOLVER), again[_SOLVER]
-    states = "succeeded", "succeeded"
-    return Verification(name, states, versions, tuple(arrays), tuple(others), None)
+    return tuple(arrays), tuple(others)
 
 
 def _leaves(place: str, stored: Any, again: Any) -> Iterator[tuple[str, Any, Any]]:

@@ -1,7 +1,7 @@
 """A finished job computed again, here and now, and compared with what is stored of it."""
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,7 @@ import zarr
 from jointplay.client.job import Job
 from jointplay.local.certificate_bars import beyond_bars
 from jointplay.local.folder_job import load
+from jointplay.local.repeated_calibration import compared_findings
 from jointplay.storage.packed.reading import Entry
 from jointplay.storage.packed.zarr_store import FilesStore
 from jointplay.storage.results.comparison import (
@@ -31,13 +32,13 @@ class NotRepeatable(Exception):
 
 @dataclass(frozen=True)
 class Verification:
-    """What came of a repetition."""
+    """Outcome of a repetition."""
 
     id: str
     states: tuple[str, str]
-    """How the job ended, and how its repetition did."""
+    """States in which the job and its repetition ended."""
     versions: tuple[str | None, str]
-    """Of the solver that computed it, and of this one."""
+    """Versions of the solver that computed it, and of this one."""
     arrays: tuple[Compared, ...]
     attributes: tuple[str, ...]
     """Names of those that differ."""
@@ -109,14 +110,27 @@ def verify(job: Job, processes: int | None, report: Report) -> Verification:
             again.check()
         ours = _root(again)
         arrays = tuple(compared_arrays(stored, ours))
+        attributes = tuple(differing_attributes(stored, ours))
+        if "calibration" in job.links and job.state == again.state == "succeeded":
+            found, others = compared_findings(job.calibration, again.calibration)
+            arrays, attributes = arrays + found, attributes + others
         return Verification(
             job.id,
             (job.state, again.state),
             (job.solver_version, SOLVER_VERSION),
             arrays,
-            tuple(differing_attributes(stored, ours)),
+            attributes,
             beyond_bars((job, again), (stored, ours), arrays),
         )
+
+
+def verified_calibration(
+    name: str, stored: Mapping[str, Any], again: Mapping[str, Any]
+) -> Verification:
+    """Compare what `jointplay calibrate` left with its repetition."""
+    states = "succeeded", "succeeded"
+    versions = stored.get("solver"), again["solver"]
+    return Verification(name, states, versions, *compared_findings(stored, again), None)
 
 
 def _insist(job: Job) -> None:

@@ -19,8 +19,8 @@ def new(
         typer.Option(
             "--scope",
             metavar="SCOPE",
-            help="jobs:write, jobs:read, results:read, metrics or admin; repeatable, by default the"
-            " first three.",
+            help="jobs:write, jobs:read, results:read, worker, metrics or admin; repeatable, by"
+            " default the first three.",
         ),
     ] = None,
     days: Annotated[

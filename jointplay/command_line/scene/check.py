@@ -57,7 +57,7 @@ def _lines(scene: "AssembledScene", joints: list[str], found: "Branches") -> Ite
         ]
         # a body that slides to another place; what turns tells enough where there is such
         moved = [
-            f"{body} at {round(x, 12):.4g}, {round(y, 12):.4g}"
+            f"{body} at {round(x, 12):z.4g}, {round(y, 12):z.4g}"
             for body, (x, y) in places.items()
             if math.dist((x, y), found.places[0][body]) > ALIKE * largest
         ]
