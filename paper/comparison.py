@@ -75,9 +75,9 @@ def milliseconds(time: float) -> str:
     return f"{1e3 * time:.4g} ms"
 
 
-def small(value: float, bound: float, digits: str = ".2g") -> str:
-    """Return a number, or 0 if its magnitude is below a bound."""
-    return "0" if abs(value) < bound else signed(value, digits)
+def small(value: float, bound: float) -> str:
+    """Return a number with two digits, or 0 if its magnitude is below a bound."""
+    return "0" if abs(value) < bound else signed(value, ".2g")
 
 
 def signed(value: float, digits: str) -> str:

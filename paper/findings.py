@@ -27,10 +27,6 @@ _BED: Final = {
 }
 
 
-Rise = tuple[float, float, float, str]
-"""Speed over π, extents before and after [clearances], and the stiffness for readers."""
-
-
 def findings(stores: Stores, size: Size) -> dict[str, Any]:
     """Return every number of the sentences, by its name in the template; lengths in m."""
     printed = reported.document()

@@ -2,10 +2,11 @@
 
 import { element } from "../interface/element.js";
 import { assembled, firstPose } from "../mechanism/assembling.js";
+import { bounds } from "../mechanism/bounds.js";
 import { paint, prepared } from "../mechanism/canvas.js";
 import { frame } from "../mechanism/frame.js";
 import { palette } from "../mechanism/palette.js";
-import { bounds, placeOf } from "../mechanism/placing.js";
+import { placeOf } from "../mechanism/placing.js";
 import { shapes } from "../mechanism/shapes.js";
 import { turn } from "../mechanism/sketch.js";
 

@@ -5,7 +5,7 @@ import { ago, span } from "./numbers.js";
 import { address } from "./place.js";
 import { parameterWords, progressWords, sceneName, stateMark } from "./state.js";
 import { TERMINAL } from "../requests/following.js";
-import { post, remove } from "../requests/service.js";
+import { get, post, remove } from "../requests/service.js";
 
 export class JobRow {
   /** @param acts `choose(job, chosen)` false if that is too many, `gone(job)`, and `chosen` */
@@ -50,7 +50,10 @@ export class JobRow {
       (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
     this.cost.textContent = took ? `took ${span(took)}` : "";
     fill(this.buttons, TERMINAL.has(job.state)
-      ? [this.button("Again", () => post("/v1/jobs", { ...job.job, cache: false })),
+      ? [this.button("Again", async () => {
+           const { job: document } = await get(`/v1/jobs/${job.id}`);
+           await post("/v1/jobs", { ...document, cache: false });
+         }),
          this.button("Delete", async () => {
            await remove(`/v1/jobs/${job.id}`);
            this.acts.gone(job);
@@ -77,10 +80,5 @@ export class JobRow {
 
 function parameters(job) {
   if (job.error) return job.error.detail;
-  return parameterWords({ scene: { parameters: own(job.job.scene?.parameters) } });
-}
-
-function own(parameters = {}) {
-  return Object.fromEntries(Object.entries(parameters).filter(([, value]) =>
-    typeof value === "number").slice(0, 6));
+  return parameterWords(job.job);
 }

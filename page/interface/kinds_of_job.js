@@ -1,6 +1,6 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
-import { bounds } from "../mechanism/placing.js";
+import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { startingPose, turn } from "../mechanism/sketch.js";
 

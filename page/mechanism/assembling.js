@@ -9,6 +9,7 @@
 
 import { GROUND, ends, reference } from "./placing.js";
 import { solve } from "./linear.js";
+import { profileAt, slopeAt } from "./profile.js";
 
 const MOST_STEPS = 60;
 const CLOSED = 1e-7; // of the size of the mechanism
@@ -36,6 +37,11 @@ export function firstPose(scene) {
     }
   }
   for (const body of Object.keys(scene.bodies)) pose[body] ??= [0, 0, angles[body] ?? 0];
+  for (const [end, [x, y]] of Object.entries(scene.start?.points ?? {})) {
+    const { body, at } = reference(scene, end);
+    const own = turned(at, pose[body][2]);
+    pose[body] = [x - own[0], y - own[1], pose[body][2]];
+  }
   return pose;
 }
 
@@ -134,7 +140,7 @@ class Constraints {
       if (joint.type === "fixed") rows.push(this.angles(first.body, second.body, joint.angle ?? 0));
       return rows;
     }
-    if (!joint.axis) return []; // a cam: its profile is left to the service
+    if (joint.profile) return [this.cam(joint, first, second, a, b)];
     const across = [-joint.axis[1], joint.axis[0]];
     const rows = [this.along(first.body, a, b, across, 0)];
     if (joint.type === "prismatic") {
@@ -181,6 +187,35 @@ class Constraints {
       if (this.index.has(body)) add(slopes, this.index.get(body) + 2, sign);
     }
     return { value: this.angle(second) - ratio * this.angle(first) - wanted, slopes };
+  }
+
+  /** A follower on its cam: a flat face as far away as the profile says, or a roller's centre. */
+  cam(joint, first, second, a, b) {
+    const apart = [b.place[0] - a.place[0], b.place[1] - a.place[1]];
+    const reach = Math.hypot(...apart);
+    const flat = joint.type === "flat-follower";
+    const towards = flat
+      ? this.angle(second.body) + Math.atan2(joint.normal[1], joint.normal[0])
+      : Math.atan2(apart[1], apart[0]);
+    const angle = towards - this.angle(first.body);
+    const wanted = profileAt(joint.profile, angle) / this.size;
+    const slope = slopeAt(joint.profile, angle) / this.size;
+    const d = [Math.cos(towards), Math.sin(towards)];
+    const across = [-d[1], d[0]];
+    const turning = flat ? 0 : slope / reach; // of the direction, as the roller goes across
+    const slopes = new Map();
+    for (const [point, sign] of [[b, 1], [a, -1]]) {
+      if (point.at === undefined) continue;
+      const gain = [0, 1].map((axis) => sign * (d[axis] - turning * across[axis]));
+      add(slopes, point.at, gain[0]);
+      add(slopes, point.at + 1, gain[1]);
+      add(slopes, point.at + 2, gain[0] * point.turn[0] + gain[1] * point.turn[1]);
+    }
+    if (a.at !== undefined) add(slopes, a.at + 2, slope);
+    if (flat && b.at !== undefined) {
+      add(slopes, b.at + 2, across[0] * apart[0] + across[1] * apart[1] - slope);
+    }
+    return { value: d[0] * apart[0] + d[1] * apart[1] - wanted, slopes };
   }
 
   gear({ first, second, ratio, offset = 0 }) {

@@ -1,24 +1,44 @@
 /** The motion of a job: poses and contacts at any time, from the history that it has stored. */
 
 import { play } from "./placing.js";
-import { get } from "../requests/service.js";
+import { getArrays } from "../requests/arrays.js";
 
 const CHUNK = 2048; // samples that are fetched at once
 const KEPT = 24; // chunks
-const CONTACT = ["eccentricity_x", "eccentricity_y", "normal_force", "friction_force"];
+const QUANTITIES = {
+  revolute: ["eccentricity_x", "eccentricity_y", "normal_force"],
+  prismatic: ["penetration", "normal_force"],
+  "pin-in-slot": ["penetration", "normal_force"],
+};
+const PARTS = {
+  revolute: [""],
+  prismatic: [".corner_1", ".corner_2", ".corner_3", ".corner_4"],
+  "pin-in-slot": [".wall_1", ".wall_2"],
+};
 
 /** The channels that the pictures of a scene are made of. */
 function needed(scene) {
   const bodies = Object.keys(scene.bodies).flatMap((body) =>
     ["x", "y", "theta"].map((coordinate) => `${body}.${coordinate}`));
-  return [...bodies, ...journals(scene).flatMap((joint) => CONTACT.map((one) => `${joint}.${one}`))];
+  return [...bodies, ...contactPairs(scene).flatMap(({ pair, quantities }) =>
+    quantities.map((one) => `${pair}.${one}`))];
 }
 
-/** Names of the revolute joints whose journals move in their bearings. */
-export function journals(scene) {
+/** Names of the joints whose play can be shown magnified. */
+export function magnifiable(scene) {
   return Object.entries(scene.joints)
-    .filter(([, joint]) => joint.type === "revolute" && play(joint) > 0)
+    .filter(([, joint]) => joint.type in PARTS && play(joint) > 0)
     .map(([name]) => name);
+}
+
+/** Names of the places where the bodies of a joint with play touch: `A`, or `guide.corner_1` …. */
+export function pairs(scene, name) {
+  return PARTS[scene.joints[name].type].map((part) => `${name}${part}`);
+}
+
+function contactPairs(scene) {
+  return magnifiable(scene).flatMap((name) => pairs(scene, name).map((pair) =>
+    ({ pair, quantities: QUANTITIES[scene.joints[name].type] })));
 }
 
 export class Motion {
@@ -55,13 +75,9 @@ export class Motion {
     const stop = ((index + 1) * CHUNK + 1.5) * this.step;
     try {
       const query = { channels: this.names.join(","), start, stop };
-      const history = await get(`${this.job.links.history}`, query, this.signal);
-      const columns = { time: numbers(history.time.values) };
-      for (const [name, { values }] of Object.entries(history.channels)) {
-        columns[name] = numbers(values);
-      }
+      const { columns, complete } = await getArrays(this.job.links.history, query, this.signal);
       if (columns.time.length < 1) this.chunks.delete(index);
-      else Object.assign(entry, { columns, complete: history.complete });
+      else Object.assign(entry, { columns, complete });
       this.onNew();
     } catch (error) {
       this.chunks.delete(index);
@@ -94,10 +110,10 @@ export class Motion {
       pose[body] = [value(`${body}.x`), value(`${body}.y`), value(`${body}.theta`)];
     }
     const contacts = {};
-    for (const joint of journals(this.scene)) {
-      if (!columns[`${joint}.eccentricity_x`]) continue;
-      contacts[joint] = Object.fromEntries(CONTACT.map((quantity) =>
-        [quantity, columns[`${joint}.${quantity}`] ? value(`${joint}.${quantity}`) : NaN]));
+    for (const { pair, quantities } of contactPairs(this.scene)) {
+      if (!columns[`${pair}.${quantities[0]}`]) continue;
+      contacts[pair] = Object.fromEntries(quantities.map((quantity) =>
+        [quantity, columns[`${pair}.${quantity}`] ? value(`${pair}.${quantity}`) : NaN]));
     }
     return { pose, contacts };
   }
@@ -139,8 +155,4 @@ function between(times, time) {
     else high = middle;
   }
   return { index: low, share: (time - times[low]) / (times[high] - times[low]) };
-}
-
-function numbers(values) {
-  return Float64Array.from(values, (value) => value ?? NaN);
 }

@@ -46,41 +46,11 @@ export function placeOf(scene, pose, text) {
 /** Returns the play of a joint in m; 0 of an ideal one. */
 export function play(joint) {
   const clearance = joint.clearance;
-  return clearance?.radial_clearance ?? clearance?.wall_clearance ?? 0;
+  return clearance?.radial_clearance ?? clearance?.wall_clearance ?? clearance?.lash ?? 0;
 }
 
-/** Returns the smallest box around all points of poses: `[left, low, right, high]`. */
-export function bounds(scene, poses) {
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = ([x, y]) => {
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  };
-  for (const pose of poses) {
-    for (const [body, { points = {} }] of Object.entries(scene.bodies)) {
-      include(pose[body]);
-      for (const point of Object.values(points)) include(world(pose, body, point));
-    }
-  }
-  for (const joint of Object.values(scene.joints)) {
-    for (const end of ends(joint)) {
-      const { body, at } = reference(scene, end);
-      if (body === GROUND && joint.type !== "prismatic") include(at);
-    }
-  }
-  for (const { stiffness, first, second } of Object.values(scene.forces ?? {})) {
-    if (!stiffness || !first || !second) continue;
-    for (const pose of poses) for (const end of [first, second]) include(placeOf(scene, pose, end));
-  }
-  if (box[2] - box[0] + box[3] - box[1] < 1e-12) {
-    const radius = 3 * Math.max(...Object.values(scene.joints).map(ownRadius), 1e-3);
-    return [box[0] - radius, box[1] - radius, box[2] + radius, box[3] + radius];
-  }
-  return box;
-}
-
-function ownRadius({ clearance }) {
-  return clearance?.bearing_radius ?? clearance?.pin_radius ?? clearance?.height ?? 0;
+/** Returns the angle in the world of the axis of a joint that slides. */
+export function heading(pose, joint) {
+  const owner = ends(joint)[0].split(".")[0];
+  return (owner === GROUND ? 0 : pose[owner][2]) + Math.atan2(joint.axis[1], joint.axis[0]);
 }

@@ -6,8 +6,8 @@ import { short, withUnit } from "../interface/numbers.js";
 const SPEEDS = [1, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001];
 const STEPS = 4000; // of the slider
 
-/** Returns the controls of a clock; `impacts()` gives the onsets of contacts in s, sorted. */
-export function player(clock, impacts = () => []) {
+/** Returns the controls of a clock; `impacts()`, if given, the onsets of contacts in s, sorted. */
+export function player(clock, impacts = null) {
   const button = element("button", { type: "button", class: "main", onclick: () => toggle(clock) });
   const slider = element("input", {
     type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Time",
@@ -44,8 +44,10 @@ export function player(clock, impacts = () => []) {
       "div",
       { class: "buttons" },
       button,
-      element("button", { type: "button", onclick: jump(-1), title: "To the impact before" }, "◂ Impact"),
-      element("button", { type: "button", onclick: jump(1), title: "To the next impact" }, "Impact ▸"),
+      impacts && [
+        element("button", { type: "button", onclick: jump(-1), title: "To the impact before" }, "◂ Impact"),
+        element("button", { type: "button", onclick: jump(1), title: "To the next impact" }, "Impact ▸"),
+      ],
       element("label", { class: "buttons small" }, "Speed ", speed),
       readout,
     ),

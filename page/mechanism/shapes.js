@@ -6,7 +6,9 @@
  * palette, widths and radii pixels.
  */
 
-import { GROUND, bounds, ends, placeOf, play, world } from "./placing.js";
+import { bounds } from "./bounds.js";
+import { cams } from "./cams.js";
+import { GROUND, ends, heading, placeOf, play, world } from "./placing.js";
 
 const BLOCK = [15, 9]; // half a slider's length and height, px
 
@@ -14,11 +16,16 @@ const BLOCK = [15, 9]; // half a slider's length and height, px
 export function shapes(scene, pose, { labels = false } = {}) {
   const box = bounds(scene, [pose]);
   const size = Math.max(box[2] - box[0], box[3] - box[1]);
+  const pairs = cams(scene, pose);
   return [
     ...rails(scene, pose, size),
+    ...pairs.map(({ outline }) =>
+      ({ kind: "polygon", points: outline, fill: "ground", stroke: "edge", width: 1.2 })),
     ...supports(scene, pose),
     ...Object.keys(scene.bodies).flatMap((name, i) => body(scene, pose, name, i)),
     ...springs(scene, pose),
+    ...pairs.map(({ moved }) =>
+      ({ kind: "line", points: moved, colour: "edge", width: 2 })),
     ...joints(scene, pose),
     ...(labels ? names(scene, pose) : []),
   ];
@@ -56,11 +63,9 @@ function sliding(scene, pose) {
   return Object.values(scene.joints)
     .filter(({ axis }) => axis)
     .map((joint) => {
-      const [guide, slider] = ends(joint);
-      const owner = guide.split(".")[0];
-      const angle = owner === GROUND ? 0 : pose[owner][2];
-      const heading = angle + Math.atan2(joint.axis[1], joint.axis[0]);
-      const along = [Math.cos(heading), Math.sin(heading)];
+      const [, slider] = ends(joint);
+      const angle = heading(pose, joint);
+      const along = [Math.cos(angle), Math.sin(angle)];
       return { at: placeOf(scene, pose, slider), along, body: slider.split(".")[0] };
     });
 }

@@ -1,10 +1,10 @@
 /** A mechanism on a canvas before anything is computed; its drivers can be swept. */
 
 import { assembled, firstPose } from "./assembling.js";
+import { bounds } from "./bounds.js";
 import { paint, prepared } from "./canvas.js";
 import { frame } from "./frame.js";
 import { palette } from "./palette.js";
-import { bounds } from "./placing.js";
 import { shapes } from "./shapes.js";
 
 const STEPS = 72; // poses of one turn

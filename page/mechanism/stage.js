@@ -1,10 +1,10 @@
 /** The mechanism of a job as its clock runs: drawing, and pictures and films to keep. */
 
 import { element } from "../interface/element.js";
+import { bounds } from "./bounds.js";
 import { paint, prepared } from "./canvas.js";
 import { frame } from "./frame.js";
 import { palette } from "./palette.js";
-import { bounds } from "./placing.js";
 import { shapes } from "./shapes.js";
 import { svgFile } from "./svg.js";
 
@@ -53,7 +53,8 @@ export class Stage {
   tinted(colours, i) {
     if (this.motions.length === 1) return colours;
     const own = colours[`curve-${i % 4}`];
-    const tints = [0, 1, 2, 3, 4, 5].map((one) => [`tint-${one}`, `${own}66`]);
+    const pale = `color-mix(in srgb, ${own} 40%, ${colours.paper})`;
+    const tints = [0, 1, 2, 3, 4, 5].map((one) => [`tint-${one}`, pale]);
     return { ...colours, ...Object.fromEntries(tints), edge: own };
   }
 

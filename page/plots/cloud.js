@@ -1,6 +1,7 @@
 /** Clouds of points on a canvas, a million of them: darker where there are more. */
 
 const FEW = 30000; // points below which each is a visible dot
+const LEAST = 0.35; // opacity of a single point among more of them
 
 /**
  * Draws points in the colour of their layer, density as opacity.
@@ -29,30 +30,24 @@ export function drawCloud(context, to, layers) {
         }
       }
     }
-    blend(image.data, counts, rgb(context, colour), total < FEW ? 0.55 : density(counts));
+    blend(image.data, counts, rgb(context, colour), opacity(counts, total < FEW));
   }
   const layer = new OffscreenCanvas(width, height);
   layer.getContext("2d").putImageData(image, 0, 0);
   context.drawImage(layer, left / dots, top / dots, width / dots, height / dots);
 }
 
-/** Opacity of one point, so that the densest places are just opaque. */
-function density(counts) {
-  let filled = 0;
-  let sum = 0;
-  for (const count of counts) {
-    if (count) {
-      filled += 1;
-      sum += count;
-    }
-  }
-  return Math.min(0.6, Math.max(0.03, (1.2 * filled) / (sum || 1)));
+/** Returns opacity by the number of points on a dot: one is seen, the densest place is opaque. */
+function opacity(counts, few) {
+  if (few) return (count) => 1 - 0.45 ** count;
+  const most = counts.reduce((most, count) => Math.max(most, count), 1);
+  return (count) => LEAST + ((1 - LEAST) * Math.log(count)) / (Math.log(most) || 1);
 }
 
-function blend(data, counts, [red, green, blue], share) {
+function blend(data, counts, [red, green, blue], opacityOf) {
   for (let i = 0; i < counts.length; i++) {
     if (!counts[i]) continue;
-    const alpha = 1 - (1 - share) ** counts[i];
+    const alpha = opacityOf(counts[i]);
     const at = 4 * i;
     const under = data[at + 3] / 255;
     data[at] = red * alpha + data[at] * (1 - alpha) * (under ? 1 : 0);

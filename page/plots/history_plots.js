@@ -1,6 +1,6 @@
 /** Stacked plots over one axis of time: zoom, pan, a cursor shared with a clock. */
 
-import uPlot from "../vendor/uplot/uPlot.esm.js";
+import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
 import { short, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
@@ -24,7 +24,7 @@ export class HistoryPlots {
     this.fetching = new AbortController();
     this.all = [clock.first, clock.last];
     this.window = [...this.all];
-    this.room = element("div");
+    this.room = element("div", {}, element("p", { class: "quiet" }, "Reading …"));
     this.element = element("div", { class: "plot-stack" }, this.controls(), this.room);
     this.key = `history-${Math.random()}`;
     clock.listen((time) => this.follow(time));
@@ -140,7 +140,7 @@ export class HistoryPlots {
       width: this.room.clientWidth,
       height: HEIGHT + (last ? 26 : 0),
       legend: { show: false },
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high) } },
       cursor: { sync: { key: this.key }, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
       series: [
         {},
@@ -208,4 +208,10 @@ export class HistoryPlots {
       element("span", { class: "quiet small" },
         "Drag to zoom, shift-drag or scroll to pan, click to go there."));
   }
+}
+
+/** Returns the ends of a vertical axis; zero all along is in its middle. */
+function span(low, high) {
+  if (low === null) return [null, null];
+  return low === 0 && high === 0 ? [-1, 1] : uPlot.rangeNum(low, high, 0.1, true);
 }

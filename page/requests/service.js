@@ -54,8 +54,17 @@ export function withQuery(path, query) {
   return text ? `${path}?${text}` : path;
 }
 
+/** Returns the bytes that a GET answers in a form. */
+export async function getBytes(path, form, signal) {
+  return (await answered("GET", path, undefined, signal, form)).arrayBuffer();
+}
+
 async function request(method, path, document, signal) {
-  const options = { method, signal, headers: { Accept: "application/json", ...keyHeaders() } };
+  return (await answered(method, path, document, signal, "application/json")).json();
+}
+
+async function answered(method, path, document, signal, form) {
+  const options = { method, signal, headers: { Accept: form, ...keyHeaders() } };
   if (document !== undefined) {
     options.headers["Content-Type"] = "application/json";
     options.body = typeof document === "string" ? document : JSON.stringify(document);
@@ -70,7 +79,7 @@ async function request(method, path, document, signal) {
   }
   report(true);
   if (!answer.ok) throw new Problem(answer.status, await answer.json().catch(() => ({})));
-  return answer.json();
+  return answer;
 }
 
 /** Waits, or throws AbortError as soon as the view is left. */

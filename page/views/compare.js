@@ -6,7 +6,7 @@ import { address, go, note } from "../interface/place.js";
 import { sceneOf } from "../interface/scene_of_job.js";
 import { parameterWords, sceneName } from "../interface/state.js";
 import { Clock } from "../mechanism/clock.js";
-import { Motion, journals } from "../mechanism/motion.js";
+import { Motion } from "../mechanism/motion.js";
 import { onNewColours } from "../mechanism/palette.js";
 import { player, watchable } from "../mechanism/player.js";
 import { calm, turn } from "../mechanism/sketch.js";
@@ -85,9 +85,8 @@ function adding(ids, others) {
 function likely(query, stored, scenes) {
   const asked = (query.get("channels") ?? "").split(",").filter((name) => stored.includes(name));
   if (asked.length) return asked;
-  const names = scenes.flatMap((scene) => [
-    ...(scene.outputs ?? []).map(({ name }) => name),
-    ...journals(scene).map((joint) => `${joint}.normal_force`),
-  ]).filter((name) => stored.includes(name));
+  const outputs = scenes.flatMap((scene) => (scene.outputs ?? []).map(({ name }) => name));
+  const forces = stored.filter((name) => name.endsWith(".normal_force"));
+  const names = [...outputs.filter((name) => stored.includes(name)), ...forces];
   return [...new Set(names.length ? names : stored)].slice(0, 4);
 }

@@ -4,20 +4,22 @@ import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { address, go } from "../interface/place.js";
 import { parameterWords, progressWords, sceneName, stateMark } from "../interface/state.js";
+import { whyQueued, workers } from "../interface/workers.js";
 import { TERMINAL, follow } from "../requests/following.js";
-import { get, post, remove } from "../requests/service.js";
+import { get, pause, post, remove } from "../requests/service.js";
 
 const TABS = {
   watch: ["Watch", () => import("./job/watch.js"), ["history"]],
   diagram: ["Diagram", () => import("./job/diagram.js"), ["bifurcation"]],
-  map: ["Map", () => import("./job/map.js"), ["sweep"]],
+  sweep: ["Sweep", () => import("./job/sweep.js"), ["sweep"]],
   sections: ["Sections", () => import("./job/sections.js"), ["poincare"]],
   accuracy: ["Accuracy", () => import("./job/accuracy.js"), ["certificate", "accuracy"]],
+  fit: ["Fit", () => import("./job/fit.js"), ["calibration"]],
   numbers: ["Numbers", () => import("./job/numbers.js"), ["peaks"]],
   figures: ["Figures", () => import("./job/figures.js"), ["figures"]],
   document: ["Document", () => import("./job/document.js"), ["self"]],
 };
-const LONELY = 8000; // ms in the queue after which it is said that no worker may be alive
+const PATIENCE = 1500; // ms in the queue after which is asked who is there to compute
 
 export async function show(room, { parts, query, signal }) {
   const [id, wanted] = parts;
@@ -81,9 +83,17 @@ class Head {
       this.words,
       this.bar,
     );
-    const lonely = setTimeout(() => this.refresh((this.waited = true)), LONELY);
-    signal.addEventListener("abort", () => clearTimeout(lonely));
+    this.watchQueue().catch(() => {});
     this.refresh();
+  }
+
+  /** Asks now and then, while the job is queued, who is there to compute it. */
+  async watchQueue() {
+    while (this.job.state === "queued") {
+      await pause(PATIENCE, this.signal);
+      if (this.job.state === "queued") this.queued = whyQueued(await workers(this.signal));
+      this.refresh();
+    }
   }
 
   facts() {
@@ -139,10 +149,7 @@ class Head {
         element("p", { class: "small" }, REMEDIES[job.error.class]));
     }
     if (job.damaged) box("bad", element("p", {}, job.damaged));
-    if (job.state === "queued" && this.waited) {
-      box("", element("p", {}, "No worker has taken this job yet. Either all are busy with other"
-        + " jobs, or none is alive: is jointplay serve, or a worker, running?"));
-    }
+    if (job.state === "queued" && this.queued) box("", this.queued);
     if (job.attempt > 1) box("", element("p", {}, `This is attempt ${job.attempt}: the one before did not end, and this one went on from there.`));
     return found;
   }

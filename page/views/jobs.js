@@ -2,17 +2,24 @@
 
 import { element, fill } from "../interface/element.js";
 import { JobRow } from "../interface/job_row.js";
+import { listed } from "../interface/listed.js";
 import { address, note } from "../interface/place.js";
+import { whyQueued, workers } from "../interface/workers.js";
 import { trouble } from "../interface/trouble.js";
 import { TERMINAL } from "../requests/following.js";
 import { Unreachable, get, pause } from "../requests/service.js";
 
+const FIRST_PAGE = 50; // more are asked for as soon as the list is scrolled
 const PAGE = 200;
+const NEWEST = 20; // jobs that are looked at again every second
+const AHEAD = 200; // rows below what is seen that are asked for before they are scrolled to
 const BEYOND = 8; // rows above and below what is seen
 const MOST_COMPARED = 4;
 const MOST_ASKED = 12; // jobs that are looked at again one by one
 const STATES = ["queued", "running", "cancelling", "succeeded", "failed", "cancelled"];
-const KINDS = ["simulate", "bifurcation", "sweep", "poincare", "ensemble", "accuracy-study"];
+const KINDS = [
+  "simulate", "bifurcation", "sweep", "poincare", "ensemble", "accuracy-study", "calibration",
+];
 
 export async function show(room, { query, signal }) {
   const list = new JobList(query, signal);
@@ -22,20 +29,21 @@ export async function show(room, { query, signal }) {
 
 class JobList {
   constructor(query, signal) {
-    Object.assign(this, { signal, jobs: [], next: null, compared: new Set(), rows: new Map() });
+    Object.assign(this, { signal, jobs: null, next: null, compared: new Set(), rows: new Map() });
     this.filters = Object.fromEntries(["state", "kind", "scene", "label"].map((name) =>
       [name, query.get(name) ?? ""]));
     this.inside = element("div", { class: "inside", role: "list", "aria-label": "Jobs" });
     this.scroll = element("div", { class: "rows", tabindex: "0", role: "group",
       "aria-label": "List of jobs, scrolls", onscroll: () => this.scrolled() }, this.inside);
     this.empty = element("div");
+    this.notice = element("div", { "aria-live": "polite" });
     this.said = element("span", { role: "status", class: "quiet" });
     this.compare = element("a", { class: "button", hidden: true }, "Compare");
     this.element = element("div", {},
       element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
         element("div", { class: "buttons" }, this.compare)),
-      this.form(), this.scroll, this.empty);
-    new ResizeObserver(() => this.draw()).observe(this.scroll);
+      this.form(), this.notice, this.scroll, this.empty);
+    new ResizeObserver(() => this.resized()).observe(this.scroll);
   }
 
   form() {
@@ -67,17 +75,18 @@ class JobList {
   }
 
   async load() {
-    const page = await this.page();
+    const page = await this.page(null, FIRST_PAGE);
     for (const row of this.rows.values()) row.element.remove();
     this.rows.clear();
     this.jobs = page.jobs;
-    this.next = page.next_page_token;
-    this.draw();
+    this.next = page.next;
+    this.resized();
   }
 
-  page(token = null, size = PAGE) {
+  async page(token, size) {
     const query = { ...this.filters, page_size: size, page_token: token };
-    return get("/v1/jobs", query, this.signal);
+    const { jobs, next_page_token: next } = await get("/v1/jobs", query, this.signal);
+    return { jobs: jobs.map(listed), next };
   }
 
   /** Looks again, every second: new jobs, and those that are not finished. */
@@ -85,12 +94,14 @@ class JobList {
     while (!this.signal.aborted) {
       try {
         await pause(1000, this.signal);
-        const { jobs } = await this.page(null, 50);
+        const { jobs } = await this.page(null, NEWEST);
         const known = new Map(this.jobs.map((job, place) => [job.id, place]));
         const fresh = jobs.filter(({ id }) => !known.has(id));
         for (const job of jobs) if (known.has(job.id)) this.jobs[known.get(job.id)] = job;
-        this.jobs.unshift(...fresh);
+        if (fresh.length === NEWEST) await this.load(); // there may be more between
+        else this.jobs.unshift(...fresh);
         await this.lookAgain(new Set(jobs.map(({ id }) => id)));
+        await this.tellWhy(jobs.some(({ state }) => state === "queued"));
         this.draw();
       } catch (error) {
         if (error.name === "AbortError") return;
@@ -103,35 +114,47 @@ class JobList {
     const shown = this.jobs.slice(...this.range());
     const moving = shown.filter(({ id, state }) => !TERMINAL.has(state) && !seen.has(id));
     await Promise.all(moving.slice(0, MOST_ASKED).map(async (job) => {
-      Object.assign(job, await get(`/v1/jobs/${job.id}`, {}, this.signal));
+      Object.assign(job, listed(await get(`/v1/jobs/${job.id}`, {}, this.signal)));
     }));
+  }
+
+  /** Says what to do where jobs are queued and nobody is there to compute them. */
+  async tellWhy(waiting) {
+    const alone = waiting && !(await workers(this.signal)).length;
+    if (alone === this.alone) return;
+    this.alone = alone;
+    fill(this.notice, alone && element("div", { class: "notice" }, whyQueued([])));
   }
 
   failed(error) {
     if (error.name !== "AbortError") fill(this.empty, trouble(error));
   }
 
-  range() {
-    const height = this.rowHeight();
-    const first = Math.floor(this.scroll.scrollTop / height) - BEYOND;
-    const count = Math.ceil(this.scroll.clientHeight / height) + 2 * BEYOND;
-    return [Math.max(0, first), Math.max(0, first) + count];
+  /** Measures once what would otherwise be asked of the browser's layout in every frame. */
+  resized() {
+    if (!this.jobs) return; // nothing has come yet
+    this.scroll.hidden = !this.jobs.length;
+    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    this.rowHeight = (matchMedia("(max-width: 760px)").matches ? 4.4 : 4) * rem;
+    this.height = this.scroll.clientHeight;
+    this.draw();
   }
 
-  rowHeight() {
-    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    return (matchMedia("(max-width: 760px)").matches ? 4.4 : 4) * rem;
+  range() {
+    const first = Math.floor(this.scroll.scrollTop / this.rowHeight) - BEYOND;
+    const count = Math.ceil(this.height / this.rowHeight) + 2 * BEYOND;
+    return [Math.max(0, first), Math.max(0, first) + count];
   }
 
   async scrolled() {
     this.draw();
     const [, last] = this.range();
-    if (last < this.jobs.length || !this.next || this.loading) return;
+    if (last + AHEAD < this.jobs.length || !this.next || this.loading) return;
     this.loading = true;
     try {
-      const page = await this.page(this.next);
+      const page = await this.page(this.next, PAGE);
       this.jobs.push(...page.jobs);
-      this.next = page.next_page_token;
+      this.next = page.next;
       this.draw();
     } catch (error) {
       if (error.name !== "AbortError" && !(error instanceof Unreachable)) this.failed(error);
@@ -141,12 +164,8 @@ class JobList {
   }
 
   draw() {
-    const height = this.rowHeight();
-    this.said.textContent = `${this.jobs.length}${this.next ? "+" : ""} shown`;
-    this.inside.style.height = `${Math.max(this.jobs.length * height, 1)}px`;
-    this.scroll.hidden = !this.jobs.length;
-    fill(this.empty, this.jobs.length ? null : this.nothing());
     const [first, last] = this.range();
+    this.count();
     const shown = this.jobs.slice(first, last);
     const ids = new Set(shown.map(({ id }) => id));
     for (const [id, row] of this.rows) {
@@ -165,7 +184,7 @@ class JobList {
         this.rows.set(job.id, row);
         this.inside.append(row.element);
       }
-      row.update(job, (first + place) * height);
+      row.update(job, (first + place) * this.rowHeight);
     });
   }
 
@@ -177,6 +196,18 @@ class JobList {
         ? element("a", { class: "button", href: "#/jobs", onclick: () => location.reload() }, "Show all jobs")
         : element("p", {}, "Choose a ", element("a", { href: "#/" }, "mechanism"),
           " and run it: its job appears here."));
+  }
+
+  /** Says how many there are, once they are more or fewer. */
+  count() {
+    const said = `${this.jobs.length}${this.next ? "+" : ""} shown`;
+    const drawn = `${said} ${this.rowHeight}`;
+    if (this.drawn === drawn) return;
+    this.drawn = drawn;
+    this.said.textContent = said;
+    this.inside.style.height = `${Math.max(this.jobs.length * this.rowHeight, 1)}px`;
+    this.scroll.hidden = !this.jobs.length;
+    fill(this.empty, this.jobs.length ? null : this.nothing());
   }
 
   choose(job, chosen) {

@@ -40,6 +40,11 @@ export async function show(room, { signal }) {
       ),
     ),
     element("ul", { class: "cards" }, documents.map((document) => card(document, signal, said))),
+    element("section", { class: "panel" },
+      element("h2", {}, "Published and computed"),
+      element("p", {}, "The press was measured and simulated by others before: every number and"
+        + " figure that they printed stands beside what is computed here."),
+      element("a", { class: "button", href: "/report" }, "Read the report")),
   );
   const sketch = new Sketch(canvas, withParameters(favourite), { margin: 36 });
   sketch.draw();

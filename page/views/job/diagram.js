@@ -1,17 +1,16 @@
 /** A bifurcation diagram: density, verdicts, exponents; a click leads to that simulation. */
 
 import { element, fill } from "../../interface/element.js";
-import { short, withUnit } from "../../interface/numbers.js";
-import { go, note } from "../../interface/place.js";
-import { firstJob } from "../../interface/kinds_of_job.js";
-import { sceneOf } from "../../interface/scene_of_job.js";
+import { short } from "../../interface/numbers.js";
+import { note } from "../../interface/place.js";
+import { offer } from "../../interface/point_of_study.js";
 import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
 import { drawAxes, extent, scales } from "../../plots/axes.js";
 import { drawCloud } from "../../plots/cloud.js";
 import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
 import { whenThere } from "../../interface/when_there.js";
-import { get, post } from "../../requests/service.js";
+import { get } from "../../requests/service.js";
 
 const LEFT = 78;
 const BELOW = 44;
@@ -141,35 +140,8 @@ class Diagram {
       Math.abs(one.value - value) < Math.abs(best.value - value) ? one : best);
     this.at.value = String(nearest.value);
     const lines = [`${nearest.sections.length} sections`, nearest.verdict, nearest.reason].filter(Boolean);
-    fill(this.chosen, element("div", { class: "notice" },
-      element("p", {}, element("strong", {},
-        `${this.parameter} = ${withUnit(nearest.value, this.unit, 6)}`), `: ${lines.join("; ")}`),
-      element("div", { class: "buttons" },
-        element("button", { type: "button", class: "main", onclick: (event) => this.run(event, nearest) },
-          "Run this simulation"),
-        element("span", { class: "quiet small" },
-          nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} 1/s`))));
+    const exponent = nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} 1/s`;
+    const values = { [this.parameter]: [nearest.value, this.unit] };
+    offer(this.chosen, this.job, values, lines.join("; "), exponent, this.signal);
   }
-
-  async run(event, { value }) {
-    event.target.disabled = true;
-    try {
-      const { scene: given, tolerance, method } = this.job.job;
-      const scene = { ...given, parameters: { ...chosenOf(given.parameters), [this.parameter]: value } };
-      if (!given.preset) scene.parameters = given.parameters;
-      const document = await sceneOf({ scene: given }, this.signal);
-      if (!given.preset) scene.parameters[this.parameter] = { ...given.parameters[this.parameter], default: value };
-      const job = await post("/v1/jobs", {
-        kind: "simulate", scene, duration: firstJob(document).duration, tolerance, method,
-        label: `${this.parameter} = ${withUnit(value, this.unit, 4)}`,
-      });
-      go(["job", job.id]);
-    } catch (error) {
-      fill(this.chosen, element("div", { class: "notice bad" }, error.message));
-    }
-  }
-}
-
-function chosenOf(parameters = {}) {
-  return Object.fromEntries(Object.entries(parameters).filter(([, value]) => value !== null));
 }

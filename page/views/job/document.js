@@ -2,10 +2,20 @@
 
 import { element, fill } from "../../interface/element.js";
 import { jobAsText } from "../../interface/job_as_text.js";
-import { follow } from "../../requests/following.js";
+import { atWork, workers } from "../../interface/workers.js";
+import { TERMINAL, follow } from "../../requests/following.js";
 
 export async function show(room, { job, signal }) {
   const rows = element("tbody");
+  const working = element("div");
+  let asking = false;
+  const tellWho = async ({ state }) => {
+    if (asking) return;
+    asking = true;
+    const found = TERMINAL.has(state) ? null : atWork(await workers(signal), job.id);
+    fill(working, found && [element("h2", {}, "Who computes it"), found]);
+    asking = false;
+  };
   fill(
     room,
     element(
@@ -15,7 +25,7 @@ export async function show(room, { job, signal }) {
         element("p", { class: "quiet small" }, "With every default filled in: it repeats the"
           + " results bit for bit."),
         jobAsText(() => job.job).element),
-      element("section", { class: "panel" }, element("h2", {}, "What happened"),
+      element("section", { class: "panel" }, working, element("h2", {}, "What happened"),
         element("table", {}, element("thead", {}, element("tr", {},
           ["When", "What", "Details"].map((title) => element("th", { scope: "col" }, title)))), rows),
         element("p", { class: "quiet small" }, `Solver ${job.solver_version}`)),
@@ -23,6 +33,7 @@ export async function show(room, { job, signal }) {
   );
   follow(`/v1/jobs/${job.id}`, {
     signal,
+    onProgress: (now) => tellWho(now).catch(() => (asking = false)),
     onEvent: ({ type, time, data }) => rows.append(element("tr", {},
       element("td", {}, new Date(time).toLocaleTimeString()),
       element("td", {}, type),

@@ -25,12 +25,12 @@ export async function show(room, context) {
   });
 }
 
-function table(titles, rows) {
-  return element("table", {},
+function table(name, titles, rows) {
+  return element("div", { class: "wide", role: "group", tabindex: "0", "aria-label": name }, element("table", {},
     element("thead", {}, element("tr", {}, titles.map((title, i) =>
       element("th", { scope: "col", class: i ? "number" : "" }, title)))),
     element("tbody", {}, rows.map((row) => element("tr", {}, row.map((cell, i) =>
-      i ? element("td", { class: "number" }, cell) : element("th", { scope: "row" }, cell))))));
+      i ? element("td", { class: "number" }, cell) : element("th", { scope: "row" }, cell)))))));
 }
 
 function peakTable(peaks) {
@@ -38,7 +38,7 @@ function peakTable(peaks) {
     name, withUnit(peak.minimum, peak.unit), withUnit(peak.minimum_time, "s"),
     withUnit(peak.maximum, peak.unit), withUnit(peak.maximum_time, "s"),
   ]);
-  return table(["Channel", "Smallest", "at", "Largest", "at"], rows);
+  return table("Extremes", ["Channel", "Smallest", "at", "Largest", "at"], rows);
 }
 
 function impactTable(impacts) {
@@ -48,7 +48,7 @@ function impactTable(impacts) {
     withUnit(one.approach_rate, "m/s", 3), withUnit(one.peak_force, "N", 3),
   ]);
   return [
-    table(["Joint", "Onset", "Duration", "Approach", "Peak force"], shown),
+    table("Contacts", ["Joint", "Onset", "Duration", "Approach", "Peak force"], shown),
     impacts.length > MOST_IMPACTS &&
       element("p", { class: "quiet small" }, `The first ${MOST_IMPACTS} are shown.`),
   ];
@@ -62,5 +62,5 @@ function ledger({ method, method_reason: reason, steps, rejections, smallest_ste
   for (const [name, value] of Object.entries(energy ?? {})) {
     rows.push([name.replaceAll("_", " "), withUnit(value, "J")]);
   }
-  return table(["Quantity", ""], rows);
+  return table("The computation", ["Quantity", "Value"], rows);
 }

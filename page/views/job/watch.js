@@ -7,13 +7,14 @@ import { note } from "../../interface/place.js";
 import { sceneOf } from "../../interface/scene_of_job.js";
 import { Clock } from "../../mechanism/clock.js";
 import { Insets } from "../../mechanism/insets.js";
-import { Motion, journals } from "../../mechanism/motion.js";
+import { Motion } from "../../mechanism/motion.js";
 import { onNewColours } from "../../mechanism/palette.js";
 import { player, watchable } from "../../mechanism/player.js";
 import { calm, turn } from "../../mechanism/sketch.js";
 import { Stage } from "../../mechanism/stage.js";
 import { TERMINAL } from "../../requests/following.js";
 import { get } from "../../requests/service.js";
+import { PhasePortrait, Spectrum } from "./window.js";
 
 export async function show(room, context) {
   const { job, onChange } = context;
@@ -44,7 +45,11 @@ class Watch {
     this.insets = new Insets(this.motion);
     this.impacts = [];
     const plotRoom = element("section", { class: "panel" }, element("h2", {}, "History"));
-    fill(this.room, element("div", { class: "split" }, this.drawing(scene), plotRoom));
+    this.looks = [PhasePortrait, Spectrum].map((Look) => new Look(job, query, signal));
+    fill(this.room,
+      element("div", { class: "stacked" },
+        element("div", { class: "split" }, this.drawing(scene), plotRoom),
+        element("div", { class: "looks" }, this.looks.map((look) => look.element))));
     onNewColours(() => this.draw(), signal);
     addEventListener("resize", () => this.draw(), { signal });
     signal.addEventListener("abort", () => this.clock.stop());
@@ -76,7 +81,7 @@ class Watch {
       element("div", { class: "buttons" },
         element("label", { class: "buttons small", for: "labels" }, labels, "Names"),
         saving(stage, clock, scene.name)),
-      journals(scene).length > 0 && this.insets.element,
+      this.insets.joints.length > 0 && this.insets.element,
     );
   }
 
@@ -84,14 +89,16 @@ class Watch {
     if (this.motion.missing.length) return;
     const { time } = this.clock;
     const [state] = this.stage.draw(time);
-    if (state) this.insets.draw(time, state.contacts);
+    if (state) this.insets.draw(time, state);
   }
 
   async plots(room, scene) {
     const { HistoryPlots } = await import("../../plots/history_plots.js");
     const { job, query } = this;
-    this.history = new HistoryPlots([job], this.clock, this.signal, ([from, to]) =>
-      note({ from, to }));
+    this.history = new HistoryPlots([job], this.clock, this.signal, ([from, to]) => {
+      note({ from, to });
+      this.follow();
+    });
     this.history.onsets = this.impacts;
     const choice = new ChannelChoice(job.job.channels, chosen(query, job, scene), (names) => {
       note({ channels: names.join(",") });
@@ -101,7 +108,13 @@ class Watch {
     if (query.has("from") && query.has("to")) {
       this.history.window = [Number(query.get("from")), Number(query.get("to"))];
     }
+    this.follow();
     await this.history.show(choice.names);
+  }
+
+  /** Shows the same window otherwise. */
+  follow() {
+    for (const look of this.looks) look.follow(this.history.window);
   }
 
   /** What is drawn besides, as far as it is there: peaks, impacts, the certificate. */
@@ -141,7 +154,7 @@ function chosen(query, job, scene) {
   const asked = (query.get("channels") ?? "").split(",").filter((name) => stored.has(name));
   if (asked.length) return asked;
   const outputs = (scene.outputs ?? []).map(({ name }) => name);
-  const forces = journals(scene).map((joint) => `${joint}.normal_force`);
+  const forces = job.job.channels.filter((name) => name.endsWith(".normal_force"));
   const likely = [...outputs, ...forces].filter((name) => stored.has(name));
   const some = likely.length ? likely : job.job.channels;
   return some.slice(0, 5);

@@ -1,0 +1,48 @@
+/** One point of a study: the values of its parameters, and the simulation that has them. */
+
+import { element, fill } from "./element.js";
+import { firstJob } from "./kinds_of_job.js";
+import { withUnit } from "./numbers.js";
+import { go } from "./place.js";
+import { sceneOf } from "./scene_of_job.js";
+import { post } from "../requests/service.js";
+
+/**
+ * Tells of a point, and offers to run its simulation.
+ *
+ * @param study job of the study, as the service shows it
+ * @param values `{parameter: [value, unit]}`
+ * @param words what is known of the point
+ * @param beside what stands beside the button, in short
+ */
+export function offer(room, study, values, words, beside, signal) {
+  const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
+    `${name} = ${withUnit(value, unit, digits)}`).join(", ");
+  const run = async ({ target }) => {
+    target.disabled = true;
+    try {
+      const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
+      const job = await post("/v1/jobs", { ...(await simulation(study.job, plain, signal)), label: named(4) });
+      go(["job", job.id]);
+    } catch (error) {
+      fill(room, element("div", { class: "notice bad" }, error.message));
+    }
+  };
+  fill(room, element("div", { class: "notice" },
+    element("p", {}, element("strong", {}, named(6)), `: ${words}`),
+    element("div", { class: "buttons" },
+      element("button", { type: "button", class: "main", onclick: run }, "Run this simulation"),
+      element("span", { class: "quiet small" }, beside))));
+}
+
+/** Returns the document of the run of a study's scene with these values. */
+async function simulation({ scene: given, tolerance, method, duration }, values, signal) {
+  const document = await sceneOf({ scene: given }, signal);
+  const declared = given.parameters ?? {};
+  const set = given.preset
+    ? { ...Object.fromEntries(Object.entries(declared).filter(([, value]) => value !== null)), ...values }
+    : { ...declared, ...Object.fromEntries(Object.entries(values).map(([name, value]) =>
+        [name, { ...declared[name], default: value }])) };
+  const long = typeof duration === "number" ? duration : firstJob(document).duration;
+  return { kind: "simulate", scene: { ...given, parameters: set }, duration: long, tolerance, method };
+}

@@ -1,0 +1,82 @@
+/** Quantities of a sweep: extremes of channels, their statistics, and what else points have. */
+
+import { element, fill } from "./element.js";
+
+const EXTREMES = ["maximum", "minimum", "range"];
+const TOGETHER = "extremes and mean";
+
+export class Quantities {
+  /** @param onchoice called with `{channel, of}` whenever one of them is chosen */
+  constructor(query, onchoice) {
+    Object.assign(this, { channel: query.get("channel"), of: query.get("of"), onchoice });
+    this.element = element("div", { class: "filters" });
+  }
+
+  /** Takes the pages of an answer; `together`: the curves of a channel may be shown as one. */
+  take(pages, together) {
+    this.pages = pages;
+    this.together = together;
+    this.draw();
+  }
+
+  draw() {
+    const [{ peaks, statistics }] = this.pages;
+    const channels = Object.keys(peaks);
+    const others = Object.keys(statistics).filter((name) =>
+      !channels.some((channel) => name.startsWith(`${channel}.`)));
+    const known = [...channels, ...others];
+    if (!known.includes(this.channel)) [this.channel] = channels;
+    const of = this.choices();
+    if (!of.includes(this.of)) [this.of] = of;
+    fill(this.element, this.select("channel", "Of", known), of.length > 1 && this.select("of", "Quantity", of));
+  }
+
+  select(name, title, values) {
+    const made = element("select", { id: `sweep-${name}`, onchange: () => {
+      this[name] = made.value;
+      this.draw();
+      document.getElementById(made.id).focus();
+      this.onchoice({ channel: this.channel, of: this.of });
+    } }, values.map((value) => element("option", { value, selected: value === this[name] },
+      value.replaceAll("_", " "))));
+    return element("div", { class: "field" }, element("label", { for: made.id }, title), made);
+  }
+
+  /** Names of what is known of the channel that is chosen. */
+  choices() {
+    const [{ peaks, statistics }] = this.pages;
+    if (!peaks[this.channel]) return [""];
+    const start = `${this.channel}.`;
+    const own = Object.keys(statistics).filter((name) => name.startsWith(start))
+      .map((name) => name.slice(start.length));
+    return [...(this.together ? [TOGETHER] : []), ...EXTREMES, ...own];
+  }
+
+  /** Returns `{name, unit, curves: [{title, values, colour, swatch}]}`; a band has low and high. */
+  shown(colours) {
+    const { channel, of } = this;
+    const [{ peaks, statistics }] = this.pages;
+    const { unit } = peaks[channel] ?? statistics[channel];
+    const curve = (quantity, place = 0) => ({
+      title: quantity.replaceAll("_", " ") || channel, values: this.column(quantity),
+      colour: colours[`curve-${place}`], swatch: `swatch-${place}`,
+    });
+    if (of !== TOGETHER) return { name: of ? `${of.replaceAll("_", " ")} of ${channel}` : channel, unit, curves: [curve(of)] };
+    const mean = statistics[`${channel}.mean`] && curve("mean", 2);
+    const spread = mean && statistics[`${channel}.standard_deviation`] && this.column("standard_deviation");
+    const band = spread && {
+      ...mean, title: "mean ± standard deviation", values: undefined,
+      low: mean.values.map((value, i) => value - spread[i]),
+      high: mean.values.map((value, i) => value + spread[i]),
+    };
+    return { name: channel, unit, curves: [band, curve("maximum", 1), curve("minimum", 0), mean].filter(Boolean) };
+  }
+
+  column(quantity) {
+    const { channel } = this;
+    const name = quantity ? `${channel}.${quantity}` : channel;
+    return this.pages.flatMap(({ peaks, statistics }) =>
+      (EXTREMES.includes(quantity) ? peaks[channel][quantity] : statistics[name].values)
+        .map((value) => value ?? NaN));
+  }
+}

@@ -1,0 +1,69 @@
+/** A power spectrum on two logarithmic axes, up to its band limit. */
+
+import uPlot from "../vendor/uplot/uPlot.esm.min.js";
+import { element, fill } from "../interface/element.js";
+import { short, withUnit } from "../interface/numbers.js";
+import { onNewColours, palette } from "../mechanism/palette.js";
+
+const HEIGHT = 320; // px
+const DECADES = 12; // below the strongest power; what lies deeper is rounding
+
+export class SpectrumPlot {
+  constructor(signal) {
+    this.room = element("div");
+    this.value = element("p", { class: "quiet small" }, "\u00a0");
+    this.element = element("div", { role: "img" }, this.room, this.value);
+    onNewColours(() => this.draw(), signal);
+    new ResizeObserver(() => this.plot?.setSize({ width: this.room.clientWidth, height: HEIGHT }))
+      .observe(this.room);
+  }
+
+  /** @param density `{frequency, density, unit, band_limit}` as the service answers, of a channel */
+  show(channel, density) {
+    Object.assign(this, { channel, density });
+    this.draw();
+  }
+
+  draw() {
+    this.plot?.destroy();
+    this.plot = null;
+    fill(this.room);
+    if (!this.density?.frequency.length || !this.room.clientWidth) return;
+    const { frequency, density, unit, band_limit: limit } = this.density;
+    const top = density.reduce((most, one) => Math.max(most, one), 0);
+    this.plot = new uPlot(this.options(unit, [top / 10 ** DECADES, 3 * top], limit),
+      [frequency, density.map((one) => one || null)], this.room);
+    this.element.setAttribute("aria-label", `Power of ${this.channel} over frequency, up to ${
+      withUnit(limit, "Hz", 3)}`);
+  }
+
+  options(unit, range, limit) {
+    const colours = palette();
+    const axis = {
+      stroke: colours.quiet, grid: { show: false }, ticks: { width: 0.5 },
+      values: (_, ticks) => ticks.map((one) => (one === null ? "" : short(one, 3))),
+    };
+    return {
+      width: this.room.clientWidth,
+      height: HEIGHT,
+      legend: { show: false },
+      scales: {
+        x: { time: false, distr: 3, range: [this.density.frequency[0], limit] },
+        y: { distr: 3, range },
+      },
+      cursor: { drag: { x: false, y: false } },
+      series: [{}, { stroke: colours["curve-0"], width: 1, points: { show: false } }],
+      axes: [
+        { ...axis, size: 44, label: "frequency [Hz]", labelSize: 20 },
+        { ...axis, size: 74, label: unit, labelSize: 18 },
+      ],
+      hooks: { setCursor: [(plot) => this.read(plot, unit)] },
+    };
+  }
+
+  read({ cursor: { idx }, data }, unit) {
+    const told = idx === null || idx === undefined
+      ? "\u00a0" : `${short(data[1][idx], 3)} ${unit} at ${withUnit(data[0][idx], "Hz")}`;
+    this.value.textContent = told;
+  }
+}

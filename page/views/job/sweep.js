@@ -1,0 +1,122 @@
+/** A sweep: extremes and statistics over one parameter as curves, over two as a map. */
+
+import { element, fill } from "../../interface/element.js";
+import { short, withUnit } from "../../interface/numbers.js";
+import { note } from "../../interface/place.js";
+import { offer } from "../../interface/point_of_study.js";
+import { Quantities } from "../../interface/quantities.js";
+import { whenThere } from "../../interface/when_there.js";
+import { prepared } from "../../mechanism/canvas.js";
+import { onNewColours, palette } from "../../mechanism/palette.js";
+import { drawAxes, extent, scales } from "../../plots/axes.js";
+import { drawCurves } from "../../plots/curves.js";
+import { cellsAbout, drawMap } from "../../plots/heat_map.js";
+import { get } from "../../requests/service.js";
+
+const LEFT = 86;
+const MOST_ROWS = 500; // of the table
+
+export async function show(room, context) {
+  const sweep = new Sweep(context);
+  await whenThere(room, context, context.job.links.sweep, {}, async (answer) => {
+    if (!sweep.element.isConnected) fill(room, sweep.element);
+    await sweep.take(answer);
+  });
+}
+
+class Sweep {
+  constructor({ job, query, signal }) {
+    Object.assign(this, { job, signal });
+    this.quantities = new Quantities(query, (chosen) => {
+      note(chosen);
+      this.draw();
+    });
+    this.canvas = element("canvas", { class: "canvas-plot", role: "img", onclick: (event) => this.click(event) });
+    this.legend = element("ul", { class: "legend" });
+    this.chosen = element("div", { role: "status" });
+    this.table = element("div");
+    this.element = element("section", { class: "panel" }, this.quantities.element, this.canvas,
+      this.legend, this.chosen,
+      element("details", {}, element("summary", {}, "As a table"), this.table));
+    onNewColours(() => this.draw(), signal);
+    addEventListener("resize", () => this.draw(), { signal });
+  }
+
+  /** Takes an answer and those that follow it. */
+  async take(answer) {
+    const pages = [answer];
+    while (pages.at(-1).next_start !== null) {
+      const query = { start: pages.at(-1).next_start };
+      pages.push(await get(this.job.links.sweep, query, this.signal));
+    }
+    this.parameters = Object.entries(answer.values).map(([name, { unit }]) => ({
+      name, unit, label: `${name} [${unit}]`,
+      values: pages.flatMap((page) => page.values[name].values),
+    }));
+    this.quantities.take(pages, this.parameters.length === 1);
+    this.draw();
+  }
+
+  draw() {
+    if (!this.parameters || !this.canvas.clientWidth) return;
+    const colours = palette();
+    const context = prepared(this.canvas);
+    const { name, unit, curves } = this.quantities.shown(colours);
+    const [first, second] = this.parameters;
+    const title = `${name} [${unit}]`;
+    const { clientWidth, clientHeight } = this.canvas;
+    const height = clientHeight - 72;
+    if (this.parameters.length === 1) {
+      const inside = [LEFT, 24, clientWidth - LEFT - 14, height];
+      const all = curves.flatMap(({ values, low, high }) => (low ? [low, high] : [values]));
+      this.to = scales(inside, extent([first.values]), extent(all));
+      drawCurves(context, this.to, first.values, curves);
+      drawAxes(context, this.to, { xLabel: first.label, yLabel: title }, colours);
+    } else {
+      const inside = [LEFT, 24, clientWidth - LEFT - 100, height];
+      this.to = scales(inside, cellsAbout(first.values), cellsAbout(second.values));
+      drawMap(context, this.to, [first.values, second.values], curves[0].values, colours, unit);
+      drawAxes(context, this.to, { xLabel: first.label, yLabel: second.label }, colours);
+    }
+    this.canvas.setAttribute("aria-label",
+      `${title} over ${this.parameters.map((one) => one.name).join(" and ")}`);
+    fill(this.legend, curves.length > 1 && curves.map(({ title: words, swatch }) =>
+      element("li", {}, element("span", { class: `swatch ${swatch}` }), words)));
+    this.list(curves.filter(({ values }) => values), unit);
+  }
+
+  /** Chooses the point that is drawn nearest to a click. */
+  click({ clientX, clientY }) {
+    if (!this.to) return;
+    const { left, top } = this.canvas.getBoundingClientRect();
+    const [first, second] = this.parameters;
+    const away = (i) => Math.hypot(this.to.x(first.values[i]) - clientX + left,
+      second ? this.to.y(second.values[i]) - clientY + top : 0);
+    this.pick(first.values.reduce((best, _, i) => (away(i) < away(best) ? i : best), 0));
+  }
+
+  pick(point) {
+    const values = Object.fromEntries(this.parameters.map(({ name, unit, values: all }) =>
+      [name, [all[point], unit]]));
+    const { name, unit, curves } = this.quantities.shown(palette());
+    const words = curves.filter((one) => one.values).map(({ title, values: all }) =>
+      `${title} ${withUnit(all[point], unit)}`).join(", ");
+    offer(this.chosen, this.job, values, `${name}: ${words}`, "", this.signal);
+  }
+
+  list(curves, unit) {
+    const count = this.parameters[0].values.length;
+    const rows = Array.from({ length: Math.min(count, MOST_ROWS) }, (_, i) => element("tr", {},
+      this.parameters.map(({ values, unit: of }) => element("td", {}, withUnit(values[i], of))),
+      curves.map(({ values }) => element("td", {}, withUnit(values[i], unit))),
+      element("td", {}, element("button", {
+        type: "button", "aria-label": `Choose point ${i + 1}`, onclick: () => this.pick(i),
+      }, "Choose"))));
+    const titles = [...this.parameters.map(({ name }) => name), ...curves.map(({ title }) => title)];
+    fill(this.table, element("table", { class: "small" },
+      element("thead", {}, element("tr", {},
+        titles.map((title) => element("th", { scope: "col" }, title)), element("td"))),
+      element("tbody", {}, rows)),
+    count > MOST_ROWS && element("p", { class: "quiet small" }, `The first ${short(MOST_ROWS)} points.`));
+  }
+}
