@@ -1,4 +1,4 @@
-"""Cost of keeping steps: time and bytes of a run, and how long windows of it take.
+"""Cost of keeping steps, or extremes between samples: time and bytes, and how long windows take.
 
 The press of `benchmarks.press`, ten revolutions at the tolerance 1e-6. Runs with and without steps
 alternate; windows over HTTP are asked of a service in a process of its own, one channel and 2000
@@ -23,6 +23,9 @@ from jointplay.solver.runs.simulate import Simulation
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.packed import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.results.intervals import GROUP as INTERVALS
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.steps import GROUP
 from jointplay.storage.settings import Settings
@@ -50,23 +53,51 @@ def seconds(work: Callable[[], Any]) -> float:
     return time.perf_counter() - begun
 
 
+def solved(admission: Admission) -> int:
+    simulation = Simulation(admission)
+    for _ in simulation.slices():
+        pass
+    return int(simulation.summary().statistics["steps"])
+
+
+def saved(admission: Admission) -> dict[str, int]:
+    """Return bytes by group of the store; "" : what is in none."""
+    with tempfile.TemporaryDirectory() as folder:
+        target = StoredObject(Folder(folder), "run.zip")
+        execute(admission, Path(folder) / "running", target, report=lambda _: Answer.go_on)
+        found: dict[str, int] = {}
+        for key, entry in Packed(target).entries.items():
+            group = key.partition("/")[0] if key.startswith((GROUP, INTERVALS)) else ""
+            found[group] = found.get(group, 0) + entry.size
+        return found
+
+
 def of_runs() -> None:
-    jobs = {"kept": document(), "dropped": document(steps_limit=0)}
-    found: dict[str, list[float]] = {name: [] for name in jobs}
+    """Print seconds of processor: load from elsewhere does not count."""
+    limits = {"kept": {}, "dropped, extremes between samples": {"steps_limit": 0}}
+    works: dict[str, tuple[Callable[[Admission], Any], bool]] = {
+        "solver": (solved, False),
+        "stored": (saved, False),
+        "certificate": (saved, True),
+    }
+    found: dict[tuple[str, str], list[float]] = {}
     for k in range(REPEATS + 1):
-        for name, one in jobs.items():
-            admission = admit(one)
-            assert isinstance(admission, Admission)
-            simulation = Simulation(admission)
-            taken = seconds(partial(list, simulation.slices()))
-            if k:  # the first loads kernels
-                found[name].append(taken)
-    steps = simulation.summary().statistics["steps"]
-    print(f"{REVOLUTIONS} revolutions, {steps} steps, medians of {REPEATS} alternating runs:")
-    for name, times in found.items():
-        print(
-            f"  steps {name}: {1e3 * statistics.median(times):.1f} ms, best {1e3 * min(times):.1f}"
-        )
+        for name, limit in limits.items():
+            for what, (work, certificate) in works.items():
+                admission = admit(document(certificate=certificate, **limit))
+                assert isinstance(admission, Admission)
+                begun = time.process_time()
+                work(admission)
+                if k:  # the first loads kernels
+                    found.setdefault((name, what), []).append(time.process_time() - begun)
+    print(f"{REVOLUTIONS} revolutions, seconds of processor, medians of {REPEATS}:")
+    for (name, what), times in found.items():
+        print(f"  steps {name}; {what}: {1e3 * statistics.median(times):.0f} ms")
+    for name, limit in limits.items():
+        admission = admit(document(**limit))
+        assert isinstance(admission, Admission)
+        sizes = {group or "rest": size // REVOLUTIONS for group, size in saved(admission).items()}
+        print(f"  steps {name}: {sizes} bytes a revolution")
 
 
 def stored(settings: Settings, job: str) -> None:

@@ -28,6 +28,7 @@ WINDOWS = 5000
 STREAMS = 200
 COLUMNS = (*ROLES, "checking")
 QUIET = 2.0  # s, for what is given back a moment later
+IDLE = 32.0  # s, in which the API lets go of readers that nobody uses
 PATIENCE = 600.0  # s
 
 
@@ -171,6 +172,8 @@ def main() -> None:
                 table.row(step.__name__.replace("_", " "))
             soak(table, http, submit, range(10, 10 + arguments.jobs))
             soak(table, http, compute, range(2_000_000, 2_000_000 + arguments.computed))
+            time.sleep(IDLE)
+            table.row("half a minute of rest")
 
 
 if __name__ == "__main__":

@@ -17,8 +17,11 @@ from jointplay.service.processes import running_service
 from tests.page.browsing import chromium
 
 PRESS = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 2.0}
+PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 SAMPLES = 10_000_000
+JOBS = 10_000
 SECONDS = 4.0
+FLAGS = ["--no-sandbox", "--enable-precise-memory-info"]
 _FRAME = "Number(document.querySelector('.stage canvas')?.dataset.frames ?? 0)"
 _PAN = """async seconds => {
   const over = document.querySelector('.u-over');
@@ -36,6 +39,20 @@ _PLAY = """async seconds => {
   await new Promise(resolve => setTimeout(resolve, 1000 * seconds));
   return (FRAME - before) / seconds;
 }""".replace("FRAME", _FRAME)
+
+_SCROLL = """async () => {
+  const list = document.querySelector('.rows');
+  const began = performance.now();
+  let frames = 0;
+  for (let end = false; !end; frames++) {
+    list.scrollTop += 400;
+    await new Promise(requestAnimationFrame);
+    end = list.scrollTop + list.clientHeight >= list.scrollHeight - 1
+      && !document.querySelector('h1 + span').textContent.includes('+');
+  }
+  const seconds = (performance.now() - began) / 1000;
+  return [frames / seconds, performance.memory.usedJSHeapSize / 1e6];
+}"""
 
 
 def finished(client: httpx.Client, **fields: Any) -> str:
@@ -66,7 +83,7 @@ def main() -> None:
         many = finished(
             client, output_step=2.0 / SAMPLES, channels=["acceleration"], certificate=False
         )
-        browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        browser = playwright.chromium.launch(executable_path=chromium(), args=FLAGS)
         views = {
             "start": "",
             "new job": "#/new/seven-bar-press",
@@ -95,6 +112,12 @@ def main() -> None:
         page.goto(f"{url}/#/job/{many}?from=0.9&to=1.1&t=1")
         page.locator(".uplot").first.wait_for()
         print(f"panning {SAMPLES} samples: {page.evaluate(_PAN, SECONDS):.0f} frames/s")
+        batch = client.post("/v1/batches", json={"jobs": [PENDULUM] * JOBS}).raise_for_status()
+        client.post(f"{batch.headers['Location']}/cancel").raise_for_status()
+        page.goto(f"{url}/#/jobs?scene=pendulum")
+        page.locator(".row").first.wait_for()
+        frames, heap = page.evaluate(_SCROLL)
+        print(f"scrolling through {JOBS} jobs: {frames:.0f} frames/s, {heap:.0f} MB of heap")
         browser.close()
 
 

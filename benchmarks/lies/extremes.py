@@ -19,8 +19,11 @@ STILL = 1e-9
 """Share of its size by which a channel must move, to be judged."""
 ALLOWED = 1e-6
 """Share of its range by which an extreme may be off."""
+ROUNDED = 4.0
+"""Median second differences of samples CLOSER to each other that count as rounding: where a journal
+is as close to its bearing's centre as its place is rounded, the direction of its slip is."""
 CLOSER, ABOUT = 2000, 0.1
-"""How much closer samples are taken about an extreme that none of the others reaches, and how many
+"""Factor by which samples are closer about an extreme that none of the others reaches, and how many
 spacings to either side."""
 
 
@@ -65,6 +68,9 @@ def extremes_of(job: dict[str, Any]) -> Extremes:
         ):
             seen = float((sense * sampled).max())
             miss = max(seen - sense * value, 0.0)
+            if miss > ALLOWED * spread:
+                seen_at = finished.time[int((sense * sampled).argmax())]
+                miss = max(miss - rounding(finished, column, seen_at, spacing), 0.0)
             at = int(np.searchsorted(finished.time, time))
             near = sense * sampled[max(at - 3, 0) : at + 3]
             if beyond(sense * value, near) > ALLOWED * spread:
@@ -84,6 +90,15 @@ def samples_about(finished: Finished, column: int, time: float, spacing: float) 
     close, count = spacing / CLOSER, int(2.0 * ABOUT * CLOSER)
     first = max(time - ABOUT * spacing, 0.0)
     return close_look(finished.admission, finished.method, first, close, count)[:, column]
+
+
+def rounding(finished: Finished, column: int, time: float, spacing: float) -> float:
+    """Return what a channel differs by from one of instants to the next that hardly differ.
+
+    A kink there leaves all but one of the second differences small.
+    """
+    values = samples_about(finished, column, time, spacing)
+    return ROUNDED * float(np.median(np.abs(np.diff(values, 2)))) if len(values) > 2 else 0.0
 
 
 def beyond(highest: float, sampled: Floats) -> float:

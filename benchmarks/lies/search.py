@@ -27,7 +27,7 @@ V = TypeVar("V", bound=Verdict)
 
 @dataclass(frozen=True)
 class Measure(Generic[V]):
-    """How the claims of a job are judged, and how that is told.
+    """Judgement of the claims of jobs, and how it is told.
 
     Attributes
     ----------

@@ -1,0 +1,78 @@
+"""The diagram of `sweep` by two workers over HTTPS alone, beside two workers of the service itself.
+
+    python -m benchmarks joined [--values 80]
+
+Two services on this machine take turns, so that what else the machine does slows both alike: one
+with two workers, one without and two that joined with an address. Kernels are warm. The last line
+is the median over the turns of local time by joined time; processor time is that of all processes
+of a service and its workers, which a machine with other things to do does not stretch.
+"""
+
+import argparse
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from subprocess import DEVNULL
+
+from benchmarks.sweep import VALUES, document
+from jointplay.client import Client
+from jointplay.service.processes import running_service
+from tests.waiting import processor_time
+
+WORKERS, TURNS = 2, 7
+
+
+@contextmanager
+def joined_worker(url: str) -> Iterator[None]:
+    """Keep a worker running that knows the address alone."""
+    command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", url]
+    with subprocess.Popen(command, stdout=DEVNULL, stderr=DEVNULL) as worker:
+        try:
+            yield
+        finally:
+            worker.terminate()
+
+
+def seconds_of(client: Client, values: int) -> tuple[float, float]:
+    """Return the time from the request to the end of one diagram, and the processor's."""
+    begun, used = time.perf_counter(), processor_time()
+    job = client.submit(document(values) | {"cache": False}).wait()
+    if job.state != "succeeded":
+        raise SystemExit(f"the job {job.state}: {job.error}")
+    return time.perf_counter() - begun, processor_time() - used
+
+
+def main() -> None:
+    """Print the times of every turn, and the ratio."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks joined")
+    parser.add_argument("--values", type=int, default=VALUES, help="clearances of the diagram")
+    values = parser.parse_args().values
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        local = stack.enter_context(running_service(folder / "local", WORKERS))
+        served = stack.enter_context(running_service(folder / "joined", 0))
+        for _ in range(WORKERS):
+            stack.enter_context(joined_worker(served))
+        clients = [stack.enter_context(Client(url)) for url in (local, served)]
+        for client in clients:
+            seconds_of(client, values)  # loads kernels
+        turns = []
+        for _ in range(TURNS):
+            turns.append([seconds_of(client, values) for client in clients])
+            (one, its), (other, others) = turns[-1]
+            line = f"local {one:.2f} s ({its:.2f} s of processor)"
+            print(f"{line}, joined {other:.2f} s ({others:.2f} s of processor)", flush=True)
+    print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    for number, what in enumerate(("time", "processor time")):
+        ratio = statistics.median(one[number] / other[number] for one, other in turns)
+        print(f"ratio of {what} {ratio:.3f}")
+
+
+if __name__ == "__main__":
+    main()
