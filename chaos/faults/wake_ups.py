@@ -12,7 +12,8 @@ from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
-from jointplay.worker.app import QUEUES, RUN_BLOCK, make_app
+from jointplay.storage.catalogue.records import QUEUES
+from jointplay.worker.app import RUN_BLOCK, make_app
 
 _TIMES = 3
 
