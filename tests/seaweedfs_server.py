@@ -7,16 +7,16 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from obstore.exceptions import BaseError
 from obstore.store import S3Store
 
+from tests.waiting import until
+
 KEYS = {"AWS_ACCESS_KEY_ID": "tests", "AWS_SECRET_ACCESS_KEY": "only-for-tests"}
-PATIENCE = 120.0  # s
 BUCKET = "results"
 
 
@@ -75,17 +75,17 @@ def running_store() -> Iterator[str]:
 
 def _await(endpoint: str, process: "subprocess.Popen[bytes]", log: Path) -> None:
     """Wait until a bucket could be made, and an object be put there."""
-    give_up = time.monotonic() + PATIENCE
     probe = store(endpoint)
-    while True:
+
+    def takes_objects() -> bool:
         assert process.poll() is None, log.read_text()[-4000:]
-        assert time.monotonic() < give_up, log.read_text()[-4000:]
-        try:
+        with suppress(BaseError):
             probe.put("probe", b"x")
             probe.delete("probe")
-            return
-        except BaseError:
-            time.sleep(0.1)
+            return True
+        return False
+
+    until(takes_objects)
 
 
 def store(endpoint: str, prefix: str | None = None) -> S3Store:

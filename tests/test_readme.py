@@ -19,7 +19,16 @@ PAGES = [
     README,
     *(
         (ROOT / "docs" / f"{name}.md").read_text()
-        for name in ("http", "python", "certificate", "accuracy", "laws", "figures", "windows")
+        for name in (
+            "http",
+            "python",
+            "certificate",
+            "accuracy",
+            "laws",
+            "figures",
+            "windows",
+            "calibration",
+        )
     ),
 ]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)

@@ -2,11 +2,14 @@
 
 import threading
 import time
+import uuid
 from datetime import UTC, datetime, timedelta
+from random import uniform
 
 import pytest
 
-from jointplay.client import Client, Expired, NotFinished, Refused, Unreachable, service_job
+from jointplay.client import Expired, NotFinished, Refused, Unreachable, service_job
+from jointplay.client.connection import Connection
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
@@ -14,12 +17,6 @@ from jointplay.storage.settings import Settings
 from tests.service_in_thread import serving
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
-
-
-@pytest.fixture(scope="module")
-def client(service_url):
-    with Client(service_url) as client:
-        yield client
 
 
 def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
@@ -46,10 +43,10 @@ def test_a_job_is_reported_whenever_it_has_changed(client, worker, catalogue):
     assert job.finished is not None
 
 
-def test_a_lost_service_is_an_error_and_not_an_end(tmp_path, monkeypatch):
+def test_a_lost_service_is_an_error_and_not_an_end(connect, tmp_path, monkeypatch):
     monkeypatch.setattr(service_job, "_PATIENCE", 0.5)
     with serving(create_app(Settings(data=tmp_path / "data"))) as url:
-        client = Client(url)
+        client = connect(url)
         job = client.submit(PENDULUM)
     began = time.monotonic()
     with pytest.raises(Unreachable):
@@ -58,24 +55,24 @@ def test_a_lost_service_is_an_error_and_not_an_end(tmp_path, monkeypatch):
     client.close()
 
 
-def test_a_service_that_comes_back_is_followed_on(tmp_path, monkeypatch):
+def test_a_service_that_comes_back_is_followed_on(connect, tmp_path, monkeypatch):
     settings = Settings(data=tmp_path / "data")
-    with serving(create_app(settings)) as url, Client(url) as client:
+    with serving(create_app(settings)) as url, connect(url) as client:
         job_id = client.submit(PENDULUM).id
     catalogue = Catalogue(settings.catalogue_url)
-    with serving(create_app(settings)) as url, Client(url) as client:
-        events_of = client._connection.events
+    with serving(create_app(settings)) as url, connect(url) as client:
+        events_of = Connection.events
         broken = []
 
-        def breaking(path, silence):
+        def breaking(connection, path, silence):
             """A connection that breaks after the first event, twice."""
-            for event in events_of(path, silence):
+            for event in events_of(connection, path, silence):
                 yield event
                 if len(broken) < 2:
                     broken.append(event)
                     raise Unreachable("broken")
 
-        monkeypatch.setattr(client._connection, "events", breaking)
+        monkeypatch.setattr(Connection, "events", breaking)
         timer = threading.Timer(0.5, catalogue.request_cancel, [job_id])
         timer.start()
         assert client.job(job_id).wait(timeout=30, check=False).state == "cancelled"
@@ -85,16 +82,17 @@ def test_a_service_that_comes_back_is_followed_on(tmp_path, monkeypatch):
 
 
 def test_an_identical_job_is_found_a_key_repeats_and_an_estimate_queues_nothing(client):
-    job = PENDULUM | {"duration": 1.40625}
+    job = PENDULUM | {"duration": uniform(1.2, 1.4)}  # each client's is its own
     assert not client.estimate(job).cached
     first = client.submit(job)
     assert (first.cached, client.submit(job).cached) == (False, True)
     assert client.estimate(job).cached
     anew = job | {"cache": False}
-    repeated = [client.submit(anew, idempotency_key="from-python").id for _ in range(2)]
+    key = uuid.uuid4().hex
+    repeated = [client.submit(anew, idempotency_key=key).id for _ in range(2)]
     assert repeated[0] == repeated[1] != first.id
     with pytest.raises(Refused) as caught:
-        client.submit(anew | {"duration": 1.5}, idempotency_key="from-python")
+        client.submit(anew | {"duration": 1.5}, idempotency_key=key)
     assert caught.value.problem == "key-reused"
 
 

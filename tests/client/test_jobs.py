@@ -28,6 +28,12 @@ MADE = {
     "accuracy-study": jobs.accuracy_study(
         "slider-crank", duration=0.1, methods="rodas", tolerances=(1e-4, np.float64(1e-6))
     ),
+    "calibration": jobs.calibration(
+        "slider-crank",
+        {"stiffness": {"minimum": 1e8, "maximum": 1e9, "spacing": "log"}},
+        [{"targets": [{"channel": "P.normal_force", "to": 0.1, "value": np.float64(100.0)}]}],
+        tolerance=1e-5,
+    ),
     "ensemble": jobs.ensemble("slider-crank", 4, seed=3, observables=["P.eccentricity_x"]),
 }
 
@@ -64,7 +70,7 @@ def test_what_is_made_is_admitted(kind):
     assert document["kind"] == kind
     admitted = admit(json.loads(json.dumps(document))).job
     for name, value in document.items():
-        if name not in ("scene", "values", "grid", "channels", "indicators"):
+        if name not in ("scene", "values", "grid", "channels", "indicators", "cases"):
             assert admitted[name] == value
 
 

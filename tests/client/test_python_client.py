@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from jointplay.client import (
-    Client,
     ClientError,
     JobCancelled,
     JobFailed,
@@ -24,12 +23,6 @@ from jointplay.storage.catalogue.records import BlockState
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 
 
-@pytest.fixture(scope="module")
-def client(service_url):
-    with Client(service_url) as client:
-        yield client
-
-
 def test_a_submitted_job_can_be_looked_at_listed_and_cancelled(client):
     job = client.submit(PENDULUM | {"label": "from Python", "cache": False})
     assert (job.state, job.label, job.error) == ("queued", "from Python", None)
@@ -41,8 +34,8 @@ def test_a_submitted_job_can_be_looked_at_listed_and_cancelled(client):
     assert client.job(job.id).is_finished
 
 
-def test_jobs_of_several_pages_are_listed_once(fresh_service):
-    with Client(fresh_service) as client:
+def test_jobs_of_several_pages_are_listed_once(connect, fresh_service):
+    with connect(fresh_service) as client:
         job = PENDULUM | {"cache": False}
         made = [client.submit(job).id for _ in range(60)]  # more than one page of 50
         assert [job.id for job in client.jobs()] == made[::-1]
@@ -152,8 +145,8 @@ def test_figures_come_as_files(client, finished_job, tmp_path):
         job.figure("obrit")
     with pytest.raises(Refused, match="width"):
         job.figure("orbit", width=900.0)
-    with pytest.raises(TypeError, match="no option 'font'"):
-        job.figure("orbit", font="serif")
+    with pytest.raises(TypeError, match="no option 'colour'"):
+        job.figure("orbit", colour="red")
 
 
 def test_results_of_an_unfinished_job_are_not_ready(client, worker):
@@ -170,22 +163,22 @@ def test_scenes_can_be_fetched_and_run(client):
     assert job.job["scene"]["bodies"]
 
 
-def test_nobody_there_is_said_clearly():
+def test_nobody_there_is_said_clearly(connect):
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
-    with Client(f"http://127.0.0.1:{port}") as client, pytest.raises(Unreachable) as caught:
+    with connect(f"http://127.0.0.1:{port}") as client, pytest.raises(Unreachable) as caught:
         client.job("anything")
     assert f"http://127.0.0.1:{port}" in str(caught.value)
     assert "jointplay serve" in str(caught.value)
 
 
 @pytest.mark.parametrize("url", ["localhost:8000", "ftp://example.org", "http://[::1", ""])
-def test_an_address_that_is_none_is_refused(url):
-    with pytest.raises(ClientError, match="is not an address"), Client(url) as client:
+def test_an_address_that_is_none_is_refused(connect, url):
+    with pytest.raises(ClientError, match="is not an address"), connect(url) as client:
         client.job("anything")
 
 
-def test_another_server_at_the_address_is_a_typed_error_too():
+def test_another_server_at_the_address_is_a_typed_error_too(connect):
     """A proxy or a foreign program answers without problem documents."""
     import threading
     from http.server import BaseHTTPRequestHandler, HTTPServer
@@ -201,7 +194,7 @@ def test_another_server_at_the_address_is_a_typed_error_too():
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
         try:
-            with Client(f"http://127.0.0.1:{server.server_port}") as client:
+            with connect(f"http://127.0.0.1:{server.server_port}") as client:
                 with pytest.raises(ServiceFailure, match="502"):
                     client.job("anything")
                 with pytest.raises(Refused, match="Forbidden"):

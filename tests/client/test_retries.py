@@ -12,6 +12,8 @@ import httpx
 import pytest
 
 from jointplay.client import Client, NotAllowed, Overloaded, Unreachable, connection
+from jointplay.client.asynchronous.network import AwaitedNetwork
+from jointplay.client.network import BlockingNetwork
 
 PENDULUM = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0, "cache": False}
 
@@ -75,7 +77,12 @@ def front(answers, behind=None) -> Iterator[tuple[str, list]]:
 def pauses(monkeypatch):
     """How long the client would have waited."""
     seen = []
-    monkeypatch.setattr(connection, "sleep", seen.append)
+
+    def sleep(network, seconds):
+        seen.append(seconds)
+
+    for network in (BlockingNetwork, AwaitedNetwork):
+        monkeypatch.setattr(network, "sleep", sleep)
     return seen
 
 
@@ -89,8 +96,8 @@ def number_of_jobs(url):
     "trouble",
     ["unheard", "lost", (503, {}), (429, {"Retry-After": "1"}), (409, {"Retry-After": "1"})],
 )
-def test_a_repeated_submission_queues_one_job(fresh_service, pauses, trouble):
-    with front([trouble, trouble], fresh_service) as (url, heard), Client(url) as client:
+def test_a_repeated_submission_queues_one_job(connect, fresh_service, pauses, trouble):
+    with front([trouble, trouble], fresh_service) as (url, heard), connect(url) as client:
         job = client.submit(PENDULUM)
     assert job.state == "queued"
     assert number_of_jobs(fresh_service) == 1
@@ -100,28 +107,28 @@ def test_a_repeated_submission_queues_one_job(fresh_service, pauses, trouble):
     assert len(pauses) == 2
 
 
-def test_every_submission_has_a_key_of_its_own(fresh_service):
-    with front([], fresh_service) as (url, heard), Client(url) as client:
+def test_every_submission_has_a_key_of_its_own(connect, fresh_service):
+    with front([], fresh_service) as (url, heard), connect(url) as client:
         first, second = client.submit(PENDULUM), client.submit(PENDULUM)
         assert first.id != second.id
     assert len({headers["Idempotency-Key"] for _, _, headers in heard}) == 2
 
 
-def test_a_deletion_whose_answer_was_lost_is_done(fresh_service, pauses):
-    with front([None, "unheard"], fresh_service) as (url, _), Client(fresh_service) as direct:
+def test_a_deletion_whose_answer_was_lost_is_done(connect, fresh_service, pauses):
+    with front([None, "unheard"], fresh_service) as (url, _), connect(fresh_service) as direct:
         job = direct.submit(PENDULUM).cancel()
-        with Client(url) as client:
+        with connect(url) as client:
             client.job(job.id).delete()
     assert number_of_jobs(fresh_service) == 0
 
 
-def test_what_the_service_asks_for_is_waited_and_a_little_more(pauses):
+def test_what_the_service_asks_for_is_waited_and_a_little_more(connect, pauses):
     soon = format_datetime(datetime.now(UTC) + timedelta(seconds=9), usegmt=True)
     busy = [(503, {"Retry-After": "3"}), (429, {"Retry-After": soon}), (503, {}), (503, {})]
     busy.append((503, {"Retry-After": "5"}))
     with (
         front(busy) as (url, _),
-        Client(url) as client,
+        connect(url) as client,
         pytest.raises(Overloaded, match="503"),
     ):
         client.scenes()
@@ -134,26 +141,26 @@ def test_what_the_service_asks_for_is_waited_and_a_little_more(pauses):
     assert 0.4 <= fourth <= 0.8
 
 
-def test_a_service_that_asks_for_too_much_patience_is_an_error(pauses):
+def test_a_service_that_asks_for_too_much_patience_is_an_error(connect, pauses):
     with (
         front([(503, {"Retry-After": "3600"})]) as (url, _),
-        Client(url) as client,
+        connect(url) as client,
         pytest.raises(Overloaded),
     ):
         client.scenes()
     assert pauses == []
 
 
-def test_nobody_there_is_looked_for_again_for_about_a_second(monkeypatch):
-    with Client("http://127.0.0.1:9") as client:
+def test_nobody_there_is_looked_for_again_for_about_a_second(connect, monkeypatch):
+    with connect("http://127.0.0.1:9") as client:
         began = time.monotonic()
         with pytest.raises(Unreachable, match="jointplay serve"):
             client.scenes()
         assert 0.7 < time.monotonic() - began < 5.0  # 0.1 + 0.2 + 0.4 + 0.8 s, half by chance
 
 
-def test_other_refusals_are_not_repeated(pauses):
-    with front([(401, {}), (500, {})]) as (url, heard), Client(url) as client:
+def test_other_refusals_are_not_repeated(connect, pauses):
+    with front([(401, {}), (500, {})]) as (url, heard), connect(url) as client:
         with pytest.raises(NotAllowed):
             client.scenes()
         with pytest.raises(Exception, match="failed with 500"):

@@ -7,31 +7,14 @@ import pytest
 
 from jointplay.command_line.application import run
 from jointplay.service.processes import running_service
-from tests.service_in_thread import (
-    application,
-    catalogue,
+from tests.service_in_thread import application, catalogue, http, service_url, settings
+from tests.worker_by_hand import (
     finished_accuracy,
     finished_job,
     finished_study,
     finished_sweep,
-    http,
-    service_url,
-    settings,
     worker,
 )
-
-__all__ = [
-    "application",
-    "catalogue",
-    "finished_accuracy",
-    "finished_job",
-    "finished_study",
-    "finished_sweep",
-    "http",
-    "service_url",
-    "settings",
-    "worker",
-]
 
 
 @pytest.fixture(scope="session", autouse=True)

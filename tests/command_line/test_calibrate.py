@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from jointplay.command_line.exits import Exit
-from jointplay.solver.calibration.problem import admit_calibration
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import admit, admit_calibration
 from jointplay.worker.local.measured import Measured
 from tests.waiting import until
 

@@ -1,13 +1,17 @@
 """Runs over one another, what to cite, and the description of the interface."""
 
 import json
+import re
 from importlib.metadata import version
 from pathlib import Path
+from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 import yaml
 
 from jointplay.command_line import certificate, cite
+from jointplay.local import load
 
 ROOT = Path(__file__).parents[2]
 
@@ -39,6 +43,50 @@ def test_local_runs_are_drawn_over_one_another_with_a_table_of_peaks(jointplay, 
     assert {row["run"] for row in rows} == {"mass=1", "mass=2"}
     for row in rows:
         assert row["minimum"] <= row["maximum"]
+
+
+def curves_in(svg, across, upright):
+    """Curves of the only panel by their labels in the legend, each (2, points), as axes show it."""
+    comments = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
+    by_id = {one.get("id"): one for one in ElementTree.parse(svg, comments).iter()}
+
+    def places(path):
+        return np.array(re.findall(r"[ML] (\S+) (\S+)", path.get("d")), float).T
+
+    (left, right), (top, bottom) = (
+        (side.min(), side.max()) for side in places(by_id["patch_2"][0])
+    )
+    legend = ElementTree.tostring(by_id["legend_1"], "unicode")
+    labels = dict(re.findall(r"stroke: (#[0-9a-f]+)[^#]*?<!-- (\S+) -->", legend))
+    curves = {}
+    for path in by_id["axes_1"].findall("{*}g/{*}path[@clip-path]"):
+        x, y = places(path)
+        colour = re.search("stroke: (#[0-9a-f]+)", path.get("style"))[1]
+        shown = np.interp(x, (left, right), across), np.interp(y, (top, bottom), upright[::-1])
+        curves[labels[colour]] = shown
+    return curves
+
+
+@pytest.mark.parametrize(("name", "unit"), [("angle", "rad"), ("angular_velocity", "rad/s")])
+def test_each_curve_of_a_comparison_is_the_history_of_the_run_that_its_label_names(
+    jointplay, runs, tmp_path, name, unit
+):
+    ends = {"--x-min": 0.2, "--x-max": 0.8, "--y-min": -7.0, "--y-max": 2.0}
+    window = ["--channels", name, "--start", 0.2, "--stop", 0.8, "--units", f"{unit},s"]
+    options = [str(part) for pair in ends.items() for part in pair]
+    drawing = tmp_path / "both.svg"
+    ended = jointplay("compare", runs / "a", runs / "b", *window, *options, "-o", drawing)
+    assert ended.code == 0, ended.err
+    assert {f"<!-- {name} [{unit}] -->", "<!-- time [s] -->"} <= set(
+        re.findall("<!-- .* -->", drawing.read_text())
+    )
+    curves = curves_in(drawing, (0.2, 0.8), (-7.0, 2.0))
+    assert set(curves) == {"mass=1", "mass=2"}
+    for folder, label in (("a", "mass=1"), ("b", "mass=2")):
+        history = load(runs / folder).history
+        inside = history.sel(time=slice(0.2, 0.8))
+        drawn = np.interp(inside["time"], *curves[label])
+        np.testing.assert_allclose(drawn, inside[name], atol=0.03)  # a third of a line's width
 
 
 def test_jobs_of_a_service_are_compared(jointplay, at, worker, tmp_path):

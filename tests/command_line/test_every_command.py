@@ -108,11 +108,13 @@ def test_what_a_job_has_not_is_one_line(jointplay, service_url, finished_job, fi
 
 
 BY_COMMAND = {
-    "submit": "Client.submit simulate bifurcation sweep poincare ensemble accuracy_study estimate",
+    "submit": "Client.submit simulate bifurcation sweep poincare ensemble accuracy_study"
+    " calibration estimate",
     "ls": "Client.jobs Batch.jobs",
-    "show": "Client.job Job.refresh wait check statistics points accuracy study results",
+    "show": "Client.job Job.refresh wait follow check statistics points accuracy"
+    " calibration study results",
     "export": "Job.history window poincare peaks impacts open export dataset",
-    "plot": "Job.figure figures",
+    "plot": "Job.figure figures film",
     "certificate": "Job.certificate",
     "cancel": "Job.cancel",
     "delete": "Job.delete",

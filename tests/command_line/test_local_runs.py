@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from jointplay.command_line.application import run
 from jointplay.storage.results.reader import ResultReader
@@ -108,6 +109,21 @@ def test_local_results_are_drawn(jointplay, press, tmp_path):
     unknown = jointplay("plot", press, "obrit", "-o", tmp_path)
     assert unknown.code == 2
     assert "orbit" in unknown.line()
+
+
+def test_a_film_is_drawn_of_a_local_run(jointplay, press, tmp_path):
+    pace = ["--stop", "0.01", "--rate", "0.01", "--frames-per-second", "5"]
+    drawn = jointplay("plot", press, "animation", *pace, "-o", tmp_path)
+    assert drawn.out.split() == [str(tmp_path / "animation.gif")]
+    with Image.open(tmp_path / "animation.gif") as film:
+        assert film.n_frames == 5
+    for wrong in (
+        ["orbit", "--impact-to-impact"],
+        ["orbit", *pace],
+        ["animation", "--format", "png", "--rate", "0.1"],
+    ):
+        assert "is of a film alone" in jointplay("plot", press, *wrong).line()
+    assert "leave them out" in jointplay("plot", press, "animation", "--channels", "A.x").line()
 
 
 def test_selected_channels_are_all_that_is_stored(jointplay, tmp_path):

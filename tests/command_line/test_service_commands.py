@@ -7,7 +7,7 @@ import socket
 
 import pytest
 
-from jointplay.client import connection
+from jointplay.client.network import BlockingNetwork
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState
 
@@ -116,6 +116,9 @@ def test_figures_of_a_job_are_fetched(jointplay, at, finished_job, tmp_path):
     wrong = jointplay("plot", finished_job, "orbit", "--units", "furlong", *at)
     assert wrong.code == 2
     assert "--units" in wrong.line()
+    film = jointplay("plot", finished_job, "animation", "-o", tmp_path, *at)
+    assert film.code == 2
+    assert "A service draws no films; its page saves them" in film.line()
 
 
 def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finished_job):
@@ -135,7 +138,7 @@ def test_what_a_service_refuses_is_one_line_with_the_field(jointplay, at, finish
     "command", [["ls"], ["show", "0" * 26], ["submit", "pendulum"], ["cancel", "x"]]
 )
 def test_where_nobody_answers_the_exit_code_is_five(jointplay, command, monkeypatch):
-    monkeypatch.setattr(connection, "sleep", lambda seconds: None)
+    monkeypatch.setattr(BlockingNetwork, "sleep", lambda network, seconds: None)
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
     ended = jointplay(*command, "--url", f"http://127.0.0.1:{port}")

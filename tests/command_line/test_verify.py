@@ -14,6 +14,7 @@ from jointplay.storage.packed import Packed, files_at, pack
 from jointplay.storage.results import manifest, shards
 from jointplay.storage.results.layout import MANIFEST
 from jointplay.worker.local.computing import compute
+from tests.solver.calibration.calibrations import bounce
 
 CRANK = {"scene": {"preset": "slider-crank"}}
 JOBS: dict[str, dict[str, Any]] = {
@@ -45,6 +46,7 @@ JOBS: dict[str, dict[str, Any]] = {
         "methods": ["tsitouras"],
         "tolerances": [1e-4],
     },
+    "calibration": bounce(search={"population": 4, "generations": 4}),
     "a run that fails": {
         "kind": "simulate",
         "scene": {

@@ -13,6 +13,7 @@ from jointplay.client import Client, JobCancelled
 from jointplay.records.point import PointStatus
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.studies.reader import StudyReader
+from tests.solver.calibration.calibrations import bounce
 
 PRESS = ["seven-bar-press", "--duration", "0.05", "--set", "clearance=2e-4"]
 
@@ -128,15 +129,16 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
         {"kind": "poincare", "scene": scene, "settle": 1, "record": 3},
         {"kind": "ensemble", "scene": scene, "members": 2, "settle": 1, "record": 3},
         {"kind": "accuracy-study", "scene": scene, "duration": 0.005, "methods": ["tsitouras"]},
+        bounce(search={"population": 4, "generations": 4}, spread={"generations": 2}),
     ]
     (tmp_path / "jobs.json").write_text(json.dumps(jobs))
     ended = jointplay("batch", tmp_path / "jobs.json", "--wait", "--url", url)
     assert ended.code == 0, ended.err
     batch, states = ended.out.splitlines()
-    assert states == "5 jobs: 5 succeeded"
+    assert states == "6 jobs: 6 succeeded"
     with Client(url) as client:
         assert client.batch(batch).fraction == 1.0
-        _, sweep, poincare, ensemble, accuracy = client.batch(batch).jobs()
+        _, sweep, poincare, ensemble, accuracy, calibration = client.batch(batch).jobs()
         swept = sweep.study()
         peaks, median = swept.peaks("displacement"), swept.statistics["displacement.median"]
         assert (peaks.minimum < median).all()
@@ -145,6 +147,7 @@ def test_a_batch_of_all_kinds_is_computed(jointplay, url, tmp_path):
         assert poincare.study().counts.tolist() == [3]
         assert ensemble.study().counts.tolist() == [3, 3]
         assert accuracy.accuracy["advice"].startswith("The default")
+        assert calibration.calibration["cost"] < 10.0
 
 
 def test_a_running_job_is_cancelled_and_keeps_what_it_computed(jointplay, url):
@@ -186,7 +189,8 @@ def test_a_job_that_fails_says_why_and_keeps_what_it_computed(jointplay, url):
 
 def test_figures_of_a_real_run_are_served(jointplay, url, tmp_path):
     job_id = jointplay("submit", *PRESS, "--wait", "--url", url).out.strip()
-    ended = jointplay("plot", job_id, "--format", "svg", "-o", tmp_path, "--url", url)
+    names = ("displacement", "contact-force", "orbit", "phase-portrait")
+    ended = jointplay("plot", job_id, *names, "--format", "svg", "-o", tmp_path, "--url", url)
     assert ended.code == 0
     drawn = {Path(line).name for line in ended.out.splitlines()}
-    assert {"displacement.svg", "contact-force.svg", "orbit.svg", "phase-portrait.svg"} <= drawn
+    assert drawn == {f"{name}.svg" for name in names}

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Block, Job, NewJob
+from jointplay.storage.catalogue.records import Block, BlockState, Job, NewJob
 from jointplay.storage.settings import Settings
 from tests.waiting import until
 
@@ -41,17 +41,18 @@ def ended(catalogue: Catalogue, job: str) -> Job:
     return catalogue.get(job)
 
 
-def in_mid_job(catalogue: Catalogue, job: str, after: float = 0.0) -> Block:
-    """Wait until a worker has the job, has passed a fraction of it and left a restart point."""
+def in_mid_block(catalogue: Catalogue, job: str, index: int = 0, after: float = 0.0) -> Block:
+    """Wait until a worker has a block, has passed a fraction of it and left a restart point."""
 
     def is_there() -> bool:
-        block = catalogue.blocks(job)[0]
-        assert not catalogue.get(job).state.terminal, "it ended before anything could happen"
+        block = catalogue.blocks(job)[index]
+        over = block.state is BlockState.done or catalogue.get(job).state.terminal
+        assert not over, "it ended before anything could happen"
         held = block.lease_until is not None and block.checkpoint is not None
         return held and block.progress_fraction > after
 
     until(is_there, progress=lambda: standing(catalogue, job))
-    return catalogue.blocks(job)[0]
+    return catalogue.blocks(job)[index]
 
 
 def pid_of(block: Block) -> int:

@@ -4,7 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-from jobs import Service, ended, in_mid_job, submit
+from jobs import Service, ended, in_mid_block, submit
 from redis import Redis
 
 from jointplay.service.processes.broker import answers
@@ -31,10 +31,10 @@ def test_jobs_outlive_a_wiped_and_a_killed_broker(service: Service) -> None:
     long, short = admit(LONG), admit(SHORT)
     running = [submit(catalogue, long) for _ in range(2)]  # one for each worker
     for job in running:
-        in_mid_job(catalogue, job)
+        in_mid_block(catalogue, job)
     waiting = [submit(catalogue, short) for _ in range(3)]
     with Redis.from_url(broker_url(settings)) as redis:
-        until(lambda: redis.llen("jointplay:jobs") >= 3)
+        until(lambda: redis.llen("jointplay:interactive") >= 3)
         redis.flushall()
     os.kill(broker_pid(settings), signal.SIGKILL)
     waiting.append(submit(catalogue, short))

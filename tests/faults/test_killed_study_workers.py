@@ -7,13 +7,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from jobs import IMPATIENT, Service, ended, pid_of, standing
+from jobs import IMPATIENT, Service, ended, in_mid_block, pid_of
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, NewJob
+from jointplay.storage.catalogue.records import Job, JobState, NewJob
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.settings import Settings
 from jointplay.storage.studies.reader import StudyReader
@@ -55,19 +55,6 @@ def submit(catalogue: Catalogue, study: Study) -> str:
         study.kind, study.job, study.digest, SOLVER_VERSION, blocks=study.blocks, seal=True
     )
     return catalogue.submit(new).job.id
-
-
-def in_mid_block(catalogue: Catalogue, job: str, index: int, after: float = 0.0) -> Block:
-    """Wait until a worker has a block, has passed a fraction of it and left a restart point."""
-
-    def is_there() -> bool:
-        block = catalogue.blocks(job)[index]
-        assert block.state is not BlockState.done, "it ended before anything could happen"
-        held = block.lease_until is not None and block.checkpoint is not None
-        return held and block.progress_fraction > after
-
-    until(is_there, progress=lambda: standing(catalogue, job))
-    return catalogue.blocks(job)[index]
 
 
 def assert_same_bytes(settings: Settings, job: Job, undisturbed: dict[str, bytes]) -> None:

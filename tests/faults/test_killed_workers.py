@@ -5,7 +5,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from jobs import IMPATIENT, Service, ended, in_mid_job, pid_of, submit
+from jobs import IMPATIENT, Service, ended, in_mid_block, pid_of, submit
 
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
@@ -66,7 +66,7 @@ def test_a_block_goes_on_where_its_killed_worker_left_it(
     job = submit(catalogue, admission)
     fraction = 0.0
     for _ in range(2):
-        held = in_mid_job(catalogue, job, after=fraction)
+        held = in_mid_block(catalogue, job, after=fraction)
         os.kill(pid_of(held), signal.SIGKILL)
         fraction = catalogue.blocks(job)[0].progress_fraction
         until(lambda: catalogue.get(job).attempt > held.attempt)  # noqa: B023
@@ -79,7 +79,7 @@ def test_a_block_goes_on_where_its_killed_worker_left_it(
     assert outcomes[:2] == ["lost", "lost"]
     assert outcomes[-1] == "done"
     assert_same_bits(settings, finished, undisturbed)
-    assert not settings.running_folder(job).exists()
+    until(lambda: not settings.running_folder(job).exists())
     left = list(settings.place.list(settings.results_prefix(job)))
     assert left == [settings.sealed_run(job, finished.attempt).key]
 
@@ -90,7 +90,7 @@ def test_a_whole_worker_killed_is_replaced(
 ) -> None:
     with running_service(settings.data, environment=IMPATIENT):
         job = submit(catalogue, admission)
-        child = pid_of(in_mid_job(catalogue, job))
+        child = pid_of(in_mid_block(catalogue, job))
         stat = Path(f"/proc/{child}/stat").read_text()
         os.kill(int(stat.rsplit(")", 1)[1].split()[1]), signal.SIGKILL)
         finished = ended(catalogue, job)
@@ -118,7 +118,7 @@ def test_a_service_that_is_stopped_goes_on_when_it_is_started_again(
 def test_a_cancelled_job_keeps_what_it_computed(service: Service, admission: Admission) -> None:
     settings, catalogue = service
     job = submit(catalogue, admission)
-    in_mid_job(catalogue, job)
+    in_mid_block(catalogue, job)
     assert catalogue.request_cancel(job).state is JobState.cancelling
     reached = catalogue.get(job).progress_fraction
     finished = ended(catalogue, job)

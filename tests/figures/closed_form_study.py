@@ -177,6 +177,27 @@ def sweep(sizes=(40,), *, failed=(), unfinished=()):
 ORDERS = {"bogacki-shampine": 3, "tsitouras": 5, "dormand-prince-853": 8, "rodas": 4, "rk4": 4}
 
 
+def calibration(*, ended=True, fitted=1.0):
+    """A cost that falls tenfold, and two targets: a value that is missed by one, and a bound."""
+    common = {"tolerance": 2.0, "lowest": 6.0, "highest": 14.0}
+    targets = [
+        common | {"value": 10.0, "between": None, "fitted": 12.0, "weight": 1.0},
+        common | {"value": None, "between": [None, 10.0], "fitted": 8.0, "weight": fitted},
+    ]
+    found = {
+        "targets": targets,
+        "equally_good_cost": 1.0,
+        "search": {"best_costs": [None, 10.0, 2.0, 1.0]},
+    }
+    return StudyDataset(
+        attributes={"job": {"kind": "calibration"}, "scene": SCENE},
+        parameters=(),
+        values=np.empty((1, 0)),
+        status=np.full(1, PointStatus.done if ended else PointStatus.running, np.uint8),
+        documents={0: found} if ended else {},
+    )
+
+
 def accuracy_study(ended=None, *, lossless=False):
     """Methods whose error is a power of their evaluations; 1e-3 is refused, one run has failed."""
     runs = [{"method": "tsitouras", "reference": True, "admitted": True}] * 2

@@ -122,11 +122,13 @@ def test_a_histogram_is_the_density_of_the_samples():
 
 
 def test_any_channel_is_drawn_against_any_other():
-    chosen = Selection(channels=("block.x", "left.normal_force", "energy.kinetic"))
+    names = ("left.normal_force", "block.x", "energy.kinetic")
+    chosen = figures.select(MOTION, names)
+    assert chosen == Selection(channels=names)
     panels = figures.draw(MOTION, "xy", chosen).axes
     for axes, name in zip(panels, chosen.channels[1:], strict=True):
         x, y = axes.lines[0].get_data()
-        np.testing.assert_array_equal(x, MOTION.values["block.x"])
+        np.testing.assert_array_equal(x, MOTION.values["left.normal_force"])
         np.testing.assert_array_equal(y, MOTION.values[name])
     with pytest.raises(NotDrawable, match="two channels at least"):
         figures.draw(MOTION, "xy", Selection(channels=("block.x",)))

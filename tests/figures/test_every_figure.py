@@ -7,7 +7,7 @@ from dataclasses import replace
 import matplotlib as mpl
 import pytest
 from closed_form_motion import closed_form_motion
-from closed_form_study import accuracy_study, bifurcation, one_point, sweep
+from closed_form_study import accuracy_study, bifurcation, calibration, one_point, sweep
 from drawn import drawn_with, stand_apart, visible_texts
 from PIL import Image
 
@@ -54,6 +54,8 @@ CASES = {name: (MOTION, name, CHOICES.get(name)) for name in figures.ROSTER} | {
     "work and precision": (accuracy_study(), "work-precision", None),
     "work and precision so far": (accuracy_study(13), "work-precision", None),
     "work and precision without losses": (accuracy_study(lossless=True), "work-precision", None),
+    "calibration": (calibration(), "calibration", None),
+    "calibration with a target that is only shown": (calibration(fitted=0.0), "calibration", None),
     "map of a statistic": (sweep((8, 6), failed=(3,)), "left.contact_share", None),
     "map": (sweep((8, 6), failed=(3,), unfinished=range(20, 30)), "sweep", None),
 }
@@ -89,6 +91,8 @@ def test_it_is_as_wide_as_a_journal_column(pictures):
 
 def test_its_axes_say_quantity_and_unit(case, figure):
     for axes in figure.axes:
+        if not axes.axison:  # drawn by no scale
+            continue
         place = axes.get_subplotspec()
         if axes.name == "polar":
             assert axes.get_title("left").endswith("force [N]")

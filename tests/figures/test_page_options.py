@@ -10,14 +10,23 @@ import numpy as np
 import pytest
 from closed_form_motion import closed_form_motion
 from closed_form_study import bifurcation
+from drawn import visible_texts
 from PIL import Image
 
 from jointplay import figures
-from jointplay.figures import NotDrawable, Options, Selection, saving
-from jointplay.records.page_option import OPTIONS
+from jointplay.figures import NotDrawable, Options, Selection, page, saving
+from jointplay.records.page_option import FAMILIES, OPTIONS
 
 MOTION = closed_form_motion(samples=201)
 FORCE = Selection(joints=("left",))
+
+
+def laid_out(name, options):
+    """A figure with all of its texts where they are saved."""
+    with page.style(options.font, options.font_size):
+        figure = figures.draw(MOTION, name, None, options)
+        figure.draw_without_rendering()
+    return figure
 
 
 def panel(name, selection=None, **options):
@@ -50,6 +59,12 @@ def test_an_end_alone_leaves_no_white_beside_the_values():
     assert axes.get_xlim() == pytest.approx((-0.01, 0.5))
 
 
+@pytest.mark.parametrize("name", ["stroke", "phase-portrait"])
+def test_the_furthest_ends_are_drawn(name):
+    end = OPTIONS["y_max"].most
+    assert figures.render(MOTION, name, "svg", None, Options(y_min=-end, y_max=end))
+
+
 def test_a_scale_is_changed_and_numbered_without_mathematics():
     axes = panel("contact-force", FORCE, y_scale="log")
     assert axes.get_yscale() == "log"
@@ -57,6 +72,23 @@ def test_a_scale_is_changed_and_numbered_without_mathematics():
     assert any(texts)
     assert not any("$" in text for text in texts)
     assert panel("spectrum", x_scale="linear").get_xscale() == "linear"
+
+
+@pytest.mark.parametrize("name", ["contact-force", "energy", "mechanism"])
+@pytest.mark.parametrize("font", FAMILIES)
+def test_all_letters_have_the_font_and_its_size_and_stay_on_the_page(name, font):
+    small, large = (
+        laid_out(name, Options(font=font, font_size=size, title="The motion"))
+        for size in (OPTIONS["font_size"].least, OPTIONS["font_size"].most)
+    )
+    face = {"sans-serif": "DejaVu Sans", "serif": "DejaVu Serif", "monospace": "DejaVu Sans Mono"}
+    assert {text.get_fontname() for text in visible_texts(large)} == {face[font]}
+    sizes = [{round(text.get_size(), 6) for text in visible_texts(one)} for one in (small, large)]
+    assert sorted(sizes[1]) == pytest.approx([2.0 * size for size in sorted(sizes[0])])
+    for text in visible_texts(large):
+        box = text.get_window_extent()
+        assert -1.0 < box.x0 < box.x1 < large.bbox.width + 1.0, text  # dots
+        assert -1.0 < box.y0 < box.y1 < large.bbox.height + 1.0, text
 
 
 def test_a_title_stands_above_everything_on_a_higher_page():
@@ -115,13 +147,17 @@ def test_vectors_for_journals_have_the_same_bytes_in_every_process():
     [
         ("orbit", {"width": 10.0}, "width", "between 80 and 210 mm"),
         ("orbit", {"x_scale": "log"}, "x_scale", "drawn to scale"),
+        ("orbit", {"y_max": 1e30}, "y_max", "1000 times the other"),
         ("stroke", {"x_scale": "cubic"}, "x_scale", "linear or log"),
         ("outputs", {"y_min": 0.0}, "y_min", "different units"),
         ("stroke", {"x_min": 1.0, "x_max": 1.0}, "x_max", "above x_min"),
         ("stroke", {"x_min": 9.0}, "x_min", "beyond the limit"),
         ("stroke", {"title": "two\nlines"}, "title", "one line"),
         ("stroke", {"units": "mm,furlong"}, "units", "furlong"),
+        ("stroke", {"font": "Comic"}, "font", "sans-serif, serif or monospace"),
+        ("stroke", {"font_size": 72.0}, "font_size", "between 5 and 10 pt"),
         ("stroke", {"y_max": float("nan")}, "y_max", "is a number"),
+        ("stroke", {"y_max": 1e308}, "y_max", "and 1e\\+30."),
         ("left.normal_force", {"y_scale": "log", "y_min": 0.0}, "y_min", "above zero"),
     ],
 )

@@ -103,7 +103,7 @@ def test_drawing_does_not_load_pyplot():
 def test_the_list_holds_what_can_be_drawn_and_the_declared_outputs(motion):
     names = [listed.name for listed in figures.available(motion)]
     expected = ["outputs", "contact-force", "orbit", "phase-portrait", "spectrum", "mechanism"]
-    expected += ["force-rose", "impact-loop", "energy", "histogram", "certificate"]
+    expected += ["animation", "force-rose", "impact-loop", "energy", "histogram", "certificate"]
     assert names == [*expected, "stroke", "pace"]
     assert all(listed.title for listed in figures.available(motion))
     for each in names:

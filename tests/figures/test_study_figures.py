@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from closed_form_study import accuracy_study, bifurcation, one_point, sweep
+from closed_form_study import accuracy_study, bifurcation, calibration, one_point, sweep
 from drawn import drawn_with, stand_apart
 from matplotlib.colors import to_hex
 
@@ -22,8 +22,17 @@ from jointplay.records.channel import Channel
         (sweep(), ["sweep"]),
         (sweep((3, 3, 3)), []),
         (accuracy_study(), ["work-precision"]),
+        (calibration(), ["calibration"]),
     ],
-    ids=["bifurcation", "poincare", "ensemble", "sweep", "sweep of three", "accuracy-study"],
+    ids=[
+        "bifurcation",
+        "poincare",
+        "ensemble",
+        "sweep",
+        "sweep of three",
+        "accuracy-study",
+        "calibration",
+    ],
 )
 def test_the_list_holds_what_can_be_drawn_without_a_choice(source, names):
     assert [listed.name for listed in figures.available(source)] == names
@@ -51,6 +60,21 @@ def test_work_and_precision_are_drawn_of_what_has_been_compared():
         figures.draw(accuracy_study(2), "work-precision")
     with pytest.raises(NotDrawable, match="of an accuracy-study"):
         figures.draw(sweep(), "work-precision")
+
+
+def test_a_calibration_shows_its_search_and_every_miss_in_tolerances():
+    search, misses = drawn_with(calibration(), "calibration", None).axes
+    np.testing.assert_array_equal(search.lines[0].get_ydata(), [np.nan, 10.0, 2.0, 1.0])
+    bars, marks = misses.lines[2::2], misses.lines[3::2]
+    assert [list(bar.get_ydata()) for bar in bars] == [[-2.0, 2.0], [0.0, 2.0]]
+    assert [float(mark.get_ydata()[0]) for mark in marks] == [1.0, 0.0]
+
+
+def test_a_calibration_is_drawn_once_its_search_has_ended():
+    with pytest.raises(NotDrawable, match="did not end"):
+        figures.draw(calibration(ended=False), "calibration")
+    with pytest.raises(NotDrawable, match="of a calibration"):
+        figures.draw(sweep(), "calibration")
 
 
 def marks_of(axes):

@@ -13,24 +13,12 @@ from tests.page.browsing import Browsing, chromium
 from tests.service_in_thread import (
     application,
     catalogue,
-    finished_sweep,
     fresh_service,
     http,
     service_url,
     settings,
-    worker,
 )
-
-__all__ = [
-    "application",
-    "catalogue",
-    "finished_sweep",
-    "fresh_service",
-    "http",
-    "service_url",
-    "settings",
-    "worker",
-]
+from tests.worker_by_hand import finished_sweep, worker
 
 ROOT = Path(__file__).resolve().parents[2]
 ARTIFACTS = ROOT / "tests" / "artifacts"
@@ -42,9 +30,10 @@ def browsing() -> Iterator[Browsing]:
     """Headless Chromium; what needs it is skipped, by name, where there is none."""
     reason = "no Chromium: apt-get install chromium, and pip install playwright"
     sync_api = pytest.importorskip("playwright.sync_api", reason=reason)
+    # `make test` begins it, and gives up after 260 s; one that was killed leaves its mark
     give_up = time.monotonic() + 300
-    while INSTALLING.exists() and time.monotonic() < give_up:  # `make test` begins it
-        time.sleep(0.5)
+    while INSTALLING.exists() and time.monotonic() < give_up:
+        time.sleep(0.5)  # apt-get has no progress that could be waited for
     found = chromium()
     if found is None:
         pytest.skip(reason)

@@ -31,10 +31,33 @@ def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
 def test_a_sweep_over_two_parameters_is_a_map(browsing, service_url, finished_sweep, artifacts):
     with browsing.page(f"{service_url}/#/job/{finished_sweep}") as page:
         page.get_by_role("img", name=re.compile("over clearance and friction")).wait_for()
-        page.get_by_label("Extreme").select_option("minimum")
+        page.get_by_label("Quantity").select_option("minimum")
         assert "of=minimum" in page.url
         page.screenshot(path=artifacts / "map.png")
         assert barriers(page) == []
+        page.get_by_role("img", name="minimum of").click(position={"x": 100, "y": 40})
+        page.get_by_text("clearance = 100 µm, friction = 0.05").wait_for()  # the upper left
+        page.get_by_role("button", name="Run this simulation").click()
+        page.get_by_role("heading", name="clearance = 100 µm, friction = 0.05").wait_for()
+
+
+def test_a_sweep_over_one_parameter_has_curves_of_what_is_known(
+    browsing, service_url, worker, artifacts
+):
+    grid = {"clearance": [1e-4, 2e-4, 3e-4, 4e-4]}
+    kept = ["mean", "standard_deviation", "contact_share"]
+    job = worker.finished_study(kind="sweep", grid=grid, periods=1, statistics=kept)
+    with browsing.page(f"{service_url}/#/job/{job}", width=360) as page:
+        page.get_by_text("mean ± standard deviation").wait_for()
+        page.get_by_text("As a table").click()
+        page.get_by_role("button", name="Choose point 3").click()
+        page.get_by_text("maximum 3 ", exact=False).first.wait_for()
+        assert page.get_by_text("clearance = 300 µm").is_visible()
+        assert barriers(page) == []
+        page.screenshot(path=artifacts / "sweep.png", full_page=True)
+        page.get_by_label("Of", exact=True).select_option("A.contact_share")
+        page.get_by_role("img", name="A.contact_share [1] over clearance").wait_for()
+        assert page.evaluate("document.documentElement.scrollWidth") <= 360
 
 
 def test_two_runs_are_compared_in_the_same_plots(browsing, url, press, artifacts):

@@ -10,12 +10,17 @@ import pytest
 
 from jointplay.records.job import JobError
 from jointplay.service.app import create_app
-from jointplay.storage.catalogue.records import BlockState
+from jointplay.storage.catalogue.records import BlockState, Solver
 from jointplay.storage.settings import Settings
 from tests.page.browsing import barriers
 from tests.service_in_thread import serving
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
+SCROLLED_TO = """last => {
+  const list = document.querySelector(".rows");
+  list.scrollBy(0, 600);
+  return list.innerText.includes(last);
+}"""
 CUT = ("Failed to load resource", "net::ERR")
 
 
@@ -32,10 +37,7 @@ def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, 
     with browsing.page(f"{service_url}/#/jobs?scene=pendulum", width=width) as page:
         page.get_by_text(f"number 399 of {width}", exact=True).first.wait_for()
         assert page.locator(".row").count() < 60
-        for _ in range(2):  # the second hundreds come when the first are seen
-            page.locator(".rows").evaluate("list => list.scrollTo(0, list.scrollHeight)")
-            page.wait_for_timeout(300)
-        page.get_by_text(f"number 0 of {width}", exact=True).first.wait_for()
+        page.wait_for_function(SCROLLED_TO, arg=f"number 0 of {width}")
         page.get_by_label("Label", exact=True).fill(f"number 7 of {width}")
         page.get_by_label("Label", exact=True).press("Enter")
         page.wait_for_function("() => document.querySelectorAll('.row').length === 1")
@@ -46,17 +48,22 @@ def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, 
         page.get_by_text("cancelled", exact=True).last.wait_for()
 
 
-def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker):
+def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker, catalogue):
     job_id = worker.submit(label="watched")
     with browsing.page(f"{service_url}/#/job/{job_id}") as page:
         page.get_by_text("Nothing is computed yet").wait_for()
-        page.get_by_text("No worker has taken this job yet").wait_for()
+        page.get_by_text("No worker is alive: ").wait_for()
+        catalogue.note_worker("test", Solver("1", "zen4"))
+        page.get_by_text("1 of 1 workers has nothing to do").wait_for()
         claim = worker.start(job_id)
         page.get_by_text("running", exact=True).wait_for()
+        page.get_by_role("link", name="Document").click()
+        page.get_by_role("heading", name="Who computes it").wait_for()
+        assert page.get_by_role("cell", name="zen4").is_visible()
         worker.store(claim, complete=False)
         error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
         worker.finish(claim, BlockState.failed, error)
-        page.get_by_text("The step fell below 1e-15 s.").wait_for()
+        page.get_by_text("The step fell below 1e-15 s.").first.wait_for()
         assert page.get_by_text("Another tolerance or method may help").is_visible()
         assert barriers(page) == []
 
@@ -96,3 +103,7 @@ def test_a_key_is_asked_for_where_one_is_needed(browsing, tmp_path):
             assert barriers(page) == []
             page.get_by_role("button", name="Use it").click()
             page.get_by_role("heading", name="No jobs yet").wait_for()
+            page.goto(f"{url}/docs")
+            page.locator("#operations-jobs-list_jobs_v1_jobs_get").click()
+            page.get_by_role("button", name="Execute").click()
+            page.locator(".live-responses-table .response-col_status", has_text="200").wait_for()

@@ -4,7 +4,12 @@ import hashlib
 import re
 from pathlib import Path
 
+import httpx
 import pytest
+
+from jointplay.service.app import create_app
+from jointplay.storage.settings import Settings
+from tests.service_in_thread import serving
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "page"
@@ -20,7 +25,7 @@ def relative(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-@pytest.mark.parametrize("address", ["/", "/docs", "/favicon.ico", "/page/start.js"])
+@pytest.mark.parametrize("address", ["/", "/docs", "/report", "/favicon.ico", "/page/start.js"])
 def test_the_page_is_served_under_a_strict_policy(http, address):
     answer = http.get(address)
     assert answer.status_code == 200
@@ -29,6 +34,18 @@ def test_the_page_is_served_under_a_strict_policy(http, address):
     again = http.get(address, headers={"If-None-Match": answer.headers["ETag"]})
     assert (again.status_code, again.content) == (304, b"")
     assert http.head(address).status_code == 200
+
+
+def test_the_report_that_the_operator_names_is_shown_and_carries_nothing_out(tmp_path):
+    report = tmp_path / "report.html"
+    with serving(create_app(Settings(data=tmp_path / "data", report=report))) as url:
+        assert "No report" in httpx.get(f"{url}/report", trust_env=False).text
+        report.write_text("<title>Published and computed</title>")
+        answer = httpx.get(f"{url}/report", trust_env=False)
+    assert answer.text == report.read_text()
+    policy = answer.headers["Content-Security-Policy"]
+    assert policy.startswith("default-src 'none'; style-src 'unsafe-inline'; img-src data:")
+    assert policy.endswith("; sandbox")
 
 
 @pytest.mark.parametrize(
@@ -70,6 +87,8 @@ def test_modules_are_short_and_load_nothing_from_elsewhere(path):
     assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(", text)
     if path.suffix == ".js":
         assert text.startswith("/**")
+        imported = re.findall(r'(?: from |^import |import\()"(\..*?)"', text, re.MULTILINE)
+        assert [one for one in imported if not (path.parent / one).is_file()] == []
     if path.suffix == ".html":
         assert not re.search(r"<script>|<style|style=|\son\w+=", text)
 

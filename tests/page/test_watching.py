@@ -76,3 +76,27 @@ def test_a_history_is_zoomed_to_single_samples_and_the_address_keeps_it(browsing
         page.get_by_role("link", name="Accuracy").click()
         page.get_by_role("heading", name="What you can trust").wait_for()
         assert barriers(page) == []
+
+
+def test_phase_portrait_and_spectrum_follow_the_window_shown(browsing, url, press, artifacts):
+    place = f"{url}/#/job/{press}?phase=open&spectrum=open&points=1000000"
+    with browsing.page(place, still=True) as page:
+        page.locator("canvas[data-points='1000000']").wait_for()
+        page.get_by_text("1000000 instants, 50 ns apart.").wait_for()
+        page.get_by_role(
+            "img", name="Power of displacement over frequency, up to 50 kHz"
+        ).wait_for()
+        page.get_by_label("Points").select_option("50000")
+        with page.expect_response(re.compile(r"/spectrum\?.*stop=0\.025")):
+            page.get_by_role("button", name="Zoom in").click()
+        page.get_by_text("50000 instants, 500 ns apart.").wait_for()
+        page.screenshot(path=artifacts / "phase-and-spectrum.png", full_page=True)
+        assert barriers(page) == []
+
+
+def test_sections_of_a_run_are_points_of_a_plane(browsing, url, press):
+    with browsing.page(f"{url}/#/job/{press}/sections") as page:
+        page.get_by_label("Up").select_option("acceleration")
+        page.get_by_role("img", name="sections: acceleration over displacement").wait_for()
+        assert "y=acceleration" in page.url
+        assert barriers(page) == []

@@ -2,7 +2,7 @@ import time
 
 import pytest
 
-from jointplay.records.channel_choice import NoSuchChannel, choose
+from jointplay.records.channel_choice import NoSuchChannel, choose, choose_in_turn
 
 NAMES = ["crank.x", "crank.y", "A.normal_force", "energy.kinetic"]
 
@@ -23,6 +23,11 @@ def test_no_list_means_all_channels():
 )
 def test_names_and_globs_choose_in_the_order_of_the_channels(text, chosen):
     assert choose(text, NAMES) == chosen
+
+
+def test_names_and_globs_choose_in_their_own_order():
+    text = "energy.kinetic, crank.*,crank.x"
+    assert choose_in_turn(text, NAMES) == ["energy.kinetic", "crank.x", "crank.y"]
 
 
 @pytest.mark.parametrize(

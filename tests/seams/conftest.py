@@ -12,8 +12,6 @@ from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
 from tests.service_in_thread import application, catalogue, http, service_url, settings
 
-__all__ = ["application", "catalogue", "http", "platform", "service_url", "settings"]
-
 
 class Platform:
     """Takes a job from its document to its results as users see them."""

@@ -1,27 +1,16 @@
+from tests.service.guarded import guarded
 from tests.service_in_thread import (
     application,
     catalogue,
-    finished_accuracy,
-    finished_job,
-    finished_study,
-    finished_sweep,
     fresh_service,
     http,
     service_url,
     settings,
+)
+from tests.worker_by_hand import (
+    finished_accuracy,
+    finished_job,
+    finished_study,
+    finished_sweep,
     worker,
 )
-
-__all__ = [
-    "application",
-    "catalogue",
-    "finished_accuracy",
-    "finished_job",
-    "finished_study",
-    "finished_sweep",
-    "fresh_service",
-    "http",
-    "service_url",
-    "settings",
-    "worker",
-]

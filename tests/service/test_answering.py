@@ -26,7 +26,7 @@ with Connection(int(sys.argv[1])) as asking:
             if not known:
                 os._exit(0)
         while what == "wait until there" and not Path(file).exists():
-            time.sleep(0.01)
+            time.sleep(0.01)  # leaves the processor to whoever makes the file
         if what == "end":
             os._exit(0)
         asking.send(os.getpid())

@@ -9,7 +9,7 @@ from jointplay.records.job import JobError
 from jointplay.service.batches.admission import MOST_JOBS
 from jointplay.service.body import LARGEST_BATCH
 from jointplay.storage.catalogue.records import BlockState
-from tests.service_in_thread import BIFURCATION
+from tests.worker_by_hand import BIFURCATION
 
 PENDULUM: dict[str, Any] = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 DIAGRAM: dict[str, Any] = {"scene": {"preset": "seven-bar-press"}, **BIFURCATION}

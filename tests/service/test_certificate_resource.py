@@ -11,7 +11,7 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
 from jointplay.worker.execute import execute
-from tests.service_in_thread import Worker
+from tests.worker_by_hand import Worker
 
 JOB: dict[str, Any] = {
     "scene": {"preset": "pendulum"},

@@ -24,7 +24,8 @@ from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.settings import Settings
-from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker, serving
+from tests.service_in_thread import serving
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
 
 CHECKS = (
     not_a_server_error,

@@ -71,6 +71,25 @@ def test_one_impact_shows_its_loop_of_force_over_penetration(http, job):
     assert into > 0.0
 
 
+def test_a_spectrum_has_the_variance_of_its_window_and_reaches_beyond_the_samples(http, job):
+    window = {"start": 0.02, "stop": 0.021}  # whose frequencies are few, so that all are shown
+    found = ask(http, job, "spectrum", channels="slider7.x", **window)["spectra"]["slider7.x"]
+    assert found["unit"] == "m²/Hz"
+    assert found["band_limit"] == pytest.approx(0.5e5)
+    assert found["frequency"][-1] == pytest.approx(found["band_limit"], rel=0.03)
+    shown = ask(http, job, channels="slider7.x", step=1e-5, **window)["channels"]
+    values = np.array(shown["slider7.x"]["values"])
+    weights = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(len(values)) / len(values))
+    windowed = weights * (values - values.mean())
+    area = sum(found["density"]) * found["frequency"][0]
+    left_out = np.abs(windowed.sum()) ** 2 / len(values)  # of the frequency zero
+    assert area == pytest.approx(((windowed**2).sum() - left_out) / (weights**2).sum(), rel=1e-6)
+    declared = {"displacement", "velocity", "acceleration"}
+    assert ask(http, job, "spectrum")["spectra"].keys() == declared
+    assert "fewer than 32" in ask(http, job, "spectrum", start=0.02, stop=0.02)["note"]
+    ask(http, job, "spectrum", 422, channels="*")
+
+
 def test_peaks_of_a_window_are_reached_in_it(http, job):
     window = {"start": 0.02, "stop": 0.03}
     found = ask(http, job, "peaks", **window)["peaks"]

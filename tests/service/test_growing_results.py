@@ -14,7 +14,7 @@ from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
-from tests.service_in_thread import BIFURCATION, SWEEP, known_section
+from tests.worker_by_hand import BIFURCATION, SWEEP, known_section
 
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")
 SMALL = Partition(chunk_rows=64, shard_chunks=4, buffer_bytes=2**24)  # 256 samples a file

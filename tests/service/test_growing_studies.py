@@ -7,7 +7,7 @@ import zarr
 from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState
 from tests.service.answers import get
-from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP
 
 OBSERVED = "A.eccentricity_x"
 

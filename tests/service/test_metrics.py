@@ -49,9 +49,9 @@ def test_what_waits_and_what_runs_is_counted(tmp_path: Path) -> None:
         found = shown(http.get("/metrics"))
         assert found["jointplay_jobs queued"] == 2
         assert found["jointplay_jobs running"] == 3
-        assert found["jointplay_blocks_waiting jobs"] == 2
+        assert found["jointplay_blocks_waiting interactive"] == 2
         assert found["jointplay_blocks_waiting recovered"] == 1
-        assert found["jointplay_longest_wait_seconds jobs"] >= 0
+        assert found["jointplay_longest_wait_seconds interactive"] >= 0
         assert found["jointplay_blocks_running"] == 2
         assert found["jointplay_blocks_overdue"] == 1
         assert found["jointplay_wake_ups_on_the_way"] == 1

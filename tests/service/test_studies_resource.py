@@ -6,7 +6,7 @@ import pytest
 
 from jointplay.service.studies import schemas
 from tests.service.answers import get
-from tests.service_in_thread import BIFURCATION, known_section
+from tests.worker_by_hand import BIFURCATION, known_section
 
 OBSERVED = "A.eccentricity_x"
 

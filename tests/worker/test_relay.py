@@ -18,7 +18,7 @@ from jointplay.worker.wake_up import WakeUpListener, WakeUpPublisher
 from tests.waiting import until
 
 NEW = NewJob("simulate", {}, "d" * 64, "1")
-FRESH, RECOVERED = "jointplay:jobs", "jointplay:recovered"
+FRESH, RECOVERED = "jointplay:interactive", "jointplay:recovered"
 
 
 @pytest.fixture

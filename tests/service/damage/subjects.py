@@ -19,7 +19,7 @@ from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
-from tests.service_in_thread import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
 
 OTHER: Final = {"scene": {"preset": "seven-bar-press", "parameters": {"clearance": 3e-4}}}
 """Makes a job of the same shape and another document."""

@@ -8,7 +8,7 @@ from jointplay.storage.packed import Packed
 from jointplay.storage.places import StoredObject
 from jointplay.storage.places.folder import Folder
 from jointplay.storage.settings import Settings
-from tests.service_in_thread import Worker
+from tests.worker_by_hand import Worker
 
 # aiohttp leaves its connections to the garbage collector
 pytestmark = pytest.mark.filterwarnings("ignore::ResourceWarning")

@@ -19,7 +19,7 @@ from tests.service.damage.damages import WHOLE, Damage, damages, restore
 from tests.service.damage.readings import Denied, Reading, readings
 from tests.service.damage.subjects import KINDS, Subject, Subjects
 from tests.service.damage.table import Outcome, Table, outcome_of
-from tests.service_in_thread import Worker
+from tests.worker_by_hand import Worker
 
 SOME = 6
 """Readings of what is struck, and as many of other results."""

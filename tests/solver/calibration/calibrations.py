@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from jointplay.solver.calibration.calibrate import calibrate
-from jointplay.solver.calibration.measure import measures
+from jointplay.solver.calibration.calibrate import calibrate, costs_of
 from jointplay.solver.calibration.outcome import Outcome
-from jointplay.solver.calibration.problem import Calibration, admit_calibration
+from jointplay.solver.calibration.problem import Calibration
 from jointplay.solver.calibration.space import Space
+from jointplay.solver.kinds import admit_calibration
+from jointplay.worker.local.measures import measures
 
 BOUNCE: dict[str, Any] = {
     "kind": "calibration",
@@ -39,7 +40,7 @@ def computed(document: dict[str, Any] | Calibration, processes: int = 1) -> Outc
     """Return what a calibration finds."""
     calibration = document if isinstance(document, Calibration) else admit_calibration(document)
     with measures(calibration, processes) as (fitted, every):
-        return calibrate(calibration, fitted, every, lambda done, note: None)
+        return calibrate(calibration, costs_of(calibration, fitted), every, lambda done, note: None)
 
 
 def coordinates(space: Space, values: np.ndarray) -> np.ndarray:

@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 
 from jointplay.records.failure import InvalidInput, LimitExceeded
-from jointplay.solver.calibration.measure import measures
-from jointplay.solver.calibration.problem import admit_calibration
+from jointplay.solver.kinds import admit_calibration
 from jointplay.solver.scene import presets
+from jointplay.worker.local.measures import measures
 from tests.solver.calibration.calibrations import bounce
 
 FORCE = {"channel": "bearing.normal_force", "to": 0.018, "value": 1000.0}

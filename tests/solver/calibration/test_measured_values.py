@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from jointplay.solver.calibration.measure import Measurement
-from jointplay.solver.calibration.problem import admit_calibration
+from jointplay.solver.kinds import admit_calibration
 from jointplay.solver.scene import presets
 from tests.solver.calibration.calibrations import bounce
 from tests.solver.completed_runs import run

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from jointplay.records.failure import InvalidInput
-from jointplay.solver.calibration.calibrate import NothingFits, calibrate
+from jointplay.solver.calibration.calibrate import NothingFits, calibrate, costs_of
 from jointplay.solver.calibration.fitted_scene import fitted_scene
 from jointplay.solver.calibration.outcome import Outcome
-from jointplay.solver.calibration.problem import admit_calibration
-from jointplay.solver.calibration.reported import reported_cases
-from jointplay.solver.kinds import admit
+from jointplay.solver.kinds import admit, admit_calibration
+from jointplay.solver.kinds.reported_cases import reported_cases
 from jointplay.solver.scene import presets
 from tests.solver.calibration.calibrations import bounce, computed, coordinates
 from tests.solver.completed_runs import run
@@ -168,7 +167,7 @@ def test_nothing_is_said_to_fit_where_every_run_fails():
         return np.full((len(candidates), 2), np.nan)
 
     with pytest.raises(NothingFits, match="every run failed"):
-        calibrate(calibration, failing, failing, lambda done, note: None)
+        calibrate(calibration, costs_of(calibration, failing), failing, lambda done, note: None)
 
 
 def test_the_numbers_that_a_source_reports_become_cases_but_for_the_ideal_ones():

@@ -27,6 +27,10 @@ def test_the_search_finds_the_bottom_of_a_narrow_valley_and_counts_what_it_tried
     assert found.cost == ellipse(found.best[None, :])[0] == found.costs.min()
     assert len(found.tried) == 30 * (found.generations + 1)
     np.testing.assert_array_equal(found.costs, ellipse(found.tried))
+    best = found.best_costs()
+    assert (len(best), best[-1]) == (found.generations + 1, found.cost)
+    assert best[0] == found.costs[:30].min() > best[10] > best[-1]
+    assert (np.diff(best) <= 0.0).all()
 
 
 def test_what_fits_equally_well_is_spread_evenly_over_the_whole_valley():

@@ -9,7 +9,8 @@ import pytest
 
 from jointplay.solver.calibration.fitted_scene import fitted_scene
 from jointplay.solver.calibration.measure import Measurement
-from jointplay.solver.calibration.problem import Calibration, admit_calibration
+from jointplay.solver.calibration.problem import Calibration
+from jointplay.solver.kinds import admit_calibration
 from jointplay.solver.runs.processes import cores
 from jointplay.solver.scene import presets
 from tests.solver.calibration.calibrations import computed

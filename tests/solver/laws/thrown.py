@@ -2,6 +2,9 @@
 
 from typing import Any
 
+from jointplay.solver.kinds import admit
+from jointplay.solver.scene.document import Scene
+
 CLEARANCE, SPEED, MASS = 5e-4, 0.2, 1.0
 SPIN, INERTIA = 200.0, 5e-5
 APART = 1e-5
@@ -55,3 +58,8 @@ def thrown(*laws: dict[str, Any]) -> dict[str, Any]:
             },
         },
     }
+
+
+def admitted(law: dict[str, Any]) -> Scene:
+    """Return the scene of a journal thrown at a bearing with a law, as it is admitted."""
+    return admit({"kind": "simulate", "scene": thrown(law), "duration": 1e-3}).scene

@@ -96,10 +96,6 @@ def press() -> tuple[Replay, Floats, list[str], Floats]:
     return *replay_of(admission, steps), names, ranges
 
 
-def sampled(replay: Replay, steps: Floats, names: list[str], times: Floats) -> Floats:
-    return replay.channels(names, steps, np.column_stack([times, np.ones(len(times))]))
-
-
 def test_extremes_of_the_whole_are_those_of_the_run() -> None:
     replay, steps, names, ranges = press()
     summary = computed(job(PRESS, 0.12))[-1]
@@ -109,29 +105,6 @@ def test_extremes_of_the_whole_are_those_of_the_run() -> None:
         field = "minimum" if column == 0 else "maximum"
         expected = np.array([getattr(summary.peaks[name], field) for name in names])
         assert np.all(np.abs(found[:, column] - expected)[real] <= SHARP * ranges[real])
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_extremes_of_a_window_are_reached_and_not_surpassed_between_microseconds(
-    seed: int,
-) -> None:
-    replay, steps, names, ranges = press()
-    random = np.random.default_rng(seed)
-    width = 0.12 * 10.0 ** random.uniform(-3.0, -0.7)
-    start = random.uniform(0.0, 0.12 - width)
-    bins = replay.extremes(names, steps, np.linspace(start, start + width, 2001), ranges)
-    samples = sampled(replay, steps, names, np.arange(start, start + width, 1e-6))
-    real = ranges > NOISE
-    for column, sense in ((0, -1.0), (2, 1.0)):
-        best = (sense * bins[:, :, column]).argmax(axis=0)
-        values = bins[best, np.arange(len(names)), column]
-        times = bins[best, np.arange(len(names)), column + 1]
-        beyond = (sense * samples).max(axis=0) - sense * values
-        assert np.all(beyond[real] <= SHARP * ranges[real])
-        order = np.argsort(times)
-        there = np.empty(len(names))
-        there[order] = sampled(replay, steps, names, times[order])[np.arange(len(names)), order]
-        assert np.all(np.abs(there - values)[real] <= SHARP * ranges[real])
 
 
 def test_a_window_cut_into_bins_has_the_extremes_of_the_whole_window() -> None:

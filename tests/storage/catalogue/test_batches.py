@@ -148,7 +148,7 @@ def test_what_to_publish_and_how_far_a_batch_is_are_found_by_index_in_sqlite(
     catalogue.batch(batch)
     raw.set_trace_callback(None)
     selects = [s for s in statements if s.startswith("SELECT")]
-    assert len(selects) == 5
+    assert len(selects) == 6
     plans = [row[-1] for s in selects for row in raw.execute(f"EXPLAIN QUERY PLAN {s}")]
     assert not any("SCAN" in plan or "TEMP B-TREE" in plan for plan in plans), plans
     assert sum("USING COVERING INDEX" in plan for plan in plans) >= 4, plans

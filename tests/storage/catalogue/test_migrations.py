@@ -7,7 +7,6 @@ from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from alembic.util import CommandError
 
 from jointplay.storage.catalogue import schema, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -20,6 +19,8 @@ LATER = (
     "ALTER TABLE job DROP COLUMN owner",
     "ALTER TABLE batch DROP COLUMN owner",
     "DROP TABLE api_key",
+    "ALTER TABLE job DROP COLUMN processor",
+    "DROP TABLE worker",
     "UPDATE alembic_version SET version_num = '0001'",
 )
 """Takes away what came after the first revision."""
@@ -55,13 +56,26 @@ def test_the_code_knows_the_newest_revision() -> None:
     assert ScriptDirectory.from_config(configuration).get_current_head() == schema.REVISION
 
 
-def test_a_catalogue_of_another_revision_is_left_alone(new_url: Callable[[], str]) -> None:
+def test_a_catalogue_of_a_newer_program_is_worked_with_and_left_as_it_is(
+    new_url: Callable[[], str],
+) -> None:
     catalogue = Catalogue(new_url())
     with catalogue.connections.writing() as connection:
+        connection.exec_driver_sql("ALTER TABLE job ADD COLUMN newer TEXT")
         connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
-    with pytest.raises(CommandError, match="9999"):
-        catalogue.migrate()
-    with pytest.raises(RuntimeError, match="at revision 9999"):
+    catalogue.migrate()
+    catalogue.ping()
+    assert catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).created
+    assert catalogue.flaws() == ("is at revision 9999, of a newer jointplay than this one",)
+    catalogue.close()
+
+
+def test_a_catalogue_of_an_older_program_is_not_ready(new_url: Callable[[], str]) -> None:
+    catalogue = Catalogue(new_url())
+    with catalogue.connections.writing() as connection:
+        connection.exec_driver_sql("UPDATE alembic_version SET version_num = '0001'")
+    assert not catalogue.is_migrated()
+    with pytest.raises(RuntimeError, match="at revision 0001"):
         catalogue.ping()
     catalogue.close()
 

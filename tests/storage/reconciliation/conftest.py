@@ -1,3 +1,1 @@
 from tests.storage.reconciliation.installation import installed
-
-__all__ = ["installed"]

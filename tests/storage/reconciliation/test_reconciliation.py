@@ -1,18 +1,13 @@
 """Whatever contradicts itself in an installation is found, and mended where that can be."""
 
-import os
 import shutil
-import sqlite3
 from collections.abc import Callable
-from contextlib import closing
 from pathlib import Path
 
 import pytest
 
-from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, JobState
 from jointplay.storage.reconciliation import findings, rows
-from jointplay.storage.settings import Settings
 from tests.storage.reconciliation.installation import Installed
 
 ELSEWHERE = "01ARZ3NDEKTSV4RRFFQ69G5FAV"
@@ -273,53 +268,3 @@ def test_a_disk_without_room_is_said(installed: Installed) -> None:
     (finding,) = [one for one in findings(settings, installed.catalogue) if one.where == "disk"]
     assert "no job is accepted" in finding.found
     assert "MB" in str(finding.advice)
-
-
-def overwrite(path: Path) -> None:
-    path.write_bytes(b"no database at all" * 500)
-
-
-def cut(path: Path) -> None:
-    os.truncate(path, 8192)
-
-
-def change_the_revision(path: Path, revision: str) -> None:
-    with closing(sqlite3.connect(path)) as database:
-        database.execute(f"UPDATE alembic_version SET version_num = '{revision}'")
-        database.commit()
-
-
-@pytest.mark.parametrize(
-    ("harm", "found"),
-    [
-        (overwrite, "cannot be read"),
-        (cut, "cannot be read"),
-        (lambda path: change_the_revision(path, "9999"), "newer jointplay"),
-        (lambda path: change_the_revision(path, "0000"), "jointplay serve brings it to"),
-    ],
-)
-def test_of_a_catalogue_that_is_broken_nothing_else_is_asked(
-    tmp_path: Path, harm: Callable[[Path], None], found: str
-) -> None:
-    settings = Settings(data=tmp_path)
-    catalogue = Catalogue(settings.catalogue_url)
-    catalogue.migrate()
-    catalogue.close()
-    for path in tmp_path.glob("catalogue.sqlite-*"):
-        path.unlink()
-    harm(tmp_path / "catalogue.sqlite")
-    told = [*findings(settings, Catalogue(settings.catalogue_url))]
-    assert {one.where for one in told} == {"catalogue"}
-    assert found in told[0].found
-    assert all(one.mend is None for one in told)
-
-
-def test_a_catalogue_whose_index_is_not_that_of_its_rows_is_found(installed: Installed) -> None:
-    """Questions to such a database are answered, and some of the answers are wrong."""
-    installed.catalogue.close()
-    path = installed.settings.data / "catalogue.sqlite"
-    whole = path.read_bytes()
-    path.write_bytes(whole.replace(b"succeeded", b"succeedex", 1))
-    (found, *_) = installed.look()
-    assert found.found.startswith("is damaged: ")
-    assert "backup" in str(found.advice)

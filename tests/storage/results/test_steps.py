@@ -81,7 +81,6 @@ def test_a_store_without_steps_says_so_and_others_are_not_taken(tmp_path):
     plain = MadeUpRun(layout, made_up_impacts(0))
     assert ResultReader(plain.write(tmp_path / "r")).steps is None
     writer = ResultWriter.create(tmp_path / "w", layout)
-    assert not writer.keeps_steps
     nothing = np.empty(0), np.empty((0, 2))
     with pytest.raises(InvalidAppend, match="columns"):
         writer.append(0, *nothing, 0, *nothing, plain.impacts, np.zeros((1, 4)))

@@ -14,11 +14,13 @@ from jointplay.solver.kinds import Admission
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue import connections
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState, NewJob
 from jointplay.storage.settings import Settings
 from jointplay.worker import block_run
 from jointplay.worker.block_run import BlockRun
 from tests.stores import files_of, sealed_run
+from tests.waiting import until
 
 
 @pytest.fixture(autouse=True)
@@ -124,10 +126,9 @@ def test_a_catalogue_that_does_not_answer_is_waited_for(
     )
     with lost(settings, catalogue):
         computing.start()
-        while not settings.sealed_run(job, 1).exists():  # it computes all of it meanwhile
-            assert computing.is_alive()
-            time.sleep(0.01)
-        computing.join(0.5)
+        sealed = settings.sealed_run(job, 1)  # it computes all of it meanwhile
+        until(lambda: sealed.exists() or not computing.is_alive())
+        computing.join(0.5)  # a few times as long as it waits before it asks again
         assert computing.is_alive()
     computing.join()
     stored(catalogue, settings, job)
@@ -164,3 +165,21 @@ def test_an_attempt_that_comes_too_late_leaves_nothing(
     assert stored(catalogue, settings, job) == before
     assert not settings.sealed_run(job, 1).exists()
     assert not settings.running_folder(job).exists()
+
+
+def test_a_worker_that_shall_end_waits_for_a_catalogue_no_longer_than_its_lease(
+    catalogue: Catalogue, settings: Settings, admission: Admission, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def away(*_: object) -> None:
+        raise Unavailable("does not answer")
+
+    job = submit(catalogue, admission)
+    monkeypatch.setattr(catalogue, "release", away)
+    with pytest.raises(Unavailable):
+        run(
+            catalogue,
+            settings.model_copy(update={"lease": 0.2, "heartbeat": 0.05}),
+            f"{job}-0",
+            draining=True,
+        )
+    assert catalogue.get(job).state is JobState.running

@@ -153,18 +153,14 @@ def test_steps_of_another_machine_are_read_and_said_to_be_and_others_are_refused
     assert "no method" in asked(source, of_no_method).refused
 
 
-def test_without_steps_a_curve_is_of_samples(tmp_path):
-    document = {"kind": "simulate", "scene": PRESS, "duration": 0.06, "output_step": 0.004}
-    job = jointplay.run(
-        document | {"certificate": False, "steps_limit": 0}, output=tmp_path / "OUT"
-    )
-    source = results_in(job._folder)
+def test_a_curve_of_too_many_steps_is_of_samples(job, source, monkeypatch):
+    monkeypatch.setattr(trajectory, "AT_ONCE", 10)
     assert between_samples.curve(source, FORCE, Selection()) is None
     time, _, label = sampling.named_over_time(source, FORCE, Selection())
     assert len(time) == source.samples
     assert label == "samples"
     window = job.window(FORCE, points=1000)
-    assert "keeps no steps" in window.note
+    assert "A shorter one is exact" in window.note
     assert window.exact
     overview = job.window(FORCE, points=8)
     assert not overview.exact

@@ -2,11 +2,11 @@
 
 import pytest
 
-from jointplay.solver.calibration.calibrate import calibrate
-from jointplay.solver.calibration.measure import measures
-from jointplay.solver.calibration.problem import admit_calibration
+from jointplay.solver.calibration.calibrate import calibrate, costs_of
+from jointplay.solver.kinds import admit_calibration
 from jointplay.solver.runs.processes import Interrupted
 from jointplay.worker.local.measured import Measured, document_in
+from jointplay.worker.local.measures import measures
 from tests.solver.calibration.calibrations import bounce, computed
 
 QUICK = bounce(search={"population": 4, "generations": 8}, spread={"generations": 4})
@@ -36,7 +36,7 @@ def carried_out(path, calls):
     with measures(calibration, 1, counted.asked) as (fitted, every):
         outcome = calibrate(
             calibration,
-            kept.of(counted.of(fitted), every=False),
+            costs_of(calibration, kept.of(counted.of(fitted), every=False)),
             kept.of(counted.of(every), every=True),
             lambda done, note: None,
         )

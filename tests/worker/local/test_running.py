@@ -143,3 +143,15 @@ def test_importing_loads_no_compiler_and_no_queue():
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert json.loads(ended.stdout) == [], ended.stderr
+
+
+def test_a_calibration_that_fits_nothing_fails_and_says_what_to_try(tmp_path):
+    targets = [{"channel": "bearing.normal_force", "to": 0.3, "value": 1000.0}]
+    described = jobs.calibration(
+        "bouncing-journal",
+        {"restitution": {"minimum": 0.5, "maximum": 1.0}},
+        [{"targets": targets}],
+        search={"generations": 1, "population": 4, "most_steps": 100},
+    )
+    with pytest.raises(JobFailed, match="Narrow the bounds"):
+        jointplay.run(described, output=tmp_path / "OUT")

@@ -12,6 +12,7 @@ AT_LENGTH = (
     "pendulum at the longest step",
     "slider-crank, friction full at 1e-05 m/s",
     "slider-crank, friction full at 3e-05 m/s",
+    "slider-crank, rare impacts",
 )
 """They compile the press in more ways, compare at length, or are steeper cases of another."""
 

@@ -1,0 +1,66 @@
+"""Every view, narrow and wide, light and dark: axe finds no barrier, nothing is cut off."""
+
+import pytest
+
+from tests.page.browsing import barriers
+from tests.solver.calibration.calibrations import bounce
+from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION
+
+ALL = [(360, False), (360, True), (1280, False), (1280, True)]
+BATCH = {"jobs": [{"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}]}
+
+
+@pytest.fixture(scope="module")
+def places(http, worker, finished_sweep):
+    """Where views are, and what is there once they are filled; second those of other tests."""
+    run = worker.finished()
+    diagram = worker.finished_study(**BIFURCATION)
+    accuracy = worker.finished_study(**ACCURACY_STUDY)
+    fit = worker.submit(**bounce(search={"population": 4, "generations": 4}))
+    worker.work(fit)
+    batch = http.post("/v1/batches", json=BATCH).raise_for_status().json()["id"]
+    return {
+        "/#/new/slider-crank": ".fields input",
+        f"/#/batch/{batch}": "tbody tr",
+        f"/#/job/{accuracy}": "tbody tr",
+        f"/#/job/{fit}": "tbody tr",
+        f"/#/job/{run}/numbers": "tbody tr",
+        f"/#/job/{run}/figures": "figure img[src]",
+        f"/#/job/{run}/document": "pre",
+        "/report": "h1",
+        "/docs": "#operations-jobs-submit_job_v1_jobs_post",
+    }, {
+        "/": ".card canvas",
+        "/#/jobs": ".row",
+        "/#/editor": ".cm-content",
+        f"/#/job/{run}?phase=open&spectrum=open": ".uplot",
+        f"/#/compare?jobs={run},{run}": ".uplot",
+        f"/#/job/{diagram}": "canvas[data-done]",
+        f"/#/job/{finished_sweep}": "canvas[aria-label]",
+        f"/#/job/{run}/accuracy": ".panel",
+        f"/#/job/{run}/sections": "canvas[data-points]",
+    }
+
+
+def wrong(browsing, url, places, width, dark):
+    """What is wrong in each of these places."""
+    found = {}
+    unready = ("409", "422")  # results that are not there yet, and steps that a run did not keep
+    with browsing.page(f"{url}/", width=width, dark=dark, still=True, expected=unready) as page:
+        for place, there in places.items():
+            page.goto("about:blank")  # or what is there of the view before would be looked at
+            page.goto(f"{url}{place}")
+            page.locator(there).first.wait_for()
+            wide = page.evaluate("document.documentElement.scrollWidth")
+            found[place] = barriers(page) + ([f"{wide} px wide"] if wide > width else [])
+    return {place: one for place, one in found.items() if one}
+
+
+def test_no_view_that_no_other_test_looks_at_has_a_barrier(browsing, service_url, places):
+    assert wrong(browsing, service_url, places[0], 360, dark=True) == {}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("width", "dark"), ALL)
+def test_no_view_has_a_barrier_at_any_width(browsing, service_url, places, width, dark):
+    assert wrong(browsing, service_url, places[0] | places[1], width, dark=dark) == {}

@@ -1,0 +1,147 @@
+"""What the service takes from a worker that joined: of the block that it holds, and whole."""
+
+from base64 import b64encode
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from jointplay.service.app import create_app
+from jointplay.service.workers import files
+from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.settings import Settings
+from jointplay.worker.own_solver import own_solver
+from tests.service.guarded import SWING, Guarded
+from tests.service_in_thread import serving
+from tests.worker_by_hand import Worker
+
+
+def digest(content: bytes) -> dict[str, str]:
+    told = b64encode(sha256(content).digest()).decode()
+    return {"Content-Digest": f"sha-256=:{told}:"}
+
+
+@pytest.fixture
+def claim(worker: Worker) -> Claim:
+    return worker.start(worker.submit())
+
+
+@pytest.fixture
+def address(claim: Claim) -> str:
+    return f"/v1/worker/blocks/{claim.block.id}/{claim.block.attempt}"
+
+
+def test_files_are_kept_once_their_digest_is_right(
+    http: httpx.Client, settings: Settings, claim: Claim, address: str
+) -> None:
+    path = settings.running_folder(claim.job.id) / "a1/parts/00000001"
+    name = f"{address}/files/a1/parts/00000001"
+    for headers in ({}, digest(b"other")):
+        assert http.put(name, content=b"rows", headers=headers).status_code == 422
+        assert not path.exists()
+    assert http.put(name, content=b"rows", headers=digest(b"rows")).status_code == 204
+    more = http.put(name, content=b" more", headers=digest(b" more"), params={"offset": 4})
+    assert (more.status_code, path.read_bytes()) == (204, b"rows more")
+    beyond = http.put(name, content=b"x", headers=digest(b"x"), params={"offset": 99})
+    assert (beyond.status_code, path.read_bytes()) == (422, b"rows more")
+    assert http.get(name).content == b"rows more"
+    assert http.delete(name).status_code == 204
+    assert http.get(name).status_code == 404
+    assert [*path.parent.iterdir()] == []
+
+
+@pytest.mark.parametrize("given", [{"fraction": 2.0}, {"fraction": "0"}, {"other": 1}, {}])
+def test_what_a_worker_says_is_read_strictly(
+    http: httpx.Client, address: str, given: dict[str, Any]
+) -> None:
+    told = {"time": 1.0, "fraction": 0.5} | given
+    if not given:
+        del told["time"]
+    assert http.post(f"{address}/progress", json=told).status_code == 422
+    odd = {"watermark": 1, "checkpoint": "../block0-a1"}
+    assert http.post(f"{address}/checkpoint", json=odd).status_code == 422
+    assert http.post(f"{address}/finish", json={"outcome": "waiting"}).status_code == 422
+
+
+def test_an_attempt_that_lost_its_block_changes_nothing(
+    http: httpx.Client, catalogue: Catalogue, settings: Settings, claim: Claim, address: str
+) -> None:
+    catalogue.release(claim.block.id, claim.block.attempt)
+    name = f"{address}/files/block0-a1"
+    answers = [
+        http.put(name, content=b"late", headers=digest(b"late")),
+        http.get(f"{address}/files"),
+        http.post(f"{address}/heartbeat"),
+        http.post(f"{address}/progress", json={"time": 1.0, "fraction": 0.5}),
+        http.post(f"{address}/finish", json={"outcome": "done"}),
+    ]
+    assert {answer.status_code for answer in answers} == {409}
+    assert {answer.json()["type"] for answer in answers} == {"/problems/not-held"}
+    assert not settings.running_folder(claim.job.id).exists()
+
+
+def test_a_file_for_which_there_is_no_room_is_refused(
+    http: httpx.Client, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "LARGEST_FILE", 3)
+    name = f"{address}/files/block0-a1"
+    assert http.put(name, content=b"rows", headers=digest(b"rows")).status_code == 422
+    monkeypatch.setattr(Settings, "room", lambda _: 3)
+    monkeypatch.setattr(files, "LARGEST_FILE", 9)
+    assert http.put(name, content=b"rows", headers=digest(b"rows")).status_code == 507
+
+
+def test_a_file_that_is_longer_than_was_said_is_refused(
+    http: httpx.Client, settings: Settings, claim: Claim, address: str
+) -> None:
+    said = {"Content-Length": "4", "Transfer-Encoding": "chunked"}  # of which the second counts
+    headers = digest(b"rows more") | said
+    answer = http.put(f"{address}/files/block0-a1", content=iter([b"rows more"]), headers=headers)
+    assert answer.status_code == 422
+    assert not (settings.running_folder(claim.job.id) / "block0-a1").exists()
+
+
+def test_a_block_is_that_of_the_key_that_claimed_it(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required")
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    solver = own_solver()
+    asked = {"version": solver.version, "processor": solver.processor, "worker": "w", "wait": 0}
+    asked["program"] = version("jointplay")
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("lab", "worker") as first, guarded.as_("cloud", "worker") as second:
+            with guarded.as_("ada", "jobs:write") as ada:
+                assert ada.post("/v1/jobs", json=SWING).status_code == 202
+            block = first.post("/v1/worker/claims", json=asked).json()["claim"]["block"]
+            address = f"/v1/worker/blocks/{block['id']}/{block['attempt']}"
+            assert second.post("/v1/worker/claims", json=asked).status_code == 204
+            assert second.post(f"{address}/release").status_code == 409
+            assert second.get(f"{address}/files").status_code == 409
+            assert first.post(f"{address}/heartbeat").status_code == 200
+    catalogue.close()
+
+
+UPWARDS = ("../x", "a1/../../x", "/etc/x", "a1/rows/../../../x", "sealed/../x")
+OTHERS = (
+    "a1//x",
+    "",
+    "a1/x.partial",
+    "x\n",
+    "sealed/2",
+    "sealed/0",
+    "sealed/",
+    "a/b/c/d",
+    ".hidden",
+)
+
+
+@pytest.mark.parametrize("name", UPWARDS + OTHERS)
+def test_a_name_leads_nowhere_else(settings: Settings, claim: Claim, name: str) -> None:
+    with pytest.raises(ValueError, match="is no"):
+        AttemptFiles(settings, claim.block).put(name, [b"x"])

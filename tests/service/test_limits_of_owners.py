@@ -1,0 +1,74 @@
+"""Requests of one owner in a time, and jobs of one owner at a time."""
+
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from jointplay.service.app import create_app
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.settings import Settings
+from tests.service.guarded import SWING, Guarded
+from tests.service_in_thread import serving
+
+
+def test_whoever_asks_too_often_is_told_when_to_come_back(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", rate=0.5)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("ada") as ada, guarded.as_("bob") as bob:
+            answers = [ada.get("/v1/jobs") for _ in range(12)]  # two windows at most
+            refused = [answer for answer in answers if answer.status_code == 429]
+            assert len(refused) >= 2
+            assert 1 <= int(refused[0].headers["Retry-After"]) <= 10
+            assert "more than 5 requests in 10 s" in refused[0].json()["detail"]
+            assert bob.get("/v1/jobs").status_code == 200
+    catalogue.close()
+
+
+def test_an_owner_has_so_many_jobs_at_a_time(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", most_live=3)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("ada") as ada, guarded.as_("root", "admin") as root:
+            batch = {"jobs": [SWING, SWING]}
+            assert ada.post("/v1/batches", json=batch).status_code == 202
+            refused = ada.post("/v1/batches", json=batch)
+            assert refused.status_code == 403
+            assert refused.json()["type"] == "/problems/quota-exceeded"
+            assert "has 2 jobs that have not ended, and may have 3" in refused.json()["detail"]
+            again = {"Idempotency-Key": "again"}
+            last, same = (
+                ada.post("/v1/jobs", json=SWING | {"cache": False}, headers=again) for _ in "ab"
+            )
+            assert (last.status_code, same.status_code) == (202, 202)
+            assert same.json()["id"] == last.json()["id"]
+            assert ada.post("/v1/jobs", json=SWING | {"cache": False}).status_code == 403
+            assert root.post("/v1/batches", json=batch).status_code == 202
+            ada.post(f"/v1/jobs/{last.json()['id']}/cancel")
+            assert ada.post("/v1/jobs", json=SWING | {"cache": False}).status_code == 202
+    catalogue.close()
+
+
+def test_twenty_jobs_at_once_do_not_exceed_the_limit(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", most_live=3)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with (
+        serving(create_app(settings)) as url,
+        Guarded(url, catalogue, "", "").as_("ada") as http,
+    ):
+
+        def sent(number: int) -> int:
+            return http.post("/v1/jobs", json=SWING | {"duration": 1.0 + number}).status_code
+
+        with ThreadPoolExecutor(20) as threads:
+            answers = list(threads.map(sent, range(20)))
+        assert sorted(answers) == [202] * 3 + [403] * (20 - 3)
+        # what is there already is found at the limit, and an estimate says so
+        there = SWING | {"duration": 1.0 + answers.index(202)}
+        assert http.post("/v1/jobs", json=there).status_code == 200
+        assert http.post("/v1/estimates", json=there).json()["cached"]
+    catalogue.close()
