@@ -11,7 +11,7 @@ from jointplay.command_line.exits import Stopped
 from jointplay.command_line.figure_options import form_of, page_of, with_figure_options
 from jointplay.command_line.options import AS_JSON, DEFAULT_URL, URL, job_of
 from jointplay.command_line.output import tell
-from jointplay.command_line.peaks import peak_rows, peak_table
+from jointplay.command_line.peaks import Row, peak_rows, peak_table
 
 if TYPE_CHECKING:
     from jointplay.client import Job
@@ -44,6 +44,8 @@ def compare(
 ) -> None:
     """Draw channels of several simulations over one another, and print their peaks side by side.
 
+    With --start or --stop, the peaks are those of that window.
+
     Example: `jointplay compare OUT1 OUT2 --channels displacement --stop 0.5 -o both.svg`
     """
     from jointplay.figures.overlay import MOST_CURVES, Curve
@@ -51,6 +53,7 @@ def compare(
     form, page = form_of(output), page_of(options)
     if not 2 <= len(results) <= MOST_CURVES:
         raise Stopped(f"compare takes 2 to {MOST_CURVES} runs, not {len(results)}.")
+    windowed = (start, stop) != (None, None)
     with ExitStack() as stack:
         jobs = [stack.enter_context(job_of(one, url)) for one in results]
         for name, job in zip(results, jobs, strict=True):
@@ -67,10 +70,46 @@ def compare(
             for name, one in window.channels.items():
                 panels[name].append(Curve(label, one.unit, window.time, one.values))
         output.write_bytes(_drawn(panels, form, page))
+        if windowed:
+            peaks = [_peaks_inside(job, names, start, stop) for job in jobs]
+        about = _span(start, stop) if windowed else _settled(jobs, labels)
     of_runs = list(zip(labels, peaks, strict=True))
     table = [{"run": label, **of_run[name]} for name in names for label, of_run in of_runs]
-    lines = [*peak_table(table, "run"), output]
-    tell({"figure": str(output), "peaks": table}, lines, as_json=as_json)
+    found = {"figure": str(output), "start": start, "stop": stop, "peaks": table}
+    tell(found, [*about, *peak_table(table, "run"), output], as_json=as_json)
+
+
+def _peaks_inside(
+    job: "Job", names: list[str], start: float | None, stop: float | None
+) -> dict[str, Row]:
+    """Return the peaks of a window by channel; of what is drawn, where the steps are not kept."""
+    from jointplay.client import Peak, Refused
+
+    try:
+        found = job.results.peaks(start, stop)
+    except Refused:
+        window = job.window(names, start, stop, points=_SPANS)
+        if not len(window.time):
+            raise Stopped(f"{job.id} has nothing in this window of time; widen it.") from None
+        found = {}
+        for name, one in window.channels.items():
+            places = one.values.argmin(), one.values.argmax()
+            parts = [float(column[k]) for k in places for column in (one.values, window.time)]
+            found[name] = Peak(*parts, unit=one.unit)
+    return {row["channel"]: row for row in peak_rows(found)}
+
+
+def _span(start: float | None, stop: float | None) -> list[str]:
+    begin = "" if start is None else f" from t = {start:g} s"
+    end = "" if stop is None else f" to t = {stop:g} s"
+    return [f"peaks{begin}{end}"]
+
+
+def _settled(jobs: list["Job"], labels: list[str]) -> list[str]:
+    """Say which peaks are not of a whole run, because the job leaves out what comes before."""
+    settles = [job.job.get("settle") for job in jobs]
+    pairs = zip(labels, settles, strict=True)
+    return [f"peaks of {label} from t = {settle:g} s on" for label, settle in pairs if settle]
 
 
 def _drawn(panels: dict[str, list["Curve"]], form: "Form", page: "Options") -> bytes:

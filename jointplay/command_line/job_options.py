@@ -31,9 +31,14 @@ _SHORT: Final[dict[str, tuple[Any, str | None, str]]] = {
 _IN_SHORT: Final = ("parameter", "values", "grid", "points", "members")
 """Fields that those options stand for, or that only a document can give, as it can flags."""
 _HELP: Final = {
+    "settle": (
+        "Leave out what comes before: of a simulation's peaks, in seconds; of a study's sections or"
+        " statistics, in periods, or auto."
+    ),
     "section": "Where: crank_angle=RAD, onset=JOINT, or of a study CHANNEL=VALUE:up (or down).",
 }
 _METAVARS: Final = {"names": "A,B", "numbers": "X,Y"}
+_METAVAR_OF: Final = {"settle": "SECONDS|PERIODS"}
 _UNITS: Final = {"s": "SECONDS", "periods": "PERIODS"}
 _TYPES: Final = {"number": float, "integer": int}
 
@@ -65,7 +70,8 @@ def _short_option(kind: str) -> Any:
 def _option(name: str) -> Any:
     """Return the type of a field's option, as typer reads it."""
     field = FIELDS[name]
-    metavar = _METAVARS.get(field["form"]) or _UNITS.get(field.get("unit", ""))
+    metavar = _METAVAR_OF.get(name) or _METAVARS.get(field["form"])
+    metavar = metavar or _UNITS.get(field.get("unit", ""))
     text = _HELP.get(name) or help_of(field | ({"unit": ""} if metavar else {}), short=True)
     if "simulate" not in field["kinds"]:
         owner = "study" if len(field["kinds"]) > 1 else field["kinds"][0]

@@ -50,6 +50,8 @@ def result_lines(
 ) -> Iterator[str]:
     """Yield results of a job, of a simulation those of some channels, by default of all."""
     if (rows := found["peaks"]) is not None:
+        if job.job.get("settle"):
+            yield f"peaks from t = {job.job['settle']:g} s on"
         yield from peak_table(
             [one for one in rows if channels is None or one["channel"] in channels]
         )

@@ -49,9 +49,13 @@ export const KINDS = {
         title: "Output step", help: "Between stored samples; 1/2000 of the duration if empty.",
         unit: "s", minimum: 1e-15, default: null, empty: "duration / 2000",
       },
+      settle: {
+        title: "Settling", help: "What comes before does not count in peaks.", unit: "s",
+        minimum: 0, default: 0,
+      },
     }),
-    made: ({ duration, accuracy, output_step: step }) => ({
-      duration, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
+    made: ({ duration, accuracy, output_step: step, settle }) => ({
+      duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
     }),
   },
   bifurcation: {

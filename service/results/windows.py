@@ -69,12 +69,20 @@ class ExactRun:
         )
 
     def peaks(self, start: float | None, stop: float | None) -> dict[str, Peak]:
-        """Return extremes of a window by channel, or refuse; of no window those so far, if any."""
+        """Return extremes of a window by channel, or refuse; of no window those so far, if any.
+
+        Those so far leave out what the job leaves out as settling.
+        """
         names = [channel.name for channel in self.run.channels]
         first, last = self._window(start, stop)
+        so_far = start is None and stop is None
+        if so_far:
+            first = float(self.run.attributes["job"].get("settle", 0.0))
+            if first > last:
+                return {}
         found = self.trajectory.extremes(names, np.array([first, last]))
         if found.values is None:
-            if start is None and stop is None:
+            if so_far:
                 return {}
             raise RequestRefused.of_parameter("start", found.refused)
         rows = found.values[0].tolist()

@@ -48,6 +48,11 @@ class Admission:
         return int(self.job.get("steps_limit", 0))
 
     @property
+    def settle(self) -> float:
+        """Time from which peaks count, s; 0 of a job that was filled in without it."""
+        return float(self.job.get("settle", 0.0))
+
+    @property
     def method(self) -> str:
         """Name of the integration method, of `solver.integrators.METHODS`."""
         return method_for(self.job["method"], self.job["tolerance"])

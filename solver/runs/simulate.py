@@ -23,10 +23,12 @@ from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.ideal.run import IdealRun
 from jointplay.solver.runs.lane_results import failure_of, out_of_time, peaks_of, statistics_of
 from jointplay.solver.runs.results import Slice, Summary
+from jointplay.solver.runs.settled_peaks import SettledPeaks
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "simulation"
 _INTERVALS = "intervals"
+_SETTLED = "settled"
 LANE = 0
 """The lane of the trajectory; its bits do not depend on what the seven others do."""
 
@@ -118,6 +120,7 @@ class DynamicRun:
         self.sections_done = 0
         self.steps_kept = 0
         self.intervals: IntervalExtremes | None = None
+        self.settled = SettledPeaks(self.admission, method) if self.admission.settle else None
 
     def slices(self) -> Iterator[Slice]:
         """See `Simulation.slices`."""
@@ -166,6 +169,8 @@ class DynamicRun:
         arrays = self.survey.checkpoint() if self.survey and not self.open else {}
         if self.intervals is not None:
             arrays |= self.intervals.state(_INTERVALS)
+        if self.settled is not None:
+            arrays |= self.settled.state(_SETTLED)
         arrays |= self.bundle.state("lanes")
         return encode(_KIND, SOLVER_VERSION, facts, arrays)
 
@@ -181,6 +186,8 @@ class DynamicRun:
         if any(name.startswith(f"{_INTERVALS}/") for name in saved):
             self.intervals = IntervalExtremes(self.admission, facts["method"])
             self.intervals.restore(saved, _INTERVALS)
+        if self.settled is not None:
+            self.settled.restore(saved, _SETTLED)
         if self.survey:
             self.survey.restore(saved)
         self.samples_done, self.sections_done = facts["samples"], facts["sections"]
@@ -194,6 +201,8 @@ class DynamicRun:
             "method_reason": self.reason,
             "solver_seconds": self.seconds,
         }
+        if self.settled is not None:
+            return Summary(self.settled.peaks(), statistics)
         return Summary(peaks_of(self.bundle, LANE, names), statistics)
 
     def certificate(self) -> Certificate | None:
@@ -239,6 +248,8 @@ class DynamicRun:
         method = np.full((count, 1), number_of(self.kernel.tableau.name))
         kept = np.concatenate([steps[:count], method], axis=1)
         found = self._intervals(steps[count:])
+        if self.settled is not None:
+            self.settled.add(steps)
         return kept if self.most_steps else np.empty((0, 0)), found
 
     def _intervals(self, steps: Floats) -> Floats:

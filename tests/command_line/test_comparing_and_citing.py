@@ -89,12 +89,42 @@ def test_each_curve_of_a_comparison_is_the_history_of_the_run_that_its_label_nam
         np.testing.assert_allclose(drawn, inside[name], atol=0.03)  # a third of a line's width
 
 
+def test_peaks_of_a_comparison_are_those_of_its_window(jointplay, runs, tmp_path):
+    window = ["--channels", "angular_velocity", "--start", "0.4", "--stop", "0.6"]
+    arguments = ["compare", runs / "a", runs / "b", *window, "-o", tmp_path / "both.png"]
+    assert jointplay(*arguments).out.startswith("peaks from t = 0.4 s to t = 0.6 s\n")
+    found = json.loads(jointplay(*arguments, "--json").out)
+    assert (found["start"], found["stop"]) == (0.4, 0.6)
+    for row, folder in zip(found["peaks"], ("a", "b"), strict=True):
+        peak = load(runs / folder).results.peaks(0.4, 0.6)["angular_velocity"]
+        assert (row["minimum"], row["maximum"]) == (peak.minimum, peak.maximum)
+        assert min(row["minimum_time"], row["maximum_time"]) >= 0.4
+        assert max(row["minimum_time"], row["maximum_time"]) <= 0.6
+
+
+def test_a_run_that_leaves_out_settling_says_so_beside_its_peaks(jointplay, runs, tmp_path):
+    rest = [*("run", "pendulum", "--set", "mass=1.0"), "--duration", "1", "--settle", "0.5"]
+    told = jointplay(*rest, "-o", tmp_path / "OUT")
+    assert told.code == 0, told.err
+    assert "peaks from t = 0.5 s on" in told.out
+    found, expected = (
+        load(one).results.peaks(*window)["angular_velocity"]
+        for one, window in ((tmp_path / "OUT", ()), (runs / "a", (0.5, 1.0)))
+    )
+    assert found.maximum == pytest.approx(expected.maximum, abs=1e-6)
+    assert found.minimum == pytest.approx(expected.minimum, abs=1e-6)
+    compared = jointplay("compare", runs / "a", tmp_path / "OUT", "-o", tmp_path / "x.png").out
+    assert compared.count("s on") == 1
+    assert jointplay(*rest[:-1], "1.0", "-o", tmp_path / "NO").code == 2
+
+
 def test_jobs_of_a_service_are_compared(jointplay, at, worker, tmp_path):
     ids = [worker.finished(label=label) for label in ("first", "second")]
     chosen = ["--channels", "slider7.x,A.normal_force", "--stop", "0.1"]
     ended = jointplay("compare", *ids, *chosen, "-o", tmp_path / "both.png", *at)
     assert ended.code == 0, ended.err
-    lines = [line.split()[:2] for line in ended.out.splitlines()[1:5]]
+    assert ended.out.startswith("peaks to t = 0.1 s\n")
+    lines = [line.split()[:2] for line in ended.out.splitlines()[2:6]]
     names = ["slider7.x", "A.normal_force"]
     assert lines == [[name, label] for name in names for label in ("first", "second")]
     assert (tmp_path / "both.png").read_bytes().startswith(b"\x89PNG")

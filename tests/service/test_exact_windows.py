@@ -139,3 +139,30 @@ def test_the_client_reads_what_the_service_says(service_url, settings, job):
         assert fine.exact
         assert len(fine.time) == 10_001
         assert found.results.peaks(0.02, 0.03)[FORCE].maximum >= fine[FORCE].max() * (1 - 1e-9)
+
+
+def test_peaks_leave_out_what_the_job_leaves_out_as_settling(http, job, worker):
+    claim = worker.start(worker.submit(duration=DURATION, output_step=STEP, settle=0.05))
+    worker.run(claim)
+    worker.finish(claim, BlockState.done)
+    found = ask(http, claim.job.id, "peaks")["peaks"]
+    expected = ask(http, job, "peaks", start=0.05)["peaks"]
+    assert found.keys() == expected.keys()
+    whole = ask(http, job, "peaks")["peaks"]
+    assert found[FORCE]["maximum"] < 0.9 * whole[FORCE]["maximum"]
+    for name, one in expected.items():
+        # as extremes are sharp; below 1e-9 channels have nothing but rounding
+        sharp = 1e-6 * (one["maximum"] - one["minimum"]) + 1e-9
+        for part in ("minimum", "maximum"):
+            assert found[name][part] == pytest.approx(one[part], abs=sharp)
+    refused = http.post(
+        "/v1/jobs",
+        json={
+            "kind": "simulate",
+            "scene": {"preset": "pendulum"},
+            "duration": 1.0,
+            "settle": 1.0,
+        },
+    )
+    assert refused.status_code == 422
+    assert "/settle" in refused.text

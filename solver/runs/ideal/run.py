@@ -84,8 +84,12 @@ class IdealRun:
         peaks = self.peaks
         if not peaks and self.samples_done:
             times = np.arange(self.samples_done) * self.admission.job["output_step"]
+            times = times[times >= self.admission.settle]
             values = self.channels(times)
-            peaks = {name: sampled_peak(times, values[:, c]) for c, name in enumerate(self.names)}
+            if len(times):
+                peaks = {
+                    name: sampled_peak(times, values[:, c]) for c, name in enumerate(self.names)
+                }
         statistics: dict[str, Any] = {
             "steps": 0,
             "rejections": 0,
@@ -157,13 +161,14 @@ class IdealRun:
 
     def _extremes(self) -> dict[str, Peak]:
         """Seek the extremes of every channel on the exact motion."""
-        period = self.admission.period
-        span = min(self.duration, period) if period else self.duration
+        period, settle = self.admission.period, self.admission.settle
+        length = self.duration - settle
+        span = min(length, period) if period else length
         count = max(math.ceil(SCAN_A_PERIOD * span / self.motion.unit), 16)
-        times = np.linspace(0.0, span, min(count, MOST_SCANNED) + 1)
+        times = settle + np.linspace(0.0, span, min(count, MOST_SCANNED) + 1)
         peaks = self._peaks(times)
-        if self.duration > span:  # angles that go on turning are extreme in the last period
-            for name, late in self._peaks(times + (self.duration - span)).items():
+        if length > span:  # angles that go on turning are extreme in the last period
+            for name, late in self._peaks(times + (length - span)).items():
                 early = peaks[name]
                 low = min(early, late, key=lambda peak: peak.minimum)
                 high = max(early, late, key=lambda peak: peak.maximum)

@@ -1,0 +1,76 @@
+"""Extremes of channels from the time on that a job leaves out as settling."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.records.peak import Peak
+from jointplay.solver.kernels.emit.places import LENGTH
+from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
+from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.runs.admission import Admission
+from jointplay.solver.runs.dense_output.parts import cut
+from jointplay.solver.runs.dense_output.replay import Replay, scaled
+
+
+class SettledPeaks:
+    """Smallest and largest values after settling, whose bits do not depend on slices.
+
+    The run's own record goes from its start: it decides what is looked at closely, so that the
+    trajectory's results have the same bits whatever is left out here.
+
+    Parameters
+    ----------
+    admission, method
+        As `Replay` takes them.
+    """
+
+    def __init__(self, admission: Admission, method: str) -> None:
+        self._replay = Replay(admission, method)
+        self._edges = np.array([admission.settle, float(admission.job["duration"])])
+        self._names = [channel.name for channel in admission.channels]
+        self._sources, watched, rest = self._replay.sought(self._names)
+        self._wanted = [*watched, *rest]
+        self._rows = self._replay.rows(watched), self._replay.rows(rest)
+        self._table = self._replay.table()
+        self._record = np.full((1, len(self._wanted), 4), np.nan)
+
+    def add(self, steps: Floats) -> None:
+        """Look at further steps (n, width)."""
+        if not len(steps):
+            return
+        begins = self._replay.begins(steps)
+        parts, shares = cut(begins, steps[:, LENGTH], self._edges)
+        if not len(parts):
+            return
+        first, last = int(parts[0, 0]), int(parts[-1, 0]) + 1
+        parts[:, 0] -= first
+        extremes_in_steps(
+            *self._replay.arguments,
+            self._table,
+            np.ascontiguousarray(steps[first:last]),
+            parts,
+            shares,
+            *self._rows,
+            np.zeros(len(self._wanted)),
+            SHARP,
+            self._record,
+        )
+
+    def peaks(self) -> dict[str, Peak]:
+        """Return the extremes so far, by channel; none before the motion has settled."""
+        if np.isnan(self._record).all():
+            return {}
+        rows = scaled(self._record, self._wanted, self._sources)[0].tolist()
+        return {name: Peak(*row) for name, row in zip(self._names, rows, strict=True)}
+
+    def state(self, name: str) -> dict[str, NDArray[Any]]:
+        """Return what the next call depends on, as arrays of a checkpoint."""
+        return {f"{name}/record": self._record}
+
+    def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
+        """Continue from `state`, bit for bit."""
+        self._record = saved[f"{name}/record"].copy()
