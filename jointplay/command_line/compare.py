@@ -93,9 +93,14 @@ def _peaks_inside(
             raise Stopped(f"{job.id} has nothing in this window of time; widen it.") from None
         found = {}
         for name, one in window.channels.items():
-            places = one.values.argmin(), one.values.argmax()
-            parts = [float(column[k]) for k in places for column in (one.values, window.time)]
-            found[name] = Peak(*parts, unit=one.unit)
+            low, high = int(one.values.argmin()), int(one.values.argmax())
+            found[name] = Peak(
+                float(one.values[low]),
+                float(window.time[low]),
+                float(one.values[high]),
+                float(window.time[high]),
+                one.unit,
+            )
     return {row["channel"]: row for row in peak_rows(found)}
 
 
