@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 
 from jointplay.figures import page
-from jointplay.figures.mechanism_geometry import GROUND, Pose, placed
+from jointplay.figures.mechanism_geometry import GROUND, Pose, placed, world
 from jointplay.figures.scene_facts import PLAY
 from jointplay.records.arrays import Floats
 
 ANGLES = np.linspace(0.0, 2.0 * math.pi, 361)
 FOLLOWERS = ("flat-follower", "roller-follower")
+_APART = 1e-4
+"""Angle between the two values of a slope [rad]: errors of 1e-8 of a wave, rounding below 1e-11."""
 _FACE = 0.6
 """Half the length of a face that is drawn, in means of the profile."""
 
@@ -23,27 +25,58 @@ def cam_curves(scene: Mapping[str, Any], pose: Pose) -> list[tuple[Floats, Float
     for joint in scene["joints"].values():
         if joint["type"] not in FOLLOWERS:
             continue
-        clearance = joint.get("clearance") or {}
-        lash = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
-        value = _profile(joint["profile"], ANGLES)
-        slope = np.gradient(value, ANGLES, edge_order=2)
         (cam, centre), (follower, point) = (joint[end].split(".") for end in ("cam", "follower"))
-        away = np.stack([np.cos(ANGLES), np.sin(ANGLES)])
-        aside = np.stack([-np.sin(ANGLES), np.cos(ANGLES)])
+        outline, _ = surface(joint, ANGLES)
         if joint["type"] == "flat-follower":
-            outline = (value - lash) * away + slope * aside
             x, y = joint["normal"]
-            across = np.array([-y, x]) / math.hypot(x, y) * _FACE * float(value.mean())
+            across = np.array([-y, x]) / math.hypot(x, y) * _FACE * mean_profile(joint)
             moved = np.stack([-across, across], axis=1)
         else:
-            normal = value * away - slope * aside
-            inside = joint["roller_radius"] + lash
-            outline = value * away - inside * normal / np.hypot(*normal)
-            moved = joint["roller_radius"] * away
+            moved = joint["roller_radius"] * np.stack([np.cos(ANGLES), np.sin(ANGLES)])
         found.append(
             (_world(scene, pose, cam, centre, outline), _world(scene, pose, follower, point, moved))
         )
     return found
+
+
+def surface(joint: Mapping[str, Any], angles: Floats) -> tuple[Floats, Floats]:
+    """Return where a cam ends, (2, n) m about its centre, and the normals there, outwards.
+
+    In the cam's axes; the follower, as it has the (n,) angles of the profile, touches it there.
+    """
+    clearance = joint.get("clearance") or {}
+    lash = max((float(clearance.get(field, 0.0)) for field in PLAY), default=0.0)
+    value = _profile(joint["profile"], angles)
+    slope = _slope(joint["profile"], angles)
+    away = np.stack([np.cos(angles), np.sin(angles)])
+    aside = np.stack([-np.sin(angles), np.cos(angles)])
+    if joint["type"] == "flat-follower":
+        return (value - lash) * away + slope * aside, away
+    normal = value * away - slope * aside
+    normal = normal / np.hypot(*normal)
+    return value * away - (joint["roller_radius"] + lash) * normal, normal
+
+
+def profile_angle(scene: Mapping[str, Any], joint: Mapping[str, Any], pose: Pose) -> float:
+    """Return the angle of a follower in its cam's axes, which its profile is over [rad]."""
+    cam, follower = (str(joint[end]) for end in ("cam", "follower"))
+    if joint["type"] == "flat-follower":
+        x, y = joint["normal"]
+        turned = _angle(follower, pose)
+    else:
+        x, y = np.subtract(world(scene, pose, follower), world(scene, pose, cam)).tolist()
+        turned = 0.0
+    return math.atan2(y, x) + turned - _angle(cam, pose)
+
+
+def cam_angle(joint: Mapping[str, Any], pose: Pose) -> float:
+    """Return by what the axes of a cam are turned in the world [rad]."""
+    return _angle(str(joint["cam"]), pose)
+
+
+def mean_profile(joint: Mapping[str, Any]) -> float:
+    """Return the mean of a cam's profile over a turn [m]."""
+    return float(_profile(joint["profile"], ANGLES[:-1]).mean())
 
 
 def draw_cams(axes: page.Axes, curves: list[tuple[Floats, Floats]], metre: float) -> None:
@@ -63,6 +96,17 @@ def _world(scene: Mapping[str, Any], pose: Pose, body: str, point: str, curve: F
     x, y = scene["bodies"][body]["points"][point]
     there = [placed(pose[body], (x + dx, y + dy)) for dx, dy in curve.T.tolist()]
     return np.array(there).T
+
+
+def _angle(reference: str, pose: Pose) -> float:
+    body = reference.partition(".")[0]
+    return 0.0 if body == GROUND else pose[body][2]
+
+
+def _slope(function: Mapping[str, Any], angles: Floats) -> Floats:
+    """Return the derivative of a profile by its angle, m/rad."""
+    after, before = (_profile(function, angles + sign * _APART / 2.0) for sign in (1.0, -1.0))
+    return np.asarray((after - before) / _APART)
 
 
 def _profile(function: Mapping[str, Any], angles: Floats) -> Floats:

@@ -28,13 +28,13 @@ def gif(path: Path, frames_per_second: int) -> Iterator[Add]:
     NotDrawable
         A GIF cannot be so fast.
     """
-    from PIL import Image as images
+    from PIL.Image import fromarray
 
     if frames_per_second > FASTEST:
         sentence = f"A GIF shows at most {FASTEST} frames a second; choose fewer, or mp4."
         raise NotDrawable(sentence, "frames_per_second")
     frames: list[Image] = []
-    yield lambda picture: frames.append(images.fromarray(picture))
+    yield lambda picture: frames.append(fromarray(picture))
     # each ends where it should, to the unit: the film is as long as it should be
     ends = np.rint(np.arange(len(frames) + 1) * (1000.0 / _UNIT / frames_per_second))
     delays = (_UNIT * np.diff(ends)).astype(int).tolist()

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from jointplay.figures import scene_facts
+from jointplay.figures.animation.follower import Follower
 from jointplay.figures.animation.journal import Journal
 from jointplay.figures.animation.walls import BetweenWalls
 from jointplay.figures.kind import Selection, at_most
@@ -11,11 +12,13 @@ from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
 from jointplay.records.run import Source
 
-Inset = Journal | BetweenWalls
-KINDS: Final[dict[str, type[Journal] | type[BetweenWalls]]] = {
+Inset = Journal | BetweenWalls | Follower
+KINDS: Final[dict[str, type[Journal] | type[BetweenWalls] | type[Follower]]] = {
     "revolute": Journal,
     "prismatic": BetweenWalls,
     "pin-in-slot": BetweenWalls,
+    "flat-follower": Follower,
+    "roller-follower": Follower,
 }
 """Pictures by the type of the joint."""
 MOST: Final = 6
@@ -48,7 +51,7 @@ def magnified(source: Source, selection: Selection) -> dict[str, tuple[str, ...]
 
 
 def insets(
-    joints: Mapping[str, Any], names: list[str], columns: Mapping[str, Floats]
+    scene: Mapping[str, Any], names: list[str], columns: Mapping[str, Floats]
 ) -> dict[str, Inset]:
-    """Make the pictures of joints, by name, from (m,) values by channel."""
-    return {name: KINDS[joints[name]["type"]](name, joints[name], columns) for name in names}
+    """Make the pictures of a scene's joints, by name, from (m,) values by channel."""
+    return {name: KINDS[scene["joints"][name]["type"]](name, scene, columns) for name in names}

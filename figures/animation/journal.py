@@ -25,15 +25,16 @@ class Journal:
     ----------
     name
         Of the joint.
-    joint
-        As the scene has it.
+    scene
+        The scene document.
     columns
         (m,) values by channel; NaN where they were not computed.
     """
 
     QUANTITIES = ("eccentricity_x", "eccentricity_y", "normal_force")
 
-    def __init__(self, name: str, joint: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
+    def __init__(self, name: str, scene: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
+        joint = scene["joints"][name]
         x, y, self._force = (columns[f"{name}.{one}"] for one in self.QUANTITIES)
         self._centre = np.stack([x, y], axis=1)
         self._play = float(joint["clearance"]["radial_clearance"])

@@ -53,7 +53,7 @@ class Reel:
         self._poses = _poses(source, instants.times)
         names = [name for channels in self._joints.values() for name in channels]
         columns = _columns(source, names, instants.all)
-        self._insets = insets.insets(self._scene["joints"], list(self._joints), columns)
+        self._insets = insets.insets(self._scene, list(self._joints), columns)
         placed = [place(self._scene, pose) for pose in self._poses]
         corners = [corner for one in placed for corner in one.corners]
         self._frames = [one.within(corners) for one in placed]

@@ -37,10 +37,10 @@ def video(path: Path, frames_per_second: int) -> Iterator[Add]:
             if process is None:
                 height, width, _ = picture.shape
                 read = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}")
+                pace = ("-framerate", str(frames_per_second), "-i", "pipe:")
                 written = (*_CODEC[path.suffix], "-vf", _EVEN, "-pix_fmt", "yuv420p", str(path))
-                process = subprocess.Popen(
-                    [program, "-loglevel", "error", "-y", *read]
-                    + ["-framerate", str(frames_per_second), "-i", "pipe:", *written],
+                process = subprocess.Popen(  # noqa: S603  (no shell; the name is beside the film's)
+                    [program, "-loglevel", "error", "-y", *read, *pace, *written],
                     stdin=subprocess.PIPE,
                     stdout=subprocess.DEVNULL,
                     stderr=complaints,
@@ -70,7 +70,9 @@ def _failed(process: subprocess.Popen[bytes], complaints: IO[bytes]) -> NotDrawa
     complaints.seek(0)
     lines = complaints.read().decode(errors="replace").strip().splitlines()
     said = f": {lines[-1].strip()}" if lines else ""
-    sentence = f"ffmpeg ended with code {code}{said}; make room, choose another name, or take a GIF."
+    sentence = (
+        f"ffmpeg ended with code {code}{said}; make room, choose another name, or take a GIF."
+    )
     return NotDrawable(sentence, "path")
 
 

@@ -33,13 +33,14 @@ class BetweenWalls:
     ----------
     name
         Of the joint.
-    joint
-        As the scene has it.
+    scene
+        The scene document.
     columns
         (m,) values by channel; NaN where they were not computed.
     """
 
-    def __init__(self, name: str, joint: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
+    def __init__(self, name: str, scene: Mapping[str, Any], columns: Mapping[str, Floats]) -> None:
+        joint = scene["joints"][name]
         clearance = joint["clearance"]
         self._is_pin = joint["type"] == "pin-in-slot"
         self._owner = joint["slot" if self._is_pin else "guide"].partition(".")[0]

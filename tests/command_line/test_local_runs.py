@@ -117,6 +117,7 @@ def test_a_film_is_drawn_of_a_local_run(jointplay, press, tmp_path):
     assert drawn.out.split() == [str(tmp_path / "animation.gif")]
     with Image.open(tmp_path / "animation.gif") as film:
         assert film.n_frames == 5
+        assert film.info["duration"] == 200  # ms: 10 ms of the press take a second
     for wrong in (
         ["orbit", "--impact-to-impact"],
         ["orbit", *pace],

@@ -67,7 +67,7 @@ def test_a_journal_moves_through_its_gap_and_goes_deeper_in_the_wall(distance, s
         "A.eccentricity_y": np.array([0.8, 0.8]) * [distance, 4.1e-4],
         "A.normal_force": np.array([0.0, 50.0]),
     }
-    journal = Journal("A", joint, columns)
+    journal = Journal("A", {"joints": {"A": joint}}, columns)
     _, ((free, touching),) = panels(1, 2, 50.0)
     journal.draw(free, 0, {})
     journal.draw(touching, 1, {})
@@ -87,7 +87,7 @@ def test_a_tilted_slider_touches_with_two_opposite_corners(tilt):
     for corner, depth in zip((1, 2, 3, 4), (0.0, -2e-3, 0.0, -2e-3), strict=True):
         columns[f"guide.corner_{corner}.penetration"] = np.array([depth])
         columns[f"guide.corner_{corner}.normal_force"] = np.array([2.0 + depth])
-    slider = BetweenWalls("guide", joint, columns)
+    slider = BetweenWalls("guide", {"joints": {"guide": joint}}, columns)
     _, ((axes,),) = panels(1, 1, 50.0)
     slider.draw(axes, 0, {"link": (0.0, 0.0, tilt)})
     left, right = (line.get_xydata() for line in axes.lines)  # upright: the axis is y

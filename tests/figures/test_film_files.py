@@ -28,6 +28,14 @@ def ffmpeg():
     return pytest.importorskip("imageio_ffmpeg", reason=reason).get_ffmpeg_exe()
 
 
+@pytest.fixture
+def hears_ctrl_c():
+    """Shells start background programs with Ctrl-C ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def delays_of(path):
     with Image.open(path) as film:
         found = []
@@ -63,6 +71,7 @@ def test_ffmpeg_writes_films_that_last_as_long(motion, tmp_path, ffmpeg, form):
 
 
 @pytest.mark.parametrize("form", ["gif", "mp4"])
+@pytest.mark.usefixtures("hears_ctrl_c")
 def test_a_film_that_is_interrupted_leaves_the_one_before(motion, tmp_path, request, form):
     if form == "mp4":
         request.getfixturevalue("ffmpeg")

@@ -47,9 +47,9 @@ def test_the_outline_of_an_eccentric_cam_is_its_circle(shape: str) -> None:
     ((outline, moved),) = cam_curves(SCENE | {"joints": {"cam": joint}}, POSE)
     # the circle's centre is below the shaft's, and turns with it
     centre = ECCENTRICITY * np.array([math.sin(0.7), -math.cos(0.7)])
-    # slopes are differences of neighbours 1 degree apart, at the ends one-sided
+    # of a table of 64 knots, whose first and last piece have the spline's largest errors
     reach = np.hypot(*(outline - centre[:, None]))
-    np.testing.assert_allclose(reach, RADIUS, rtol=0.0, atol=2e-5)
+    np.testing.assert_allclose(reach, RADIUS, rtol=0.0, atol=2e-6)
     np.testing.assert_allclose(moved.mean(axis=1), [0.0, 0.03], atol=1e-3)
 
 
