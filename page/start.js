@@ -3,7 +3,7 @@
 import { element, fill } from "./interface/element.js";
 import { place } from "./interface/place.js";
 import { trouble } from "./interface/trouble.js";
-import { get, onReachable, pause } from "./requests/service.js";
+import { Unreachable, get, onReachable, pause } from "./requests/service.js";
 
 const VIEWS = {
   start: ["Mechanisms", () => import("./views/start.js")],
@@ -65,6 +65,10 @@ async function comeBack() {
   if (content.querySelector(".trouble")) show(); // a view that could not be filled
 }
 
+window.addEventListener("unhandledrejection", (event) => {
+  const { reason } = event; // the view was left meanwhile; or the service is away, which is said above
+  if (reason?.name === "AbortError" || reason instanceof Unreachable) event.preventDefault();
+});
 window.addEventListener("hashchange", () => {
   window.scrollTo(0, 0);
   show().then(() => content.focus({ preventScroll: true }));

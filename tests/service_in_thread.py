@@ -15,6 +15,7 @@ from jointplay.service.app import create_app
 from jointplay.service.processes.api import LONGEST_HEAD
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
+from tests.waiting import PATIENCE
 
 
 @contextmanager
@@ -56,9 +57,14 @@ def service_url(application: FastAPI) -> Iterator[str]:
         yield url
 
 
+def client_of(url: str) -> httpx.Client:
+    """Return a client that waits as long as a busy machine needs."""
+    return httpx.Client(base_url=url, trust_env=False, timeout=PATIENCE)
+
+
 @pytest.fixture(scope="session")
 def http(service_url: str) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=service_url, trust_env=False, timeout=60) as client:
+    with client_of(service_url) as client:
         yield client
 
 

@@ -83,6 +83,35 @@ def docstrings_and_help(tree: ast.AST) -> Iterator[ast.Constant]:
             yield from (part for part in ast.walk(node.value) if isinstance(part, ast.Constant))
 
 
+WAITS_FOR_NOTHING = {
+    *("is_visible", "is_hidden", "is_enabled", "is_disabled", "is_checked", "is_editable"),
+    *("all_inner_texts", "all_text_contents", "inner_text", "inner_html", "text_content"),
+    *("evaluate", "evaluate_all", "get_attribute", "input_value", "bounding_box"),
+    *("query_selector", "query_selector_all", "title", "content"),
+}
+"""Questions that Playwright answers at once; `count()` and `url` are two more."""
+
+
+def asked_at_once(assertion: ast.AST) -> Iterator[str]:
+    """Yield what an assertion asks of a page that may not be drawn yet."""
+    for node in ast.walk(assertion):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            name = node.func.attr
+            if name in WAITS_FOR_NOTHING or (name == "count" and not node.args):
+                yield name
+        if isinstance(node, ast.Attribute) and ast.unparse(node) == "page.url":
+            yield "url"
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "tests/page").glob("test_*.py")), ids=relative)
+def test_no_test_of_the_page_guesses_a_moment(path):
+    """What one sentence of a page shows, the next shows later: `expect` and `wait_for` wait."""
+    tree = ast.parse(path.read_text())
+    asserted = [node for node in ast.walk(tree) if isinstance(node, ast.Assert)]
+    assert {name for one in asserted for name in asked_at_once(one)} == set()
+    assert not re.search(r"wait_for_timeout|\bsleep\(|timeout=", path.read_text())
+
+
 def imported_by(path: Path, modules: dict[str, Path]) -> Iterator[str]:
     """Yield the modules of ours that a file imports, also where it does so inside a function."""
 

@@ -36,6 +36,10 @@ export function player(clock, impacts = null) {
       : onsets.findLast((onset) => onset < clock.time - gap);
     if (next !== undefined) clock.seek(next);
   };
+  const jumps = impacts ? [
+    element("button", { type: "button", onclick: jump(-1), title: "To the impact before" }, "◂ Impact"),
+    element("button", { type: "button", onclick: jump(1), title: "To the next impact" }, "Impact ▸"),
+  ] : [];
   const made = element(
     "div",
     { class: "player" },
@@ -44,10 +48,7 @@ export function player(clock, impacts = null) {
       "div",
       { class: "buttons" },
       button,
-      impacts && [
-        element("button", { type: "button", onclick: jump(-1), title: "To the impact before" }, "◂ Impact"),
-        element("button", { type: "button", onclick: jump(1), title: "To the next impact" }, "Impact ▸"),
-      ],
+      jumps,
       element("label", { class: "buttons small" }, "Speed ", speed),
       readout,
     ),
@@ -60,6 +61,7 @@ export function player(clock, impacts = null) {
     slider.value = String(Math.round(share * STEPS));
     const text = `t = ${withUnit(time, "s", 5)}`;
     if (readout.textContent !== text) readout.textContent = text;
+    for (const one of jumps) one.disabled = !impacts().length;
     slider.setAttribute("aria-valuetext", `${short(time, 4)} seconds`);
   };
   clock.listen(refresh);

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 AXE = Path(__file__).parent / "vendor" / "axe.min.js"
-PATIENCE = 60_000  # ms: a machine may be busy with other tests
+PATIENCE = 300_000  # ms: of a wait; a machine may be busy, or compile equations for the first time
 _RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
 
 
@@ -16,6 +16,16 @@ def chromium() -> str | None:
     """Return the path of Chromium, or None."""
     names = ("chromium", "chromium-browser", "google-chrome")
     return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, names)), None)
+
+
+def expect(shown: Any) -> Any:
+    """Playwright's questions about a page, or a part of it, that wait for their answer.
+
+    A page is never as a test wants it at once: what one sentence shows, another shows later.
+    """
+    from playwright import sync_api  # what needs it is skipped where it is not installed
+
+    return sync_api.expect(shown)
 
 
 class Browsing:
@@ -76,11 +86,23 @@ class Browsing:
 
 
 def barriers(page: Any) -> list[str]:
-    """Return what axe finds wrong with a page for readers of all kinds, as short sentences."""
+    """Return what keeps readers of any kind from a page, as short sentences.
+
+    That is what axe finds wrong, and what is wider than the window; both as soon as two looks in
+    a row find the same, since a page may be changing while it is looked at.
+    """
     page.evaluate(AXE.read_text())  # the page's own policy lets no script in
+    before, found = None, _found(page)
+    while found and found != before:
+        before, found = found, _found(page)
+    return found
+
+
+def _found(page: Any) -> list[str]:
     found = page.evaluate("rules => axe.run(document, rules)", _RULES)
+    wide, width = page.evaluate("document.documentElement.scrollWidth"), page.viewport_size["width"]
     return [
         f"{one['id']}: {node['target']} {node.get('failureSummary', '')}"
         for one in found["violations"]
         for node in one["nodes"]
-    ]
+    ] + ([f"{wide} px wide where {width} px are"] if wide > width else [])

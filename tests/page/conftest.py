@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from jointplay.service.processes import running_service
-from tests.page.browsing import Browsing, chromium
+from tests.page.browsing import PATIENCE, Browsing, chromium
 from tests.service_in_thread import (
     application,
     catalogue,
@@ -37,8 +37,11 @@ def browsing() -> Iterator[Browsing]:
     found = chromium()
     if found is None:
         pytest.skip(reason)
+    sync_api.expect.set_options(timeout=PATIENCE)
     with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        browser = playwright.chromium.launch(
+            executable_path=found, args=["--no-sandbox"], timeout=PATIENCE
+        )
         yield Browsing(browser)
         browser.close()
 

@@ -51,8 +51,7 @@ def wrong(browsing, url, places, width, dark):
             page.goto("about:blank")  # or what is there of the view before would be looked at
             page.goto(f"{url}{place}")
             page.locator(there).first.wait_for()
-            wide = page.evaluate("document.documentElement.scrollWidth")
-            found[place] = barriers(page) + ([f"{wide} px wide"] if wide > width else [])
+            found[place] = barriers(page)
     return {place: one for place, one in found.items() if one}
 
 

@@ -12,6 +12,7 @@ from tests.solver import cams, sliders
 
 PIXELS = """([label, colour]) => {
   const canvas = document.querySelector(`canvas[aria-label="${label}"]`);
+  if (!canvas?.width) return [0, 0, 0];
   const { width, height } = canvas;
   const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
   copy.drawImage(canvas, 0, 0);
@@ -26,7 +27,17 @@ PIXELS = """([label, colour]) => {
   return [count, right / count, down / count];
 }"""
 """Number of pixels of a colour on a canvas, and their centre."""
+DRAWN = f"""asked => {{
+  const found = ({PIXELS})(asked);
+  return found[0] > asked[2] && found;
+}}"""
+REDRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 EDITED = "The mechanism as the text describes it"
+
+
+def drawn(page, label, colour, least):
+    """Number of pixels of a colour on a canvas, and their centre, once there are so many."""
+    return page.wait_for_function(DRAWN, arg=[label, colour, least]).json_value()
 
 
 def test_a_gif_shows_the_frames_from_the_time_that_is_shown(browsing, url, press):
@@ -43,7 +54,7 @@ def test_a_gif_shows_the_frames_from_the_time_that_is_shown(browsing, url, press
             first = film.convert("RGB").tobytes()
             film.seek(film.n_frames - 1)
             assert film.convert("RGB").tobytes() != first
-        assert page.get_by_text("t = 46 ms").is_visible()
+        page.get_by_text("t = 46 ms").wait_for()
 
 
 def test_a_film_is_recorded_where_the_browser_can(browsing, url, press):
@@ -68,26 +79,25 @@ def test_a_slider_and_a_cam_are_shown(browsing, url, artifacts):
     with browsing.page(f"{url}/#/job/{slides}?t=0.04", still=True) as page:
         page.wait_for_function(MOVED, arg=0)
         page.get_by_text("gap ×19").wait_for()
+        drawn(page, "Slider of joint guide in its guide", "tint-0", 500)
         page.screenshot(path=artifacts / "slider.png")
-        assert page.evaluate(PIXELS, ["Slider of joint guide in its guide", "tint-0"])[0] > 500
     with browsing.page(f"{url}/#/editor") as page:
         joint = cams.follower("flat", cams.CIRCLE, lash=1e-4)
         page.get_by_label("Scene document").fill(json.dumps(cams.valve(joint)))
         page.get_by_text("Degrees of freedom: 1").wait_for()
+        drawn(page, EDITED, "ground", 2000)
         page.screenshot(path=artifacts / "cam.png")
-        assert page.evaluate(PIXELS, [EDITED, "ground"])[0] > 2000
 
 
 def test_a_mechanism_in_the_editor_is_dragged(browsing, url):
     with browsing.page(f"{url}/#/editor") as page:
-        page.get_by_text("Degrees of freedom:").wait_for()
-        canvas = page.get_by_label(EDITED)
-        corner = canvas.bounding_box()
+        page.get_by_text("of one core").wait_for()  # the last that comes, and moves the drawing
+        corner = page.get_by_label(EDITED).bounding_box()
 
         def pin():
             """Place of the only joint with play, at the end of the crank."""
-            count, right, down = page.evaluate(PIXELS, [EDITED, "play"])
-            assert count > 20
+            page.evaluate(REDRAWN)  # the pointer's moves are told to the page once a frame
+            _, right, down = drawn(page, EDITED, "play", 20)
             return corner["x"] + right, corner["y"] + down
 
         before = pin()

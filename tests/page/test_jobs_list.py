@@ -1,19 +1,19 @@
 """The list of jobs, jobs that do not go well, and a service that goes away."""
 
+import re
 import subprocess
 import sys
 from contextlib import ExitStack
 from urllib.parse import urlsplit
 
-import httpx
 import pytest
 
 from jointplay.records.job import JobError
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.records import BlockState, Solver
 from jointplay.storage.settings import Settings
-from tests.page.browsing import barriers
-from tests.service_in_thread import serving
+from tests.page.browsing import barriers, expect
+from tests.service_in_thread import client_of, serving
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
 SCROLLED_TO = """last => {
@@ -36,16 +36,16 @@ def test_of_400_jobs_those_are_drawn_that_are_seen(browsing, http, service_url, 
     http.post("/v1/batches", json={"jobs": jobs}).raise_for_status()
     with browsing.page(f"{service_url}/#/jobs?scene=pendulum", width=width) as page:
         page.get_by_text(f"number 399 of {width}", exact=True).first.wait_for()
-        assert page.locator(".row").count() < 60
+        page.wait_for_function("() => document.querySelectorAll('.row').length < 60")
         page.wait_for_function(SCROLLED_TO, arg=f"number 0 of {width}")
         page.get_by_label("Label", exact=True).fill(f"number 7 of {width}")
         page.get_by_label("Label", exact=True).press("Enter")
-        page.wait_for_function("() => document.querySelectorAll('.row').length === 1")
-        assert "label=number" in page.url
+        expect(page.locator(".row")).to_have_count(1)
+        expect(page).to_have_url(re.compile("label=number"))
         page.screenshot(path=artifacts / f"jobs-{width}.png")
         assert barriers(page) == []
         page.get_by_role("button", name="Cancel").click()
-        page.get_by_text("cancelled", exact=True).last.wait_for()
+        page.locator(".row").get_by_text("cancelled", exact=True).wait_for()
 
 
 def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, worker, catalogue):
@@ -56,15 +56,16 @@ def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, 
         catalogue.note_worker("test", Solver("1", "zen4"))
         page.get_by_text("1 of 1 workers has nothing to do").wait_for()
         claim = worker.start(job_id)
+        catalogue.note_worker("test", Solver("1", "zen4"))  # a worker is heard of again and again
         page.get_by_text("running", exact=True).wait_for()
         page.get_by_role("link", name="Document").click()
         page.get_by_role("heading", name="Who computes it").wait_for()
-        assert page.get_by_role("cell", name="zen4").is_visible()
+        page.get_by_role("cell", name="zen4").wait_for()
         worker.store(claim, complete=False)
         error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
         worker.finish(claim, BlockState.failed, error)
         page.get_by_text("The step fell below 1e-15 s.").first.wait_for()
-        assert page.get_by_text("Another tolerance or method may help").is_visible()
+        page.get_by_text("Another tolerance or method may help").wait_for()
         assert barriers(page) == []
 
 
@@ -81,15 +82,15 @@ def test_a_service_that_comes_back_is_noticed(browsing, tmp_path):
     settings = Settings(data=tmp_path / "data")
     with ExitStack() as closing:
         with serving(create_app(settings)) as url:
-            httpx.post(f"{url}/v1/jobs", json=JOB | {"label": "first"}, trust_env=False)
+            http = closing.enter_context(client_of(url))
+            http.post("/v1/jobs", json=JOB | {"label": "first"}).raise_for_status()
             page = closing.enter_context(browsing.page(f"{url}/#/jobs", expected=CUT))
             page.get_by_role("link", name="first").wait_for()
         page.get_by_text("The service does not answer").wait_for()
         with serving(create_app(settings), urlsplit(url).port or 0):
             page.get_by_text("The service does not answer").wait_for(state="hidden")
-            httpx.post(
-                f"{url}/v1/jobs", json=JOB | {"label": "second", "cache": False}, trust_env=False
-            )
+            second = JOB | {"label": "second", "cache": False}
+            http.post("/v1/jobs", json=second).raise_for_status()
             page.get_by_role("link", name="second").wait_for()
 
 

@@ -4,12 +4,11 @@ import hashlib
 import re
 from pathlib import Path
 
-import httpx
 import pytest
 
 from jointplay.service.app import create_app
 from jointplay.storage.settings import Settings
-from tests.service_in_thread import serving
+from tests.service_in_thread import client_of, serving
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "page"
@@ -38,10 +37,13 @@ def test_the_page_is_served_under_a_strict_policy(http, address):
 
 def test_the_report_that_the_operator_names_is_shown_and_carries_nothing_out(tmp_path):
     report = tmp_path / "report.html"
-    with serving(create_app(Settings(data=tmp_path / "data", report=report))) as url:
-        assert "No report" in httpx.get(f"{url}/report", trust_env=False).text
+    with (
+        serving(create_app(Settings(data=tmp_path / "data", report=report))) as url,
+        client_of(url) as http,
+    ):
+        assert "No report" in http.get("/report").text
         report.write_text("<title>Published and computed</title>")
-        answer = httpx.get(f"{url}/report", trust_env=False)
+        answer = http.get("/report")
     assert answer.text == report.read_text()
     policy = answer.headers["Content-Security-Policy"]
     assert policy.startswith("default-src 'none'; style-src 'unsafe-inline'; img-src data:")

@@ -113,10 +113,11 @@ class Sweep {
         type: "button", "aria-label": `Choose point ${i + 1}`, onclick: () => this.pick(i),
       }, "Choose"))));
     const titles = [...this.parameters.map(({ name }) => name), ...curves.map(({ title }) => title)];
-    fill(this.table, element("table", { class: "small" },
-      element("thead", {}, element("tr", {},
-        titles.map((title) => element("th", { scope: "col" }, title)), element("td"))),
-      element("tbody", {}, rows)),
+    fill(this.table, element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Points" },
+      element("table", { class: "small" },
+        element("thead", {}, element("tr", {},
+          titles.map((title) => element("th", { scope: "col" }, title)), element("td"))),
+        element("tbody", {}, rows))),
     count > MOST_ROWS && element("p", { class: "quiet small" }, `The first ${short(MOST_ROWS)} points.`));
   }
 }

@@ -133,7 +133,7 @@ class Watch {
       this.history.rebuild();
       if (this.history.data) this.history.draw();
     }
-    this.draw();
+    this.clock.tell();
   }
 
   /** Shows what a running job has computed meanwhile. */
