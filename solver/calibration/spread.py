@@ -1,7 +1,7 @@
 """The spread of what fits equally well: candidates spread evenly over all that cost little enough.
 
-Differential evolution Markov chains (ter Braak 2006, Statistics and Computing 16:239; not yet
-checked against the source) with a target that is even over {cost <= limit} and nothing elsewhere:
+Differential evolution Markov chains (ter Braak 2006, Statistics and Computing 16:239)
+with a target that is even over {cost <= limit} and nothing elsewhere:
 a step between two chains of one half is tried by a chain of the other half, and taken if the cost
 there is within the limit.  Stretched and bent valleys are followed, because steps are as long as
 the valley is.

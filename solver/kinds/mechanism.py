@@ -19,7 +19,6 @@ from jointplay.solver.mechanics.assembly import (
     shortest_link,
 )
 from jointplay.solver.mechanics.branches import MOST_BODIES, Branches, branches
-from jointplay.solver.mechanics.gears import coupled
 from jointplay.solver.mechanics.misfit import fighting_drivers, opening
 from jointplay.solver.mechanics.tree import Tree, spanning_tree
 from jointplay.solver.scene import presets
@@ -149,26 +148,11 @@ def check(scene: Scene, formulation: str | None = None) -> tuple[Tree, Assembly]
                 for body in adrift
             ]
         )
-    _check_gears(scene, assembly)
     if (assembly.redundant_with_play or assembly.redundant) and not only_held:
         _check_redundant(scene, assembly)
     if formulation is not None and tree.closing and assembly.freedom_with_play:
         check_length(scene, tree, formulation)
     return tree, assembly
-
-
-def _check_gears(scene: Scene, assembly: Assembly) -> None:
-    """Refuse (InvalidInput) gears where nothing is left to move: poses are followed by turns."""
-    if assembly.freedom_with_play:
-        return
-    for name, gear in scene.gears.items():
-        bodies = {body for _, body in coupled(scene, gear)}
-        raise InvalidInput.at(
-            f"/scene/gears/{name}",
-            f"Drivers turn what the gear '{name}' couples ({', '.join(sorted(bodies))}), and"
-            " nothing else is left to move; leave the gear out and drive both joints, or turn it by"
-            " a torque instead.",
-        )
 
 
 def _redundant_while_held(scene: Scene, assembly: Assembly) -> bool:

@@ -13,7 +13,7 @@ from jointplay.solver.kinds.kind import Kind
 from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
-from jointplay.solver.mechanics.assembly import assemble, shortest_link
+from jointplay.solver.mechanics.assembly import shortest_link
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
@@ -118,7 +118,8 @@ class Simulate(Kind[SimulateJob]):
             channels=[channel.name for channel in selected],
         )
         admission = _admission(job, filled, scene, selected)
-        _check_limits(admission, job.duration, endless=moves or admission.period is not None)
+        repeats = drivers_period(scene).seconds is not None and not scene.gears
+        _check_limits(admission, job.duration, endless=moves or repeats)
         return admission
 
     def plan(self, job: SimulateJob, filled: dict[str, Any]) -> Admission:
@@ -131,8 +132,7 @@ class Simulate(Kind[SimulateJob]):
 def _admission(
     job: SimulateJob, filled: dict[str, Any], scene: Scene, channels: tuple[Channel, ...]
 ) -> Admission:
-    moves = assemble(scene).freedom_with_play > 0
-    period = common_period(scene) if moves else drivers_period(scene)
+    period = common_period(scene)
     samples = sample_count(job.duration, filled["output_step"])
     sections = section_count(scene, period, job)
     return Admission(

@@ -8,7 +8,7 @@ With g from the cam's centre to the follower's point and α the angle that the p
 - a roller's centre is at |g| - p(α), α the direction of g in the cam's axes.
 
 Source: Angeles and López-Cajún 1991, Optimization of Cam Mechanisms (support functions and pitch
-curves; equation numbers not yet checked).
+curves).
 """
 
 from typing import NamedTuple

@@ -5,8 +5,8 @@ bearing's: α_2 - ratio α_1 - offset = 0. It is linear in the angles of the bod
 constant, and it does no work. Its multiplier is a couple on the second joint, and -ratio times as
 much on the first: the pins do not feel the forces between teeth.
 
-Source: the principle of virtual work; Shigley and Uicker 1980, Theory of Machines and Mechanisms,
-chapter 8 (signs of ratios; not yet checked).
+Source: the principle of virtual work; Shigley and Uicker 1980, Theory of Machines and Mechanisms
+(signs of ratios).
 """
 
 from collections.abc import Iterator

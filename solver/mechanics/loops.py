@@ -6,7 +6,7 @@ q̈ = M⁻¹ (Q + Jᵀ μ), where J q̈ + bias = 0 gives (J M⁻¹ Jᵀ) μ = -b
 brings coordinates and speeds that have drifted back, by the least change that the masses allow.
 
 Source: Featherstone 2008, Rigid Body Dynamics Algorithms, section 8.5 (loop-closure equations) and
-Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection; not yet checked).
+Eich 1993, SIAM Journal on Numerical Analysis 30:1467 (projection).
 """
 
 from collections.abc import Sequence

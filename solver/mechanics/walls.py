@@ -5,8 +5,7 @@ pushed where the point is, so that the energy ledger closes: with r and d from t
 guide's points to there, the force f = -F_n n + F_t t on the slider has the moments r x f about the
 slider's point and -(d x f) about the guide's. A pin's point is where it is nearest to the wall.
 
-Source: Flores, Leine and Glocker 2010, Multibody System Dynamics 23:165 (gaps of the corners;
-equation numbers not yet checked).
+Source: Flores, Leine and Glocker 2010, Multibody System Dynamics 23:165 (gaps of the corners).
 """
 
 import math

@@ -5,6 +5,7 @@ and on recorded expressions (`solver.kernels.record.recorder`), which become ker
 """
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -113,6 +114,24 @@ def kinked(value: Scalar, argument: Scalar) -> Scalar:
     if isinstance(value, float | int | type_of_array):
         return value
     return value.kinked(argument)
+
+
+def knotted(
+    value: Scalar,
+    argument: Scalar,
+    knots: Sequence[Scalar],
+    span: Scalar | None = None,
+    *,
+    jumps: bool = False,
+) -> Scalar:
+    """Return `value`, a function of `argument` alone that is smooth between its knots.
+
+    Recorded expressions note it, and steps end at knots. With a `span` the function repeats after
+    it, and so do its knots. `jumps`: the value itself may jump there.
+    """
+    if isinstance(value, float | int | type_of_array):
+        return value
+    return value.knotted(argument, knots, span, jumps=jumps)
 
 
 def power(x: Scalar, exponent: Scalar) -> Scalar:

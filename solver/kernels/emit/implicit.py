@@ -59,7 +59,7 @@ class RosenbrockRecorder(StepRecorder):
         return self.recorder.constant(0.0)  # no limit of stability makes its slopes swing
 
     def _start(self) -> str:
-        outputs = [("tried", self._tried()), *self._held()]
+        outputs = [*self._tried(), *self._held()]
         outputs += [(f"stage{i}", self.variable(f"y{i}")) for i in range(self.states)]
         return self._function("start", [*outputs, ("stage_time", self.variable("time"))])
 

@@ -16,6 +16,7 @@ from jointplay.solver.kernels.emit.judging import (
     growth,
     swings,
 )
+from jointplay.solver.kernels.emit.knots import KnotRecorder
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.lane_functions import coarse_log2
@@ -41,6 +42,8 @@ class JudgedStep:
 
     def __init__(self, tableau: Method, equations: Equations, ledger: int, layout: Layout) -> None:
         self.tableau, self.equations = tableau, equations
+        # fixed steps end where they end
+        self.knots = KnotRecorder(equations.knots if tableau.error else (), layout)
         self.states, self.coordinates = equations.states, len(equations.coordinates)
         self.ledger, self.pairs = ledger, len(equations.pairs)
         self.angles = [i for i, name in enumerate(equations.coordinates) if name.endswith(".theta")]
@@ -75,6 +78,7 @@ class JudgedStep:
             next_step = v("tried") * growth(self.tableau.error_order, good, magnitude, v("memory"))
         else:  # fixed; after an overflow there is none
             next_step = select_positive(good, v("step"), number(0.0))
+        good, next_step, resumed = self._at_knots(good, next_step)
         due = select_positive(v("next_due") - v("arrival"), number(0.0), number(DUE))
         pace = select_positive(v("steps") + 1.5 - v("pace_at"), number(PACE), number(0.0))
         flag = REJECTED * (1.0 - good) + due + pace + self._swinging()
@@ -90,6 +94,7 @@ class JudgedStep:
             ("accept", good * v("active")),
             ("flag", flag),
             ("next_step", next_step),
+            *resumed,
             ("new_memory", magnitude),
             *scanning.reach(v("tried"), v(before("tried"))),
         ]
@@ -97,6 +102,32 @@ class JudgedStep:
         tape.store(outputs)
         tape.give(flag)
         return tape.function("judge")
+
+    def _at_knots(
+        self, good: Expression, next_step: Expression
+    ) -> tuple[Expression, Expression, Outputs]:
+        """Return what knots make of whether a step is good and of the next one, and what to keep.
+
+        Steps go on as long as they were before a knot. One that would leave a sliver before the
+        next knot of a clock goes half the way.
+        """
+        v, resumed = self.variable, list[tuple[str, Expression]]()
+        onwards = next_step
+        if self.knots.clocked:
+            rest = v("to_knot") - v("tried")
+            reached = minimum(next_step, v("largest_step"))
+            sliver = minimum(rest - reached, 2.0 * reached - rest)
+            onwards = select_positive(sliver, 0.5 * rest, onwards)
+            shortened = v("unhindered") - v("tried")
+            onwards = select_positive(shortened, maximum(next_step, v("unhindered")), onwards)
+        if self.knots.met:
+            passed = 1.0 - v("knot_share")
+            onwards = maximum(onwards, v("resumed0"))
+            kept = maximum(minimum(v("tried"), next_step), v("resumed0"))
+            resumed = [("resumed0", select_positive(passed, kept, 0.0))]
+            next_step = select_positive(passed, v("knot_share") * v("tried"), next_step)
+            good = select_positive(passed, 0.0, good)
+        return good, select_positive(good, onwards, next_step), resumed
 
     def _swinging(self) -> Expression:
         """Return SWINGING where an acceleration swings inside a step that is to be looked at.

@@ -117,6 +117,7 @@ def compile_kernel(scene: Scene, tree: Tree, formulation: str, tableau: Method) 
         ("stored", equations.channels["stored"]),
     ]
     evaluated = right_hand_side(equations) + [(known[node], node) for node in again]
+    evaluated += steps.knots.at_end()
     scanned, rest = observed[: rows.scanned], observed[rows.scanned :]
     source = "\n\n".join(
         [

@@ -62,7 +62,8 @@ class StepRecorder(JudgedStep):
 
         `energies` : what gravity and contacts store, at the stage.
         """
-        parts = [*self._steps(), self._judge(), self._attempt(), self._remember()]
+        parts = [*self._steps(), *self.knots.source(fixed)]
+        parts += [self._judge(), self._attempt(), self._remember()]
         if self.equations.corrections:
             parts.insert(0, closing.source(self.equations, self.layout, fixed))
         return "\n\n".join([*parts, self._take(energies, fixed)])
@@ -83,22 +84,32 @@ class StepRecorder(JudgedStep):
     def _ledger_weights(self) -> tuple[float, ...]:
         return self.tableau.matrix[-1]
 
-    def _tried(self) -> Expression:
+    def _tried(self) -> list[tuple[str, Expression]]:
+        """Return the length of the step, and what it would be if there were no knots ahead."""
+        v, none = self.variable, self.recorder.constant(0.0)
+        longest = self._longest()
+        if not self.knots.clocked:
+            return [("tried", select_positive(v("active"), longest, none))]
+        limited = minimum(longest, v("to_knot"))
+        tried = select_positive(v("active"), limited, none)
+        return [("tried", tried), ("unhindered", longest)]
+
+    def _longest(self) -> Expression:
+        """Return the length of the step but for knots: as the last one says, within all bounds."""
         v = self.variable
         remaining = v("end") - v("time")
-        limited = minimum(minimum(v("step"), v("largest_step")), remaining)
+        limited: Expression = minimum(minimum(v("step"), v("largest_step")), remaining)
         if self.tableau.error:
             speeds = [f"y{self.coordinates + i}" for i in self.angles]
             limited = minimum(limited, enclosure.longest(v, speeds))
-        tried: Expression = select_positive(v("active"), limited, self.recorder.constant(0.0))
-        return tried
+        return limited
 
     def _stage(self, s: int) -> str:
         """Stage s of the step: y + h Σ a k. The slopes of its coordinates are its speeds."""
         v = self.variable
         weights = self.tableau.matrix[s - 1]
-        step = self._tried() if s == 2 else v("tried")
-        outputs = [("tried", step), *self._held()] if s == 2 else []
+        outputs = [*self._tried(), *self._held()] if s == 2 else []
+        step = outputs[0][1] if s == 2 else v("tried")
         for i in range(self.states):
             moved = v(f"y{i}") + step * self._sum(weights, (f"k{s}_{i}" for s in count(1)))
             outputs.append((f"stage{i}", moved))
@@ -122,9 +133,11 @@ class StepRecorder(JudgedStep):
 
     def _attempt(self) -> str:
         """Attempt a step; the largest flag of a lane."""
-        calls = [f"    {call}" for call in self._calls()]
+        calls = self._calls()
         if self.equations.corrections:  # where the step ends, before its slopes are evaluated
-            calls.insert(-1, "    project(W)")
+            calls.insert(-1, "project(W)")
+        calls = [*self.knots.calls_before, *calls, *self.knots.calls_after]
+        calls = [f"    {call}" for call in calls]
         return "\n".join([RETURNING, "def attempt(W):", *calls, "    return judge(W)", ""])
 
     def _take(self, energies: Outputs, fixed: FixedNodes) -> str:
@@ -162,6 +175,7 @@ class StepRecorder(JudgedStep):
         for j in range(self.pairs):
             outputs.append((f"gap_start{j}", v(f"gap{j}")))
             outputs.append((f"gap_rate_start{j}", v(f"gap_rate{j}")))
+        outputs += [(start, v(end)) for start, end in self.knots.ends()]
         paths = range(len(MOTION) * self.pairs)
         outputs += [(f"eccentricity_start{i}", v(f"eccentricity{i}")) for i in paths]
         for i in range(self.states):

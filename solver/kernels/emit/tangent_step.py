@@ -8,8 +8,8 @@ no tolerance: what dies in the motion must die in it, or its exponent is too lar
 two on the press at tolerance 1e-6). Two half steps of a method of order three make the same six
 evaluations and are stable and damped up to hω = 3.4, h/τ = 5.
 
-Source: Ralston 1962, Mathematics of Computation 16:431 (minimum error bound of order three; the
-coefficients satisfy the order conditions, the paper is not yet checked).
+Source: Ralston 1962, Mathematics of Computation 16:431 (minimum error bound of order three); the
+same nodes and weights as in Bogacki and Shampine 1989, Applied Mathematics Letters 2:321.
 """
 
 from collections.abc import Sequence

@@ -2,8 +2,8 @@
 
 The generated functions do what all lanes do alike; this loop looks after the lanes that need
 attention (`solver.kernels.loop.attention`). Rules that make a run's bits independent of everything
-around it: counters are per lane, and only onsets, openings and the end of the run ever shorten a
-step.
+around it: counters are per lane, and only onsets, openings, knots of functions and the end of the
+run ever shorten a step.
 """
 
 import numpy as np

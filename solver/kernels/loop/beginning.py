@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from jointplay.solver.kernels.emit.knots import AT_ENDS
 from jointplay.solver.kernels.loop.lane import Lane
 from jointplay.solver.kernels.loop.problem import LaneProblem
 from jointplay.solver.kernels.loop.tangent import start_tangent
@@ -37,9 +38,9 @@ def begin(lane: Lane, problem: LaneProblem) -> None:
     lane["k1_"], lane["kledger1_"] = lane["slope"], lane["ledger"]
     lane["total"] = 0.0
     module.weigh(lane.work)
-    for quantity in ("potential", "stored", "gap", "gap_rate", "eccentricity"):
+    for quantity in ("potential", "stored", "gap", "gap_rate", "eccentricity", *AT_ENDS):
         lane[f"{quantity}_start"] = lane[quantity]
-    lane["gross"] = 0.0
+    lane["resumed"] = lane["gross"] = 0.0
     module.observe(lane.work)
     rows = lane.kernel.rows.scanned
     for record in ("previous", "highest", "lowest"):

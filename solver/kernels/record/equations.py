@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from jointplay.solver.kernels.record.derivative import Derivative
+from jointplay.solver.kernels.record.knots import KnotsOnPath, knots_on_path
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
     Expression,
@@ -63,6 +64,8 @@ class Equations:
     """Lagrange multipliers of the rows of `loops`, N or N m."""
     corrections: tuple[Expression, ...]
     """Changes of coordinates and speeds that close the loops again; none in an open scene."""
+    knots: tuple[KnotsOnPath, ...]
+    """Knots of functions that slopes depend on."""
 
     @property
     def states(self) -> int:
@@ -138,6 +141,7 @@ def record(
         channels[f"{body}.theta"] = channels[f"{body}.theta"] + wound
     channels["stored"] = lift(stored_energy(observed))
     accelerations = tuple(lift(a) for a in motion.accelerations)
+    inner_rates = tuple(lift(r) for found in motion.contacts.values() for r in found.inner_rates)
     along = {f"stage{i}": stage[count + i] for i in range(count)}
     along |= {f"stage{count + i}": a for i, a in enumerate(accelerations)}
     derivative = Derivative(along | {"stage_time": recorder.constant(1.0)})
@@ -148,7 +152,7 @@ def record(
         tuple(clocks(scene)),
         tree.pairs,
         accelerations,
-        tuple(lift(rate) for found in motion.contacts.values() for rate in found.inner_rates),
+        inner_rates,
         tuple(lift(rate) for rate in ledger_rates(numbers, motion).values()),
         tuple(
             (lift(found.penetration), lift(found.penetration_rate))
@@ -163,6 +167,7 @@ def record(
         loops,
         tuple(lift(multiplier) for multiplier in motion.multipliers),
         tuple(lift(correction) for correction in corrections),
+        knots_on_path([*accelerations, *inner_rates], derivative),
     )
 
 

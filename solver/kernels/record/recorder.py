@@ -12,7 +12,7 @@ evaluated once a run, outside the kernel.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Callable, Container, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from jointplay.records.failure import LimitExceeded
@@ -42,6 +42,8 @@ class Recorder:
         """Inverses of variables that do not change within a step, by variable; see `hold`."""
         self.kinks: dict[Expression, Expression] = {}
         """Piecewise linear functions and their arguments, in the order of recording."""
+        self.knots: dict[Expression, Knots] = {}
+        """Functions that are smooth between knots, in the order of recording."""
 
     def constant(self, value: float) -> Expression:
         """Return the node of a literal number; minus zero is zero."""
@@ -224,6 +226,17 @@ class Expression:
             self.recorder.kinks[self] = argument
         return self
 
+    def knotted(
+        self, argument: object, knots: Sequence[object], span: object | None, *, jumps: bool
+    ) -> Expression:
+        """Note that this is a function of one expression, smooth between knots."""
+        lift = self.recorder.lift
+        if not self.fixed:
+            places = tuple(lift(knot) for knot in knots)
+            period = None if span is None else lift(span)
+            self.recorder.knots[self] = Knots(lift(argument), places, period, jumps)
+        return self
+
     def power(self, exponent: object) -> Expression:
         """X ** exponent for x >= 0 by our own lane functions."""
         lifted = self.recorder.lift(exponent)
@@ -261,6 +274,19 @@ class Function:
     name: str
     argument: Expression
     partner: Expression
+
+
+@dataclass(frozen=True)
+class Knots:
+    """Knots of a function of one expression: where a derivative jumps."""
+
+    argument: Expression
+    places: tuple[Expression, ...]
+    """In ascending order."""
+    span: Expression | None
+    """Length of the argument after which they repeat: from the first to the last; None: never."""
+    jumps: bool
+    """Whether the function's value may jump there."""
 
 
 def reachable(outputs: Iterable[Expression], known: Container[Expression] = ()) -> list[Expression]:

@@ -48,7 +48,7 @@ class ShortBearingFilm(StiffnessAndDissipation):
 
     Source: Ocvirk 1952, NACA TN 2808 (the short bearing; half film after Gümbel), and Flores,
     Ambrósio, Claro, Lankarani and Koshy 2006, Mech. Mach. Theory 41:247 (the transition, there a
-    straight line; equations' numbers not yet checked).
+    straight line).
     """
 
     law: Literal["short-bearing-film"] = "short-bearing-film"  # type: ignore[assignment]

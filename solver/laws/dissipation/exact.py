@@ -36,7 +36,7 @@ class Exact(Latched):
     lasting contact, where the rate latched at the last onset scales the damping.
 
     Source: the integral of energy above; Zhang and Sharf 2009, J. Appl. Mech. 76, solve the same
-    equation (equation's number not yet checked).
+    equation.
     """
 
     law: Literal["exact"] = "exact"

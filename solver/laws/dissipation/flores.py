@@ -14,8 +14,7 @@ class Flores(Latched):
     like that of an elastic impact. Fails by up to 0.045: it delivers 0.470 for 0.5, 0.894 for 0.9;
     and in lasting contact, where the rate latched at the last onset scales the damping.
 
-    Source: Flores, Machado, Silva and Martins 2011, Multibody Syst. Dyn. 25:357 (equation's number
-    not yet checked).
+    Source: Flores, Machado, Silva and Martins 2011, Multibody Syst. Dyn. 25:357.
     """
 
     law: Literal["flores"] = "flores"

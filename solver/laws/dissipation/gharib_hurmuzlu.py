@@ -14,7 +14,7 @@ class GharibHurmuzlu(Latched):
     nearly all. Fails for e above 0.3: it delivers 0.411 for 0.5, 0.567 for 0.9; and in lasting
     contact, where the rate latched at the last onset scales the damping.
 
-    Source: Gharib and Hurmuzlu 2012, J. Appl. Mech. 79:064506 (equation's number not yet checked).
+    Source: Gharib and Hurmuzlu 2012, J. Appl. Mech. 79:064506.
     """
 
     law: Literal["gharib-hurmuzlu"] = "gharib-hurmuzlu"

@@ -15,8 +15,7 @@ class Gonthier(Latched):
     `exact`. Fails by up to 0.03: it delivers 0.488 for 0.5, 0.876 for 0.9; and in lasting contact,
     where the rate latched at the last onset scales the damping.
 
-    Source: Gonthier, McPhee, Lange and Piedboeuf 2004, Multibody Syst. Dyn. 11:209 (equation's
-    number not yet checked).
+    Source: Gonthier, McPhee, Lange and Piedboeuf 2004, Multibody Syst. Dyn. 11:209.
     """
 
     law: Literal["gonthier"] = "gonthier"

@@ -14,7 +14,7 @@ class HerbertMcWhannell(Latched):
     impacts. Fails for small e: it delivers 0.594 for 0.5, 0.491 for 0.1; and in lasting contact,
     where the rate latched at the last onset scales the damping.
 
-    Source: Herbert and McWhannell 1977, J. Eng. Ind. 99:795 (equation's number not yet checked).
+    Source: Herbert and McWhannell 1977, J. Eng. Ind. 99:795.
     """
 
     law: Literal["herbert-mcwhannell"] = "herbert-mcwhannell"

@@ -15,7 +15,7 @@ class HuGuo(Latched):
     for 0.5, 0.9000 for 0.9; and in lasting contact, where the rate latched at the last onset scales
     the damping.
 
-    Source: Hu and Guo 2015, Multibody Syst. Dyn. (equation's number not yet checked).
+    Source: Hu and Guo 2015, Multibody Syst. Dyn.
     """
 
     law: Literal["hu-guo"] = "hu-guo"

@@ -14,7 +14,7 @@ class HuntCrossley(Latched):
     impacts. Fails for small e: it delivers 0.663 for 0.5, 0.516 for 0.1; and in lasting contact,
     where the rate latched at the last onset scales the damping.
 
-    Source: Hunt and Crossley 1975, J. Appl. Mech. 42:440 (equation's number not yet checked).
+    Source: Hunt and Crossley 1975, J. Appl. Mech. 42:440.
     """
 
     law: Literal["hunt-crossley"] = "hunt-crossley"

@@ -17,7 +17,7 @@ class HuntCrossleyUnlatched(Dissipation):
     Assumes that restitution falls with speed, as that of metals does. Fails for α δ̇⁻ beyond 0.3,
     where less is lost than that. Good in lasting contact: there is no latched rate.
 
-    Source: Hunt and Crossley 1975, J. Appl. Mech. 42:440 (equation's number not yet checked); as
+    Source: Hunt and Crossley 1975, J. Appl. Mech. 42:440; as
     the point contact of Drake.
     """
 

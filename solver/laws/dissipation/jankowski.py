@@ -24,8 +24,7 @@ class Jankowski(Dissipation):
     0.495 for 0.5, 0.900 for 0.9; the damping has a kink where the rate turns. Good in lasting
     contact: there is no latched rate.
 
-    Source: Jankowski 2005, Earthq. Eng. Struct. Dyn. 34:595 (the force), and 2006, 35:517 (ξ);
-    equations' numbers not yet checked.
+    Source: Jankowski 2005, Earthq. Eng. Struct. Dyn. 34:595 (the force), and 2006, 35:517 (ξ).
     """
 
     law: Literal["jankowski"] = "jankowski"

@@ -17,7 +17,7 @@ class KelvinVoigt(Dissipation):
     Assumes a damper that is there at any depth. Fails at onsets, where the force jumps by D δ̇, and
     no exponent is known for that; contact is let go before the depth is zero, for it never pulls.
 
-    Source: Goldsmith 1960, Impact (equation's number not yet checked).
+    Source: Goldsmith 1960, Impact.
     """
 
     law: Literal["kelvin-voigt"] = "kelvin-voigt"

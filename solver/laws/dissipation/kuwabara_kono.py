@@ -19,7 +19,7 @@ class KuwabaraKono(Dissipation):
     A is no longer short. Good in lasting contact: there is no latched rate.
 
     Source: Kuwabara and Kono 1987, Jpn. J. Appl. Phys. 26:1230; Brilliantov, Spahn, Hertzsch and
-    Poeschel 1996, Phys. Rev. E 53:5382 (equations' numbers not yet checked).
+    Poeschel 1996, Phys. Rev. E 53:5382.
     """
 
     law: Literal["kuwabara-kono"] = "kuwabara-kono"

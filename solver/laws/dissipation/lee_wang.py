@@ -15,7 +15,7 @@ class LeeWang(Latched):
     0.799 for 0.5; and in lasting contact, where the rate latched at the last onset scales the
     damping.
 
-    Source: Lee and Wang 1983, J. Mech. Des. 105:209 (equation's number not yet checked).
+    Source: Lee and Wang 1983, J. Mech. Des. 105:209.
     """
 
     law: Literal["lee-wang"] = "lee-wang"

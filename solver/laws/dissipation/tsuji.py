@@ -24,7 +24,7 @@ class Tsuji(Dissipation):
     delivers 0.550 for 0.5, 0.902 for 0.9. Good in lasting contact: there is no latched rate.
 
     Source: Tsuji, Tanaka and Ishida 1992, Powder Technol. 71:239; α of Antypov and Elliott 2011,
-    EPL 94:50004 (equations' numbers not yet checked).
+    EPL 94:50004.
     """
 
     law: Literal["tsuji"] = "tsuji"

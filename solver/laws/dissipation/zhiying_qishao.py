@@ -14,7 +14,7 @@ class ZhiyingQishao(Latched):
     exponential. Fails for small e: it delivers 0.483 for 0.5, but 0.218 for 0.1; and in lasting
     contact, where the rate latched at the last onset scales the damping.
 
-    Source: Zhiying and Qishao 2006 (equation's number not yet checked).
+    Source: Zhiying and Qishao 2006.
     """
 
     law: Literal["zhiying-qishao"] = "zhiying-qishao"

@@ -18,8 +18,8 @@ class Motor(ForceElement):
     constant field at constant voltage. Fails in times as short as those of its windings, and for
     asynchronous motors beyond their steep branch.
 
-    Source: Fitzgerald, Kingsley and Umans 2003, Electric Machinery, 6th ed., section 7.3 (speed
-    and torque of motors with constant field; not yet checked).
+    Source: Fitzgerald, Kingsley and Umans 2003, Electric Machinery (speed and torque of
+    motors with constant field).
     """
 
     type: Literal["motor"]

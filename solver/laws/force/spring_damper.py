@@ -18,8 +18,7 @@ class SpringDamper(ForceElement):
     Assumes a massless element, whose force depends on its own length alone. Fails where the points
     meet: a free length above zero has no direction there, and the force turns over at once.
 
-    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4 (the coefficients are
-    those of any textbook; the equation's number is not yet checked).
+    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4.
     """
 
     type: Literal["spring-damper"]

@@ -17,8 +17,7 @@ class TorsionSpring(ForceElement):
     Assumes a massless element whose moment depends on its own angle alone; where the points are
     does not matter. Fails for springs wound so far that their coils touch.
 
-    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4 (the coefficients are
-    those of any textbook; the equation's number is not yet checked).
+    Source: Shabana 2020, Dynamics of Multibody Systems, 5th ed., section 3.4.
     """
 
     type: Literal["torsion-spring"]

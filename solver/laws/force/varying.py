@@ -7,7 +7,7 @@ from pydantic import Field
 from jointplay.solver.laws.force.law import Ends, ForceElement, Over
 from jointplay.solver.laws.function import FUNCTIONS, Function
 from jointplay.solver.quantities.roster import MemberOf
-from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit
+from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
 
 TIME = Over()
 """Argument where nothing else is said."""
@@ -39,5 +39,6 @@ class Varying(ForceElement):
         if self.only is not None:
             rate = ends.argument_rate if self.only == "rising" else -ends.argument_rate
             u = clamp_to_unit(rate / self.full_rate)
-            strength = strength * (u * u * (3.0 - 2.0 * u))
+            share = knotted(u * u * (3.0 - 2.0 * u), rate, (0.0, self.full_rate))
+            strength = strength * share
         return strength

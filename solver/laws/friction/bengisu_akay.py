@@ -26,7 +26,7 @@ class BengisuAkay(Breakaway):
     Assumes sliding contact, with a force that falls with speed: it may excite stick-slip. Fails to
     hold a static load: a loaded joint at rest creeps; the slope of the force jumps at v_0.
 
-    Source: Bengisu and Akay 1994, J. Sound Vib. 171:557 (equation's number not yet checked).
+    Source: Bengisu and Akay 1994, J. Sound Vib. 171:557.
     """
 
     law: Literal["bengisu-akay"] = "bengisu-akay"

@@ -16,8 +16,7 @@ class BrownMcPhee(Breakaway):
     Assumes sliding contact; every derivative of the force is continuous. Fails to hold a static
     load: a loaded joint at rest creeps. Viscous friction is left out.
 
-    Source: Brown and McPhee 2016, J. Comput. Nonlinear Dyn. 11:054502 (equation's number not yet
-    checked).
+    Source: Brown and McPhee 2016, J. Comput. Nonlinear Dyn. 11:054502.
     """
 
     law: Literal["brown-mcphee"] = "brown-mcphee"

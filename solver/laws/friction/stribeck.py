@@ -17,8 +17,7 @@ class Stribeck(Breakaway):
     hold a static load: a loaded joint at rest creeps. Viscous friction, which does not end with the
     normal force, is left out.
 
-    Source: Andersson, Soederberg and Bjoerklund 2007, Tribol. Int. 40:580, with the exponent 2
-    (equation's number not yet checked).
+    Source: Andersson, Soederberg and Bjoerklund 2007, Tribol. Int. 40:580, with the exponent 2.
     """
 
     law: Literal["stribeck"] = "stribeck"

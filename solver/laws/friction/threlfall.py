@@ -17,7 +17,7 @@ class Threlfall(FrictionLaw):
     Assumes sliding contact. Fails to hold a static load: a loaded joint at rest creeps; the slope
     of the force jumps at v_r, by a twentieth of that at rest.
 
-    Source: Threlfall 1978, Mech. Mach. Theory 13:475 (equation's number not yet checked).
+    Source: Threlfall 1978, Mech. Mach. Theory 13:475.
     """
 
     law: Literal["threlfall"] = "threlfall"

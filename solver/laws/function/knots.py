@@ -7,7 +7,15 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from jointplay.solver.quantities.scalars import Scalar, floor, maximum, minimum, select_positive
+from jointplay.solver.laws.function.law import Derivatives
+from jointplay.solver.quantities.scalars import (
+    Scalar,
+    floor,
+    knotted,
+    maximum,
+    minimum,
+    select_positive,
+)
 from jointplay.solver.quantities.units import Rule
 
 MOST_KNOTS = 64
@@ -60,6 +68,19 @@ GROWING = (
         ),
     ),
 )
+
+
+def noted(found: Derivatives, x: Scalar, function: Any, *, bent: bool) -> Derivatives:
+    """Return a function's value and derivatives at x, with its knots noted for the steps.
+
+    `bent` : the second derivative may jump at knots.
+    """
+    knots = function.knots
+    span = knots[-1] - knots[0] if function.outside == "periodic" else None
+    value, slope, curvature = (knotted(part, x, knots, span) for part in found)
+    if bent:
+        curvature = knotted(curvature, x, knots, span, jumps=True)
+    return Derivatives(value, slope, curvature)
 
 
 def brought_inside(x: Scalar, first: Scalar, last: Scalar, outside: Outside) -> Scalar:

@@ -14,6 +14,7 @@ from jointplay.solver.laws.function.knots import (
     Outside,
     brought_inside,
     least_gap,
+    noted,
 )
 from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
 from jointplay.solver.laws.function.polynomial import Coefficient, derivatives, largest_magnitudes
@@ -102,10 +103,10 @@ class PiecewisePolynomial(Function):
             chosen = [select_positive(behind, new, old) for new, old in pairs]
         found = derivatives(chosen[1:], inside - chosen[0])
         if self.outside != "held":
-            return found
+            return noted(found, x, self, bent=True)
         beyond = maximum(first - x, x - last)
         still = [select_positive(beyond, 0.0, part) for part in found[1:]]
-        return Derivatives(found.value, *still)
+        return noted(Derivatives(found.value, *still), x, self, bent=True)
 
     @property
     def period(self) -> float:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from jointplay.solver.laws.function.law import Derivatives, Function
-from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit
+from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
 
 Value = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
 Length = Annotated[float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "unit of x"})]
@@ -29,11 +29,12 @@ class Ramp(Function):
         """Return value and derivatives."""
         u = clamp_to_unit(x / self.length)
         rise, left = self.end - self.start, 1.0 - u
-        return Derivatives(
+        parts = (
             self.start + rise * step(u),
             (30.0 * rise / self.length) * (u * u * left * left),
             (60.0 * rise / (self.length * self.length)) * (u * left * (left - u)),
         )
+        return Derivatives(*(knotted(part, x, (0.0, self.length)) for part in parts))
 
     @property
     def period(self) -> float:

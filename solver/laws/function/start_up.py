@@ -7,7 +7,7 @@ from pydantic import Field
 
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.laws.function.ramp import STEEPEST, Length, step
-from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, positive_part
+from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted, positive_part
 
 Rate = Annotated[
     float, Field(ge=-1e9, le=1e9, json_schema_extra={"unit": "unit of the value per unit of x"})
@@ -32,11 +32,12 @@ class StartUp(Function):
         u = clamp_to_unit(share)
         rise, left = self.speed - self.start_speed, 1.0 - u
         area = (u * u) * (u * u) * (2.5 - u * (3.0 - u)) + positive_part(share - 1.0)
-        return Derivatives(
+        parts = (
             self.start_speed * x + rise * self.length * area,
             self.start_speed + rise * step(u),
             (30.0 * rise / self.length) * (u * u * left * left),
         )
+        return Derivatives(*(knotted(part, x, (0.0, self.length)) for part in parts))
 
     @property
     def period(self) -> float:

@@ -14,6 +14,7 @@ from jointplay.solver.laws.function.knots import (
     Outside,
     brought_inside,
     least_gap,
+    noted,
 )
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar, maximum, select_positive
@@ -74,11 +75,13 @@ class Table(Function):
         """Return value and derivatives; which cubic is in force is chosen by comparison."""
         first, last = self.knots[0], self.knots[-1]
         found = self._cubics.at(brought_inside(x, first, last, self.outside))
+        bent = self.between == "monotone" or self.outside == "held"
         if self.outside != "held":
-            return found
+            return noted(found, x, self, bent=bent)
         # the slope is zero at the ends, the curvature of a cubic need not be
         beyond = maximum(first - x, x - last)
-        return found._replace(curvature=select_positive(beyond, 0.0, found.curvature))
+        still = select_positive(beyond, 0.0, found.curvature)
+        return noted(found._replace(curvature=still), x, self, bent=bent)
 
     @property
     def _cubics(self) -> Cubics:

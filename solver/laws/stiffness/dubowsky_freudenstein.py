@@ -18,7 +18,7 @@ class DubowskyFreudenstein(Logarithmic):
     along its tangent.
 
     Source: Dubowsky and Freudenstein 1971, J. Eng. Ind. 93:305, as in Pereira, Ramalho and Ambrosio
-    2011 (equation's number not yet checked).
+    2011.
     """
 
     law: Literal["dubowsky-freudenstein"] = "dubowsky-freudenstein"

@@ -17,8 +17,8 @@ class Esdu78035(Logarithmic):
     before a depth of 4 ΔR, which no line contact has. Papers print a π before F as well, which the
     definition of h holds already: with it, forces are a quarter of those of other laws.
 
-    Source: ESDU 78035, 1978, as in Pereira, Ramalho and Ambrosio 2011, without that π (the item
-    itself is not yet checked).
+    Source: ESDU 78035, 1978, as in Pereira, Ramalho and Ambrosio 2011, without that π; the
+    item itself was not at hand.
     """
 
     law: Literal["esdu-78035"] = "esdu-78035"

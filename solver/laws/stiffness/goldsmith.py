@@ -16,8 +16,7 @@ class Goldsmith(Logarithmic):
     Assumes SI units: the argument of the logarithm has the dimension 1/m as it is published, so the
     numbers hold in metres only. Fails for a law of physics by that, and for conformal contact.
 
-    Source: Goldsmith 1960, Impact, with exponent m = 1, as in Pereira, Ramalho and Ambrosio 2011
-    (equation's number not yet checked).
+    Source: Goldsmith 1960, Impact, with exponent m = 1, as in Pereira, Ramalho and Ambrosio 2011.
     """
 
     law: Literal["goldsmith"] = "goldsmith"

@@ -16,8 +16,7 @@ class Johnson(Logarithmic):
     Assumes a contact that is narrow beside the radii. Fails for conformal contact: beyond a depth
     of 0.40 ΔR the force goes on along its tangent (at 0.54 ΔR the formula would end).
 
-    Source: Johnson 1985, Contact Mechanics; as in Pereira, Ramalho and Ambrosio 2011 (equation's
-    number not yet checked).
+    Source: Johnson 1985, Contact Mechanics; as in Pereira, Ramalho and Ambrosio 2011.
     """
 
     law: Literal["johnson"] = "johnson"

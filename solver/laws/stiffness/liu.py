@@ -26,7 +26,7 @@ class Liu(OfWidth):
     Fails at small depths, where it is far softer than line contact: 56 N for 407 N of Johnson at
     1 µm, clearance 0.5 mm.
 
-    Source: Liu, Zhang and Xu 2007, Int. J. Mech. Sci. 49 (equation's number not yet checked).
+    Source: Liu, Zhang and Xu 2007, Int. J. Mech. Sci. 49.
     """
 
     law: Literal["liu"] = "liu"

@@ -32,8 +32,7 @@ class Pereira(OfWidth):
     Assumes steel on steel, to which it was fitted (against Johnson's law). Fails outside of the
     range of clearances, and for a law of physics: its dimensions depend on the clearance.
 
-    Source: Pereira, Ramalho and Ambrosio 2014, Nonlinear Dyn. 78 (equation's number not yet
-    checked).
+    Source: Pereira, Ramalho and Ambrosio 2014, Nonlinear Dyn. 78.
     """
 
     law: Literal["pereira"] = "pereira"

@@ -21,7 +21,7 @@ class Radzimovsky(Logarithmic):
     of 0.52 ΔR the force goes on along its tangent.
 
     Source: Radzimovsky 1953, University of Illinois Bulletin 408; b as in Roark, Formulas for
-    Stress and Strain, table 33-2a (equation's number not yet checked).
+    Stress and Strain, table 33-2a.
     """
 
     law: Literal["radzimovsky"] = "radzimovsky"

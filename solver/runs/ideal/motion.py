@@ -1,7 +1,7 @@
 """Motion of an ideal mechanism: kinematics and inverse dynamics at many instants at once.
 
 The same constraint rows as everywhere, on arrays of instants. Newton's iteration starts from a
-neighbouring instant; the mechanism repeats after a period.
+neighbouring instant; the mechanism repeats after a period, if it has one.
 """
 
 import math
@@ -30,14 +30,15 @@ dead point, or less: 1e-9."""
 
 
 class IdealMotion:
-    """A scene whose drivers leave no freedom, over `duration` s; `period` s, if there is one.
+    """A scene whose drivers leave no freedom, over `duration` s; `period` s, if they have one.
 
+    After it the mechanism repeats, unless gears turn bodies by other than whole turns.
     `lost` is how the motion ends early: at a dead point, or where the links do not reach.
     """
 
     def __init__(self, scene: Scene, period: float | None, duration: float) -> None:
         self.scene = scene
-        self.period = period
+        self.period = None if scene.gears else period
         self.numbers = view(scene)
         self.mechanism = AbsoluteMechanism(scene, self.numbers, close_play=True)
         self.length = shortest_link(scene)
@@ -45,7 +46,7 @@ class IdealMotion:
         self.lost: SimulationFailed | None = None
         self.start = assemble(scene).pose
         self.orientation = self._determinant(self.start[None, :])
-        self.table = self._follow(min(duration, self.unit) if period else duration)
+        self.table = self._follow(min(duration, self.unit) if self.period else duration)
 
     def at(self, times: Floats, local: Floats) -> Motion:
         """Return the motion and all forces at times in s, `local` within the period.

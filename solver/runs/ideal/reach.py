@@ -64,10 +64,10 @@ class MotionReach:
 def motion_reach(scene: Scene) -> MotionReach | None:
     """Return the reach of a scene's bodies; None where the ideal mechanism cannot be followed.
 
-    So it is with a mechanism that moves freely, has no period, or comes to a dead point.
+    So it is with a mechanism that moves freely, has no period or gears, or comes to a dead point.
     """
     period = drivers_period(scene).seconds
-    if period is None:
+    if period is None or scene.gears:
         return None
     try:
         found = MotionReach(scene, period)

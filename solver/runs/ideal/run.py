@@ -18,6 +18,7 @@ from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.certificate.certificate import Certificate
 from jointplay.solver.runs.ideal.motion import IdealMotion
 from jointplay.solver.runs.results import Slice, Summary
+from jointplay.solver.scene.periods import drivers_period
 from jointplay.solver.version import SOLVER_VERSION
 
 _KIND = "ideal run"
@@ -34,7 +35,9 @@ class IdealRun:
     def __init__(self, admission: Admission) -> None:
         self.admission = admission
         self.duration = float(admission.job["duration"])
-        self.motion = IdealMotion(admission.scene, admission.period, self.duration)
+        # not the admission's: the scene may give sections a period though nothing repeats
+        period = drivers_period(admission.scene).seconds
+        self.motion = IdealMotion(admission.scene, period, self.duration)
         self.names = [channel.name for channel in admission.channels]
         self.samples_done = 0
         self.sections_done = 0
@@ -61,7 +64,8 @@ class IdealRun:
             last = min(self.sections_done + ROWS_A_SLICE, self.admission.sections)
             index = np.arange(self.sections_done, last, dtype=np.float64)
             times = self.offset + index * (self.admission.period or 0.0)
-            sections = self.channels(times, np.full(len(times), self.offset))
+            local = times if self.motion.period is None else np.full(len(times), self.offset)
+            sections = self.channels(times, local)
             found = self._slice(np.empty(0), self.channels(np.empty(0)), times, sections)
             self.sections_done = last
             self.seconds += time.perf_counter() - begun
@@ -161,7 +165,7 @@ class IdealRun:
 
     def _extremes(self) -> dict[str, Peak]:
         """Seek the extremes of every channel on the exact motion."""
-        period, settle = self.admission.period, self.admission.settle
+        period, settle = self.motion.period, self.admission.settle
         length = self.duration - settle
         span = min(length, period) if period else length
         count = max(math.ceil(SCAN_A_PERIOD * span / self.motion.unit), 16)

@@ -71,6 +71,15 @@ def test_an_ideal_crank_follows_a_table_and_needs_the_torque_that_accelerates_it
     np.testing.assert_allclose(found["motor.power"], expected * motion.slope, rtol=0, atol=1e-8)
 
 
+def test_an_ideal_crank_that_starts_up_has_sections_after_the_scenes_own_period() -> None:
+    scene = carried(START_UP) | {"period": 0.3}
+    scene["joints"]["P"] = {"type": "fixed", "base": "carrier.P", "part": "bob.P"}
+    found = run(scene, 2.0)
+    np.testing.assert_allclose(found.section_time, 0.3 * np.arange(7), rtol=1e-15)
+    expected = function(START_UP).at(found.section_time).value  # nothing repeats
+    np.testing.assert_allclose(found.sections["carrier.theta"], expected, rtol=0.0, atol=1e-12)
+
+
 def test_periods_and_scales_of_time_are_those_of_the_motion() -> None:
     sine = scene_of(carried(SINE))
     assert common_period(sine).seconds == pytest.approx(2.0 * np.pi / 5.0, rel=1e-14)

@@ -13,6 +13,7 @@ from jointplay.solver.runs.dense_output.columns import METHOD, method_of, step_c
 from jointplay.solver.runs.dense_output.replay import Replay
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
+from tests.solver.knotted_scene import knotted_scene
 
 PRESS = {"preset": "seven-bar-press"}
 FINER = 37
@@ -53,6 +54,7 @@ CASES = [
     pytest.param(PRESS, 0.06, {}, id="press"),
     pytest.param(PRESS, 0.02, {"method": "rodas"}, id="press, implicit"),
     pytest.param({"preset": "bouncing-journal"}, 0.1, {}, id="journal"),
+    pytest.param(knotted_scene(), 0.6, {"method": "tsitouras"}, id="knots"),
     pytest.param(PRESS, 0.05, {"accuracy": "draft"}, id="press, draft", marks=LONG),
     pytest.param(PRESS, 0.05, {"tolerance": 1e-11}, id="press, fine", marks=LONG),
     pytest.param(PRESS, 0.02, {"formulation": "lagrange"}, id="press, lagrange", marks=LONG),
