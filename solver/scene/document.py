@@ -32,7 +32,7 @@ class Body(Strict):
 
     mass: Mass
     inertia: Inertia
-    points: Annotated[dict[Name, Point], Field(max_length=64)] = {}
+    points: Annotated[dict[Name, Point], Field(max_length=96)] = {}
 
 
 class Ground(Strict):
@@ -77,12 +77,12 @@ class Start(Strict):
     from a drawing: two points of a body give its angle, too.
     """
 
-    angles: Annotated[dict[Name, Angle], Field(max_length=64)] = {}
+    angles: Annotated[dict[Name, Angle], Field(max_length=96)] = {}
     points: Annotated[dict[PointReference, Point], Field(max_length=256)] = {}
-    angular_velocities: Annotated[dict[Name, AngularVelocity], Field(max_length=64)] = {}
+    angular_velocities: Annotated[dict[Name, AngularVelocity], Field(max_length=96)] = {}
     velocities: Annotated[
         dict[Name, Annotated[list[Velocity], Field(min_length=2, max_length=2)]],
-        Field(max_length=64),
+        Field(max_length=96),
     ] = {}
     joints: Annotated[dict[Name, JournalStart], Field(max_length=128)] = {}
     guides: Annotated[dict[Name, GuideStart], Field(max_length=128)] = {}
@@ -159,7 +159,7 @@ class Scene(Strict):
         ),
     ] = None
     ground: Ground = Ground()
-    bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=64)]
+    bodies: Annotated[dict[Name, Body], Field(min_length=1, max_length=96)]
     joints: Annotated[dict[Name, Joint], Field(min_length=1, max_length=128)]
     gears: Annotated[dict[Name, Gear], Field(max_length=64)] = {}
     drivers: Annotated[dict[Name, AnyDriver], Field(max_length=64)] = {}

@@ -4,8 +4,8 @@ Measurements say what makes them fast: no library call, no branch but selects, a
 with constant offsets. Names on a tape are the emitter's own; nothing of a scene's text enters it.
 """
 
+from collections import ChainMap
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from types import MappingProxyType
 
 from jointplay.solver.kernels.layout import Layout
@@ -147,8 +147,9 @@ class Tape:
         ]
         return "\n".join(lines) + "\n"
 
-    def _found(self) -> AbstractSet[Expression]:
-        return self.known.keys() | self.values.keys()
+    def _found(self) -> ChainMap[Expression, str]:
+        """Return what need not be evaluated: no copy, for there are many outputs."""
+        return ChainMap(self.values, self.known)  # type: ignore[arg-type]
 
     def _evaluate(self, expression: Expression) -> str:
         for node in reachable([expression], self._found()):

@@ -20,7 +20,7 @@ from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.operations import OPERATIONS
 from jointplay.solver.kernels.watched import require_wanted
 
-MOST_STATEMENTS = 10_000
+MOST_STATEMENTS = 12_000
 """Beyond it compilation takes minutes (12 bodies with 4 loops need about 7000); see
 `solver.kinds.compilation`."""
 

@@ -62,8 +62,8 @@ def test_equations_too_long_to_compile_are_refused_before_anything_is_assembled(
 
 
 def test_the_largest_scene_that_is_admitted_is_parsed_again() -> None:
-    """What is accepted runs: all channels of 64 bodies are listed in the job that workers read."""
-    bodies = {f"b{i}": {"mass": 1.0, "inertia": 1.0, "points": {"a": [0, 0]}} for i in range(64)}
+    """What is accepted runs: all channels of 96 bodies are listed in the job that workers read."""
+    bodies = {f"b{i}": {"mass": 1.0, "inertia": 1.0, "points": {"a": [0, 0]}} for i in range(96)}
     clearance = {
         "radial_clearance": 1e-3,
         "bearing_radius": 1e-2,
