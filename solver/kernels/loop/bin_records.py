@@ -60,7 +60,9 @@ def widen(ranges: np.ndarray, record: np.ndarray) -> None:
 
 @inner_kernel()
 def hides_beside_end(values: np.ndarray, record: np.ndarray, sharp: float) -> bool:
-    """Whether an end that is an extreme may have a greater one beside it, by more than `sharp`.
+    """Whether an end within `sharp` of an extreme may have a greater one beside it, by more.
+
+    The end of the step before is the same instant, but may differ in the last bit.
 
     A corner shows in the seventh difference of eight values by no less than it goes beyond them;
     without one, a channel goes on from its end where it bends by less than it rises.
@@ -69,7 +71,7 @@ def hides_beside_end(values: np.ndarray, record: np.ndarray, sharp: float) -> bo
     seventh = values[7] - values[0] - 7.0 * (values[6] - values[1])
     seventh += 21.0 * (values[5] - values[2]) - 35.0 * (values[4] - values[3])
     for end, sense in ((0, 1), (INSTANTS - 1, -1)):
-        if values[end] == record[LOWEST] or values[end] == record[HIGHEST]:
+        if values[end] <= record[LOWEST] + sharp or values[end] >= record[HIGHEST] - sharp:
             rise = values[end + sense] - values[end]
             bend = values[end + 2 * sense] - values[end + sense] - rise
             found |= not (abs(seventh) <= sharp and abs(rise) > abs(bend))
