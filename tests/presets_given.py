@@ -21,6 +21,7 @@ COMPILED_AT_LENGTH = {
     "seven-bar-press-punching",  # as the press but for a force
     "seven-bar-test-bed",  # nearly as the press
     "four-bar",  # as the slider-crank
+    "quick-return",  # its guide that turns is tested with the mechanics of sliders
     "n-four-bar",  # as the double four-bar, but longer
     "double-pendulum",
     "driven-pendulum",

@@ -47,7 +47,7 @@ def until(
     condition: Callable[[], bool],
     *,
     progress: Callable[[], object] = processor_time,
-    act: Callable[[], object] = lambda: time.sleep(0.01),  # leaves the processor to the others
+    act: Callable[[], object] = lambda: time.sleep(0.05),  # leaves the processor to the others
 ) -> None:
     """Wait until a condition holds, and fail once nothing has moved for `PATIENCE` seconds.
 

@@ -7,12 +7,15 @@ by more than a derivative could say.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import Bounds, OptimizeResult, differential_evolution
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.calibration.document import Search
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 Cost = Callable[[Floats], Floats]
 """Takes coordinates (n, parameters) from 0 to 1, returns costs (n,)."""
@@ -61,6 +64,8 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
 
     `report` is called after every generation.
     """
+    from scipy.optimize import Bounds, differential_evolution  # a fifth of a worker's start
+
     tried: list[Floats] = []
     costs: list[Floats] = []
 
@@ -71,7 +76,7 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
         costs.append(found)
         return found
 
-    def note_generation(intermediate_result: OptimizeResult) -> None:
+    def note_generation(intermediate_result: "OptimizeResult") -> None:
         best = min(float(found.min()) for found in costs)
         done = (len(costs) - 1) / settings.generations
         report(min(done, 1.0), f"best cost {best:.4g}")

@@ -8,9 +8,9 @@ import pytest
 
 from jointplay.client import Client
 from jointplay.command_line.application import run
-from tests.storage.reconciliation.installation import Installed, installed
+from tests.storage.reconciliation.installation import Installed, installed, whole
 
-__all__ = ["installed"]
+__all__ = ["installed", "whole"]
 
 
 def flip(path: Path) -> None:

@@ -13,7 +13,7 @@ from jointplay.storage.catalogue.records import JobState
 from jointplay.storage.settings import Settings
 from tests.waiting import until
 
-LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 300.0}
+LONG = {"kind": "simulate", "scene": {"preset": "seven-bar-press"}, "duration": 150.0}
 SHORT = LONG | {"duration": 1.0}
 
 

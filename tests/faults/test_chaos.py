@@ -23,10 +23,10 @@ def campaign(folder: Path, *options: str) -> dict[str, Any]:
 
 
 def test_a_service_keeps_its_word_under_faults(tmp_path: Path) -> None:
-    report = campaign(tmp_path / "chaos", "--seed", "9", "--duration", "40")
-    assert len(report["struck"]) >= 2
+    report = campaign(tmp_path / "chaos", "--seed", "16", "--duration", "15", "--workers", "1")
+    assert len(report["struck"]) >= 1
     assert all(one["recovery"] is not None for one in report["struck"])
-    assert report["jobs"]["succeeded"] >= 5
+    assert report["jobs"]["succeeded"] >= 3
 
 
 @pytest.mark.long

@@ -18,12 +18,12 @@ from jointplay.worker.execute import execute
 from tests.stores import files_of, packed, sealed_run, target
 from tests.waiting import until
 
-# some 3 s of computing; more samples than one shard holds, contacts at both joints all along
+# some 2 s of computing; more samples than one shard holds, contacts at both joints all along
 JOB = {
     "kind": "simulate",
     "scene": {"preset": "seven-bar-press", "parameters": {"clearance": 5e-4, "friction": 0.1}},
-    "duration": 400.0,
-    "output_step": 4e-3,
+    "duration": 200.0,
+    "output_step": 2e-3,
     "channels": ["slider7.*", "A.*"],
     "section": {"crank_angle": 0.0},
 }
@@ -123,7 +123,7 @@ def test_a_cancelled_job_keeps_what_it_computed(service: Service, admission: Adm
     reached = catalogue.get(job).progress_fraction
     finished = ended(catalogue, job)
     assert finished.state is JobState.cancelled
-    # it goes on for a slice of a quarter second, of some three seconds in all
+    # it goes on for a slice of a quarter second, of some two seconds in all
     assert finished.progress_fraction < reached + 0.5
     reader = sealed_run(settings, finished)
     assert not reader.complete

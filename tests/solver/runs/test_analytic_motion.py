@@ -69,6 +69,7 @@ def test_the_ideal_slider_crank_moves_in_closed_form(speed: float) -> None:
         2.3 * period,
         parameters={"clearance": 0.0, "speed": speed},
         output_step=period / 97.0,
+        channels=["slider.x", "slider.vx", "slider.ax", "crank.theta"],
     )
     x, v, a = closed_form(found.time, speed)
     # rounding of the local time, 1e-16 of a period, and of positions of 0.2 m
@@ -84,7 +85,8 @@ def test_the_ideal_slider_crank_moves_in_closed_form(speed: float) -> None:
 
 
 def test_the_ideal_slider_crank_needs_the_force_that_accelerates_its_slider() -> None:
-    found = run("slider-crank", 0.01, parameters={"clearance": 0.0})
+    names = ["Q.force_x", "slider.ax", "energy.kinetic", "motor.power"]
+    found = run("slider-crank", 0.01, parameters={"clearance": 0.0}, channels=names)
     np.testing.assert_allclose(
         found["Q.force_x"], -0.14 * found["slider.ax"], rtol=0, atol=1e-9
     )  # the rod on the slider, as the slider feels it: Q's force acts on the rod

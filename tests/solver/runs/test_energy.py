@@ -16,8 +16,6 @@ CASES: dict[str, Case] = {
     "press": ("seven-bar-press", 0.5, CASE_3, "reduced"),
     "press with one loop closed": ("seven-bar-press", 0.5, {"clearance_B": 0.0}, "reduced"),
     "squeezer": ("andrews-squeezer", 0.05, {}, "reduced"),
-    "double four-bar": ("double-four-bar", 3.0, {}, "reduced"),
-    "quick return": ("quick-return", 0.3, {}, "reduced"),
     "oscillator": ("impact-oscillator", 2.0, {}, "reduced"),
     "press in absolute coordinates": ("seven-bar-press", 0.5, CASE_3, "lagrange"),
 }
@@ -30,6 +28,8 @@ AT_LENGTH: dict[str, Case] = {
         {**CASE_3, "static_velocity": 1e-3, "dynamic_velocity": 1e-3},
         "reduced",
     ),
+    "double four-bar": ("double-four-bar", 3.0, {}, "reduced"),
+    "quick return": ("quick-return", 0.3, {}, "reduced"),
     "double pendulum": ("double-pendulum", 3.0, {}, "reduced"),
     "driven pendulum": ("driven-pendulum", 5.0, {}, "reduced"),
     "four-bar": ("four-bar", 0.1, {}, "reduced"),

@@ -118,6 +118,7 @@ def test_a_first_contact_is_never_missed(seed: int, count: int, methods: int) ->
     assert touched > count / 2  # else there would be little to miss
 
 
+@pytest.mark.long  # a million steps before the implicit method is tried
 def test_drivers_whose_common_period_is_long_leave_a_run_its_pace() -> None:
     # the common period, 21 s, is a thousand of the fastest: measured by it, no run with friction
     # that chatters makes progress, before the implicit method can be tried

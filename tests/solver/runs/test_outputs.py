@@ -65,7 +65,11 @@ def test_samples_stand_on_the_grid_and_the_duration_is_last(
         found = run("bouncing-journal", duration, output_step=step, tolerance=1e-5)
     else:
         found = run(
-            "slider-crank", duration, output_step=step, parameters={"clearance": 0.0, "speed": 9.0}
+            "slider-crank",
+            duration,
+            output_step=step,
+            parameters={"clearance": 0.0, "speed": 9.0},
+            channels=["slider.x", "slider.ax", "Q.force_x"],
         )
     count = found.admission.samples
     assert len(found.time) == count == sample_count(duration, step)
@@ -238,7 +242,7 @@ def test_peaks_of_the_press_bound_all_samples(press: Run) -> None:
         ("pendulum", 5.0, 20_000, {"angle": 1.0}),
         ("bouncing-journal", 0.1, 20_000, {}),
         ("slider-crank", 0.03, 20_000, {}),
-        ("slider-crank", 0.03, 20_000, {"clearance": 0.0}),
+        ("slider-crank", 0.03, 5_000, {"clearance": 0.0}),
         pytest.param(  # 3000 a revolution, without contacts
             *("seven-bar-press", 2.7, 20_000, {"clearance": 0.0}), marks=pytest.mark.long
         ),
@@ -262,7 +266,7 @@ def test_peaks_of_driven_bodies_count_every_revolution(periods: float) -> None:
             "seven-bar-press",
             duration,
             parameters={**CASE_3, "speed": speed, "clearance": clearance},
-            channels=["crank1.*", "crank4.*"],
+            channels=["crank1.theta", "crank1.y"],
         )
         theta = found.peaks["crank1.theta"]
         assert (theta.minimum, theta.maximum) == pytest.approx((0.0, speed * duration), rel=1e-12)

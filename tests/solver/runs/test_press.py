@@ -26,7 +26,8 @@ def case_3(tolerance: float, formulation: str = "reduced") -> Run:
 
 
 def test_the_ideal_press_has_the_stroke_and_the_extremes_of_exact_kinematics() -> None:
-    ideal = run("seven-bar-press", 2.0, parameters={"clearance": 0.0})
+    names = ["displacement", "slider7.vx", "slider7.ax"]
+    ideal = run("seven-bar-press", 2.0, parameters={"clearance": 0.0}, channels=names)
     stroke = ideal.peaks["displacement"]
     # half a unit of the last digits that are stated
     assert stroke.maximum == pytest.approx(0.528141, abs=1e-6)
@@ -115,9 +116,13 @@ def test_no_short_opening_is_lost_between_step_ends(tolerance: float) -> None:
 
 
 def test_the_cranks_give_the_punch_its_power_on_the_way_down_alone() -> None:
+    powers = ["drive1.power", "drive4.power"]
     ideal, punching = (
-        run(name, 2.0, parameters={"clearance": 0.0}, output_step=2e-3)
-        for name in ("seven-bar-press", "seven-bar-press-punching")
+        run(name, 2.0, parameters={"clearance": 0.0}, output_step=2e-3, channels=channels)
+        for name, channels in (
+            ("seven-bar-press", powers),
+            ("seven-bar-press-punching", [*powers, "punch.force", "slider7.vx"]),
+        )
     )
     idle, loaded = (run["drive1.power"] + run["drive4.power"] for run in (ideal, punching))
     force, speed = punching["punch.force"], punching["slider7.vx"]

@@ -252,8 +252,11 @@ def tried(examples: int, made: Callable[[], str], drop: Callable[[str], None]) -
     run_state_machine_as_test(OfThisDatabase, settings=chosen)  # type: ignore[no-untyped-call]
 
 
-def test_the_catalogue_is_as_its_model_in_sqlite(new_file: Callable[[], str]) -> None:
-    tried(60, new_file, lambda url: Path(url.removeprefix("sqlite:///")).unlink())
+@pytest.mark.parametrize("examples", [20, pytest.param(200, marks=pytest.mark.long)])
+def test_the_catalogue_is_as_its_model_in_sqlite(
+    examples: int, new_file: Callable[[], str]
+) -> None:
+    tried(examples, new_file, lambda url: Path(url.removeprefix("sqlite:///")).unlink())
 
 
 @pytest.mark.parametrize("examples", [4, pytest.param(60, marks=pytest.mark.long)])

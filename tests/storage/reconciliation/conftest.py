@@ -1,1 +1,1 @@
-from tests.storage.reconciliation.installation import installed
+from tests.storage.reconciliation.installation import installed, whole

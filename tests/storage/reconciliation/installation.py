@@ -4,7 +4,7 @@ import shutil
 import sqlite3
 import time
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -121,26 +121,43 @@ class Installed:
         return found
 
 
+@pytest.fixture(scope="package")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+    """Make jobs that succeeded, failed, were cancelled, run and wait: their folder and names."""
+    folder = tmp_path_factory.mktemp("installation") / "data"
+    with opened(folder) as made:
+        made.catalogue.migrate()
+        made.clock.ahead = -2 * made.settings.lease
+        claim = made.simulate("succeeded")
+        made.catalogue.finish(claim.block.id, 1, BlockState.done)
+        made.remove_running(claim.job.id)
+        claim = made.simulate("cancelled", answer="cancel")
+        made.catalogue.request_cancel(claim.job.id)
+        made.catalogue.finish(claim.block.id, 1, BlockState.cancelled)
+        made.remove_running(claim.job.id)
+        made.sweep("swept", sealed=True)
+        made.catalogue.request_cancel(made.sweep("cut short", sealed=False))
+        made.clock.ahead = 0.0
+        made.simulate("running", answer="leave")
+        made.submit(RUN, "waiting")
+        return folder, made.jobs
+
+
 @pytest.fixture
-def installed(tmp_path: Path) -> Iterator[Installed]:
-    """Jobs that succeeded, failed, were cancelled, run and wait, long enough ago."""
+def installed(whole: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Installed]:
+    """Copy the jobs, which were made long enough ago."""
+    folder, jobs = whole
+    shutil.copytree(folder, tmp_path / "data")
+    with opened(tmp_path / "data") as copy:
+        copy.jobs |= jobs
+        copy.catalogue.heartbeat(f"{jobs['running']}-0", 1, copy.settings.lease)
+        yield copy
+
+
+@contextmanager
+def opened(data: Path) -> Iterator[Installed]:
+    settings = Settings(data=data, heartbeat=0.05, reserve=0)
     clock = Clock()
-    settings = Settings(data=tmp_path / "data", heartbeat=0.05, reserve=0)
     catalogue = Catalogue(settings.catalogue_url, clock=clock)
-    catalogue.migrate()
-    clock.ahead = -2 * settings.lease
-    made = Installed(settings, catalogue, clock)
-    claim = made.simulate("succeeded")
-    catalogue.finish(claim.block.id, 1, BlockState.done)
-    made.remove_running(claim.job.id)
-    claim = made.simulate("cancelled", answer="cancel")
-    catalogue.request_cancel(claim.job.id)
-    catalogue.finish(claim.block.id, 1, BlockState.cancelled)
-    made.remove_running(claim.job.id)
-    made.sweep("swept", sealed=True)
-    catalogue.request_cancel(made.sweep("cut short", sealed=False))
-    clock.ahead = 0.0
-    made.simulate("running", answer="leave")
-    made.submit(RUN, "waiting")
-    yield made
+    yield Installed(settings, catalogue, clock)
     catalogue.close()

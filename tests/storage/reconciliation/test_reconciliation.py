@@ -8,7 +8,7 @@ import pytest
 
 from jointplay.storage.catalogue.records import BlockState, JobState
 from jointplay.storage.reconciliation import findings, rows
-from tests.storage.reconciliation.installation import Installed
+from tests.storage.reconciliation.installation import RUN, Installed
 
 ELSEWHERE = "01ARZ3NDEKTSV4RRFFQ69G5FAV"
 Break = Callable[[Installed], None]
@@ -258,6 +258,7 @@ def test_a_job_that_nothing_will_end_is_left_to_the_user(installed: Installed) -
 
 
 def test_a_clock_that_was_set_back_is_said(installed: Installed) -> None:
+    installed.submit(RUN, "newest")
     installed.clock.ahead -= 3600.0
     (finding,) = [one for one in installed.look() if one.where == "clock"]
     assert finding.found.startswith("3600 s before the newest event")
