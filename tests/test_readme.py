@@ -1,4 +1,8 @@
-"""The commands, programs and notebooks that explain, run as they stand, against a real service."""
+"""The commands, programs and notebooks that explain, run against a real service.
+
+As they stand, but for numbers that say only how much is computed: those are small here, and as
+printed in the long tests.
+"""
 
 import json
 import os
@@ -8,6 +12,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -32,8 +37,22 @@ PAGES = [
     ),
 ]
 BLOCK = re.compile(r"^```(bash|python)\n(.*?)^```", re.DOTALL | re.MULTILINE)
-NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = [(path.stem, path.read_text()) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))]
 BLOCKS = [block for page in PAGES for block in BLOCK.findall(page)]
+SHORTER = {
+    "speed=3:9:48 --settle 40 --record 20": "speed=3:9:4 --settle 2 --record 4",
+    "section --start 47 --stop 48": "section --start 3 --stop 4",
+    "seven-bar-press --accuracy-study --duration 0.015": (
+        "bouncing-journal --accuracy-study --duration 0.003"  # its five kernels compile faster
+    ),
+    "np.linspace(1e-4, 5e-4, 24)": "np.linspace(1e-4, 5e-4, 4)",
+    "settle=20, record=20": "settle=2, record=10",
+    '"count": 16}, "settle": 10': '"count": 8}, "settle": 2',
+    "animation -o figures": "animation --frames-per-second 2 -o figures",
+    "--rate 0.001": "--rate 0.001 --frames-per-second 2",
+    '"generations": 20': '"generations": 3',
+}
+"""Pieces of the texts, and how they stand in the tests that are not long."""
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +61,31 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield url
 
 
-@pytest.mark.parametrize(("language", "text"), BLOCKS, ids=[text.split()[0] for _, text in BLOCKS])
+def shortened(text: str) -> str:
+    for printed, shorter in SHORTER.items():
+        text = text.replace(printed, shorter)
+    return text
+
+
+def also_as_printed(texts: list[tuple[str, str]]) -> list[Any]:
+    """Give each name and text shortened, and as printed to the long tests if that is another."""
+    usual = [
+        pytest.param(name, shortened(text), id=f"{name}{i}") for i, (name, text) in enumerate(texts)
+    ]
+    printed = [
+        pytest.param(name, text, id=f"{name}{i} as printed", marks=pytest.mark.long)
+        for i, (name, text) in enumerate(texts)
+        if shortened(text) != text
+    ]
+    return usual + printed
+
+
+def test_every_shortened_piece_is_printed_somewhere():
+    printed = [text for _, text in (*BLOCKS, *NOTEBOOKS)]
+    assert all(any(piece in text for text in printed) for piece in SHORTER)
+
+
+@pytest.mark.parametrize(("language", "text"), also_as_printed(BLOCKS))
 def test_what_the_documentation_says_works(language, text, service, tmp_path):
     if "curl" in text and shutil.which("curl") is None:
         pytest.skip("this machine has no curl")
@@ -62,9 +105,11 @@ def test_what_the_documentation_says_works(language, text, service, tmp_path):
         assert (tmp_path / made).exists(), made
 
 
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs_from_its_first_to_its_last_cell(notebook, service, tmp_path):
-    written = json.loads(notebook.read_text())
+@pytest.mark.parametrize(("name", "text"), also_as_printed(NOTEBOOKS))
+def test_a_notebook_runs_from_its_first_to_its_last_cell(name, text, service, tmp_path):
+    notebook = tmp_path / f"{name}.ipynb"
+    notebook.write_text(text)
+    written = json.loads(text)
     cells = [cell for cell in written["cells"] if cell["cell_type"] == "code"]
     assert all((cell["outputs"], cell["execution_count"]) == ([], None) for cell in cells)
     program = (

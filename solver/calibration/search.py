@@ -64,7 +64,8 @@ def search(cost: Cost, parameters: int, settings: Search, report: Report) -> Fou
 
     `report` is called after every generation.
     """
-    from scipy.optimize import Bounds, differential_evolution  # a fifth of a worker's start
+    # a seventh of the time in which workers start, which calibrations alone need
+    from scipy.optimize import Bounds, differential_evolution
 
     tried: list[Floats] = []
     costs: list[Floats] = []

@@ -66,7 +66,7 @@ def test_one_or_two_samples_are_drawn(name, samples):
         with pytest.raises(NotDrawable, match=r"output_step of 0\.\d+ s"):
             figures.draw(short, name)
         return
-    assert figures.render(short, name, "svg", CHOICES.get(name))
+    assert drawn(short, name).axes
 
 
 def test_values_that_were_not_computed_leave_a_gap(motion, name):
@@ -74,9 +74,13 @@ def test_values_that_were_not_computed_leave_a_gap(motion, name):
     assert figures.render(replace(motion, values=values), name, "png", CHOICES.get(name))
 
 
-def test_a_long_history_makes_no_large_file(name):
-    long = closed_form_motion(samples=200_000, periods=30_000)
-    assert len(figures.render(long, name, "svg", CHOICES.get(name))) < 1_500_000
+@pytest.fixture(scope="module")
+def long_history():
+    return closed_form_motion(samples=200_000, periods=30_000)
+
+
+def test_a_long_history_makes_no_large_file(long_history, name):
+    assert len(figures.render(long_history, name, "svg", CHOICES.get(name))) < 1_500_000
 
 
 def test_importing_the_family_loads_neither_matplotlib_nor_the_solver():
