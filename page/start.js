@@ -3,7 +3,7 @@
 import { element, fill } from "./interface/element.js";
 import { place } from "./interface/place.js";
 import { trouble } from "./interface/trouble.js";
-import { Unreachable, get, onReachable, pause } from "./requests/service.js";
+import { Unreachable, get, onReachable, pause, report } from "./requests/service.js";
 
 const VIEWS = {
   start: ["Mechanisms", () => import("./views/start.js")],
@@ -14,6 +14,7 @@ const VIEWS = {
   batch: ["Batch", () => import("./views/batch.js")],
   editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
+const UNFETCHED = /dynamically imported module|Importing a module script failed/;
 const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs" };
 
 const content = document.getElementById("content");
@@ -38,7 +39,9 @@ async function show() {
     await fillIn(room, { ...here, signal });
   } catch (error) {
     if (signal.aborted || error.name === "AbortError") return;
-    fill(content, trouble(error, here));
+    const unfetched = UNFETCHED.test(error.message); // a part of the page itself did not come
+    fill(content, trouble(unfetched ? new Unreachable() : error, here));
+    if (unfetched) report(false);
   }
 }
 

@@ -3,6 +3,7 @@
 const PREFIXES = [
   [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"],
 ];
+const RAISED = Object.fromEntries([..."-0123456789n"].map((one, i) => [one, [..."⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ"][i]]));
 const PREFIXED = new Set(["m", "s", "N", "J", "W", "Pa", "N m", "N s", "Hz"]);
 
 /** Returns a number with few digits: 0.0005, 1569, 2.07e+11. */
@@ -12,15 +13,23 @@ export function short(value, digits = 4) {
   if (value === 0) return "0";
   const size = Math.abs(value);
   const text =
-    size >= 1e6 || size < 1e-4 ? value.toExponential(digits - 1) : value.toPrecision(digits);
+    size >= 1e6 || size < 1e-4
+      ? value.toExponential(digits - 1)
+      : String(Number(value.toPrecision(digits))); // toPrecision alone makes 2.6e+2 of 260
   return text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "").replace("-", "−");
+}
+
+/** Returns a unit with its exponents raised: m/s². */
+export function unitText(unit) {
+  return unit.replace(/\^(-?\d+|n)(?![\d.])/g, (_, power) =>
+    [...power].map((one) => RAISED[one]).join(""));
 }
 
 /** Returns a value with its unit and a prefix that suits it: 0.5 mm, 1.57 kN, 3.14 rad/s. */
 export function withUnit(value, unit, digits = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (unit === "1" || !unit) return short(value, digits);
-  if (!PREFIXED.has(unit) || value === 0) return `${short(value, digits)} ${unit}`;
+  if (!PREFIXED.has(unit) || value === 0) return `${short(value, digits)} ${unitText(unit)}`;
   const [factor, prefix] =
     PREFIXES.find(([one]) => Math.abs(value) >= one * 0.9995) ?? PREFIXES.at(-1);
   return `${short(value / factor, digits)} ${prefix}${unit}`;

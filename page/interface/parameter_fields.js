@@ -1,7 +1,7 @@
 /** A form made of a scene's declared parameters: units, ranges, help. */
 
 import { element } from "./element.js";
-import { short, typed } from "./numbers.js";
+import { short, typed, unitText } from "./numbers.js";
 
 const SHOWN = 6; // others are folded away
 
@@ -93,7 +93,7 @@ class Field {
       { class: "field" },
       element("label", { for: id }, parameter.title ?? name),
       element("div", { class: "entry" }, this.input,
-        element("span", { class: "unit" }, parameter.unit === "1" ? "" : parameter.unit)),
+        element("span", { class: "unit" }, parameter.unit === "1" ? "" : unitText(parameter.unit))),
       element("p", { class: "help", id: `${id}-help` }, parameter.help, " ", range(parameter)),
       this.wrong,
     );
@@ -137,7 +137,7 @@ function written(value) {
 }
 
 function range({ minimum, maximum, unit, choices }) {
-  const of = unit === "1" || !unit ? "" : ` ${unit}`;
+  const of = unit === "1" || !unit ? "" : ` ${unitText(unit)}`;
   if (choices) return "";
   const [low, high] = [minimum, maximum].map((one) => one !== null && one !== undefined);
   if (low && high) return `${short(minimum)} to ${short(maximum)}${of}.`;

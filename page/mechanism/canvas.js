@@ -62,12 +62,15 @@ const PAINTERS = {
     if (stroke) outline(context, stroke, width, colours);
   },
   text(context, { points, text, colour, italic, bold, size = 12, align = "left" }, frame, colours) {
-    const [x, y] = frame.pixel(points[0]);
+    const [at, y] = frame.pixel(points[0]);
     context.font = `${italic ? "italic " : ""}${bold ? "600 " : ""}${size}px ${FONT}`;
     context.textAlign = align;
     context.textBaseline = "middle";
     context.lineWidth = 3;
     context.strokeStyle = colours.paper;
+    const { canvas } = context;
+    const right = canvas.width / context.getTransform().a - context.measureText(text).width - 4;
+    const x = align === "left" ? Math.min(at, right) : at; // a name at the edge is not cut off
     context.strokeText(text, x, y);
     context.fillStyle = colours[colour];
     context.fillText(text, x, y);

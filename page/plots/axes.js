@@ -1,6 +1,6 @@
 /** Axes of plots on a canvas: nice numbers, labels, and the way from values to pixels. */
 
-import { short } from "../interface/numbers.js";
+import { short, unitText } from "../interface/numbers.js";
 
 const FONT = "12px system-ui, sans-serif";
 
@@ -58,7 +58,7 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
     line(context, [x, top + height], [x, top + height + 5]);
     if (numbersX) context.fillText(short(value, 4), x, top + height + 7);
   }
-  if (numbersX) context.fillText(xLabel, left + width / 2, top + height + 23);
+  if (numbersX) context.fillText(unitText(xLabel), left + width / 2, top + height + 23);
   context.textAlign = "right";
   context.textBaseline = "middle";
   for (const value of ticks([y0, y1], height / 45)) {
@@ -70,7 +70,7 @@ export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = tru
   context.translate(14, top + height / 2);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
-  context.fillText(yLabel, 0, 0);
+  context.fillText(unitText(yLabel), 0, 0);
   context.restore();
 }
 

@@ -1,6 +1,6 @@
 /** A map: a value over two parameters, as colours with a scale beside it. */
 
-import { short } from "../interface/numbers.js";
+import { short, unitText } from "../interface/numbers.js";
 import { extent } from "./axes.js";
 
 // dark to light, evenly as the eye sees it (samples of matplotlib's viridis)
@@ -32,7 +32,7 @@ export function drawMap(context, to, [x, y], values, colours, unit) {
     const text = short(low + share * (high - low), 3);
     context.fillText(text, bar + 19, top + (1 - share) * height);
   }
-  context.fillText(unit, bar, top - 12);
+  context.fillText(unitText(unit), bar, top - 12);
 }
 
 /** Returns where the cells about an axis' values begin and end. */

@@ -2,7 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
-import { short, withUnit } from "../interface/numbers.js";
+import { short, unitText, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 import { pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
@@ -151,7 +151,7 @@ export class HistoryPlots {
       axes: [
         { ...axis, show: true, size: last ? 44 : 18, label: last ? "time [s]" : null, labelSize: 20,
           values: (_, ticks) => ticks.map((one) => (last ? short(one, 6) : "")) },
-        { ...axis, size: 74, label: unit === "1" ? "" : unit, labelSize: 18,
+        { ...axis, size: 74, label: unit === "1" ? "" : unitText(unit), labelSize: 18,
           values: (_, ticks) => ticks.map((one) => short(one, 4)) },
       ],
       hooks: {

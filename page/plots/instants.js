@@ -1,7 +1,7 @@
 /** Many values of channels in a window of time: a million of each, in answers that are allowed. */
 
 import { getArrays } from "../requests/arrays.js";
-import { Problem } from "../requests/service.js";
+import { get } from "../requests/service.js";
 
 const MOST_VALUES = 990_000; // in one answer of the service, which carries a million
 
@@ -17,14 +17,12 @@ const MOST_VALUES = 990_000; // in one answer of the service, which carries a mi
 export async function instants(job, names, [start, stop], count, signal) {
   const step = (stop - start) / (count - 1);
   const asked = (window, more) => pieces(job, names, window, count, more, signal);
-  try {
-    return { ...(await asked([start, stop], { step })), step, exact: true };
-  } catch (error) {
-    if (!(error instanceof Problem) || !error.errors.some(({ parameter }) => parameter === "step")) throw error;
-    const { output_step: apart } = job.job;
-    const window = [Math.max(start, stop - count * apart), stop];
-    return { ...(await asked(window, {})), step: apart, exact: false };
-  }
+  const beginning = { channels: names[0], start, stop: start + step, points: 1 };
+  const { exact } = await get(job.links.history, beginning, signal);
+  if (exact) return { ...(await asked([start, stop], { step })), step, exact };
+  const { output_step: apart } = job.job;
+  const window = [Math.max(start, stop - count * apart), stop];
+  return { ...(await asked(window, {})), step: apart, exact: false };
 }
 
 async function pieces(job, names, [start, stop], count, more, signal) {

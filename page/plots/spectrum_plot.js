@@ -2,7 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
-import { short, withUnit } from "../interface/numbers.js";
+import { short, unitText, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 
 const HEIGHT = 320; // px
@@ -55,7 +55,7 @@ export class SpectrumPlot {
       series: [{}, { stroke: colours["curve-0"], width: 1, points: { show: false } }],
       axes: [
         { ...axis, size: 44, label: "frequency [Hz]", labelSize: 20 },
-        { ...axis, size: 74, label: unit, labelSize: 18 },
+        { ...axis, size: 74, label: unitText(unit), labelSize: 18 },
       ],
       hooks: { setCursor: [(plot) => this.read(plot, unit)] },
     };

@@ -31,7 +31,7 @@ function draw(room, batch, jobs, path) {
         element("button", { type: "button", onclick: () => post(`${path}/cancel`) }, "Cancel all"))),
     element("p", {}, Object.entries(batch.states ?? {}).filter(([, count]) => count)
       .map(([state, count]) => [stateMark(state), ` ${count}  `])),
-    element("table", { class: "panel" },
+    element("section", { class: "panel" }, element("table", {},
       element("thead", {}, element("tr", {}, ["Job", "State", "Progress"].map((title) =>
         element("th", { scope: "col" }, title)))),
       element("tbody", {}, jobs.map((job) => element("tr", {},
@@ -39,6 +39,6 @@ function draw(room, batch, jobs, path) {
         element("td", {}, stateMark(job.state)),
         element("td", {}, element("progress", {
           max: 1, value: job.progress.fraction, "aria-label": "Progress",
-        })))))),
+        }))))))),
   );
 }

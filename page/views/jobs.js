@@ -135,7 +135,7 @@ class JobList {
     if (!this.jobs) return; // nothing has come yet
     this.scroll.hidden = !this.jobs.length;
     const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    this.rowHeight = (matchMedia("(max-width: 760px)").matches ? 4.4 : 4) * rem;
+    this.rowHeight = (matchMedia("(max-width: 760px)").matches ? 4.8 : 4) * rem;
     this.height = this.scroll.clientHeight;
     this.draw();
   }
@@ -188,12 +188,16 @@ class JobList {
     });
   }
 
+  get filtered() {
+    return Object.values(this.filters).some(Boolean);
+  }
+
   nothing() {
-    const filtered = Object.values(this.filters).some(Boolean);
+    const { filtered } = this;
     return element("div", { class: "panel" },
       element("h2", {}, filtered ? "No job matches these filters" : "No jobs yet"),
       filtered
-        ? element("a", { class: "button", href: "#/jobs", onclick: () => location.reload() }, "Show all jobs")
+        ? element("a", { class: "button", href: "#/jobs" }, "Show all jobs")
         : element("p", {}, "Choose a ", element("a", { href: "#/" }, "mechanism"),
           " and run it: its job appears here."));
   }
@@ -201,7 +205,7 @@ class JobList {
   /** Says how many there are, once they are more or fewer. */
   count() {
     const said = `${this.jobs.length}${this.next ? "+" : ""} shown`;
-    const drawn = `${said} ${this.rowHeight}`;
+    const drawn = `${said} ${this.rowHeight} ${this.filtered}`;
     if (this.drawn === drawn) return;
     this.drawn = drawn;
     this.said.textContent = said;

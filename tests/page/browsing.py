@@ -98,6 +98,17 @@ def barriers(page: Any) -> list[str]:
     return found
 
 
+def barriers_everywhere(page: Any) -> dict[str, list[str]]:
+    """Return the barriers of a page by width and colours, of those that have any."""
+    found = {}
+    for width in (360, 1280):
+        for colours in ("light", "dark"):
+            page.set_viewport_size({"width": width, "height": 900})
+            page.emulate_media(color_scheme=colours)
+            found[f"{width} px, {colours}"] = barriers(page)
+    return {where: some for where, some in found.items() if some}
+
+
 def _found(page: Any) -> list[str]:
     found = page.evaluate("rules => axe.run(document, rules)", _RULES)
     wide, width = page.evaluate("document.documentElement.scrollWidth"), page.viewport_size["width"]

@@ -12,7 +12,7 @@ from jointplay.records.job import JobError
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.records import BlockState, Solver
 from jointplay.storage.settings import Settings
-from tests.page.browsing import barriers, expect
+from tests.page.browsing import barriers, barriers_everywhere, expect
 from tests.service_in_thread import client_of, serving
 
 JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 1.0}
@@ -27,7 +27,13 @@ CUT = ("Failed to load resource", "net::ERR")
 def test_without_jobs_the_list_says_where_they_come_from(browsing, fresh_service):
     with browsing.page(f"{fresh_service}/#/jobs") as page:
         page.get_by_role("heading", name="No jobs yet").wait_for()
-        assert barriers(page) == []
+        assert barriers_everywhere(page) == {}
+        page.get_by_label("Label", exact=True).fill("no job has this label")
+        page.get_by_label("Label", exact=True).press("Enter")
+        page.get_by_role("heading", name="No job matches these filters").wait_for()
+        assert barriers_everywhere(page) == {}
+        page.get_by_role("link", name="Show all jobs").click()
+        page.get_by_role("heading", name="No jobs yet").wait_for()
 
 
 @pytest.mark.parametrize("width", [360, 1280])
@@ -53,6 +59,7 @@ def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, 
     with browsing.page(f"{service_url}/#/job/{job_id}") as page:
         page.get_by_text("Nothing is computed yet").wait_for()
         page.get_by_text("No worker is alive: ").wait_for()
+        assert barriers_everywhere(page) == {}
         catalogue.note_worker("test", Solver("1", "zen4"))
         page.get_by_text("1 of 1 workers has nothing to do").wait_for()
         claim = worker.start(job_id)
@@ -86,9 +93,15 @@ def test_a_service_that_comes_back_is_noticed(browsing, tmp_path):
             http.post("/v1/jobs", json=JOB | {"label": "first"}).raise_for_status()
             page = closing.enter_context(browsing.page(f"{url}/#/jobs", expected=CUT))
             page.get_by_role("link", name="first").wait_for()
-        page.get_by_text("The service does not answer").wait_for()
+        page.get_by_text("Trying again …").wait_for()
+        assert barriers_everywhere(page) == {}
+        page.get_by_role("link", name="Mechanisms").click()
+        page.get_by_role("heading", name="The service is away").wait_for()
+        assert barriers_everywhere(page) == {}
         with serving(create_app(settings), urlsplit(url).port or 0):
-            page.get_by_text("The service does not answer").wait_for(state="hidden")
+            page.get_by_text("Trying again …").wait_for(state="hidden")
+            page.get_by_role("heading", name="Mechanisms whose joints have play").wait_for()
+            page.get_by_role("link", name="Jobs").click()
             second = JOB | {"label": "second", "cache": False}
             http.post("/v1/jobs", json=second).raise_for_status()
             page.get_by_role("link", name="second").wait_for()
@@ -101,7 +114,7 @@ def test_a_key_is_asked_for_where_one_is_needed(browsing, tmp_path):
         key = subprocess.run(new, capture_output=True, text=True, check=True).stdout.strip()
         with browsing.page(f"{url}/#/jobs", expected=CUT) as page:
             page.get_by_label("Key (jp_").fill(key)
-            assert barriers(page) == []
+            assert barriers_everywhere(page) == {}
             page.get_by_role("button", name="Use it").click()
             page.get_by_role("heading", name="No jobs yet").wait_for()
             page.goto(f"{url}/docs")
