@@ -8,6 +8,7 @@ import numpy as np
 from jointplay.figures.kind import Selection
 from jointplay.records.arrays import Floats
 from jointplay.records.run import Columns, Source
+from jointplay.records.works import WORKS
 
 SPANS: Final = 1000
 """Spans of a curve over time, each drawn through its lowest and its highest value."""
@@ -54,6 +55,18 @@ def at(source: Source, names: Sequence[str], times: Floats) -> Columns | None:
     if found.values is None:
         return None
     return times, dict(zip(names, found.values.T, strict=True))
+
+
+def works(source: Source, times: Floats) -> dict[str, Floats] | None:
+    """Give works [J] since the first of some times [s], by name of the ledger; None: not known."""
+    if source.trajectory is None or not times[0] < times[-1]:
+        return None
+    found = source.trajectory.works(float(times[0]), float(times[-1]))
+    if found.values is None:
+        return None
+    moments, *columns = found.values.T
+    curves = (np.interp(times, moments, column) for column in columns)
+    return dict(zip(WORKS, curves, strict=True))
 
 
 def ends(source: Source, selection: Selection) -> tuple[float, float]:

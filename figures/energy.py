@@ -1,11 +1,11 @@
-"""Energy ledger over time: what drivers and gravity gave, and what became of it."""
+"""Energy ledger over time: what drivers and gravity gave, what is lost where, what is left."""
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
-from jointplay.figures import colours, page, sampling, scene_facts
+from jointplay.figures import between_samples, colours, page, sampling, scene_facts
 from jointplay.figures.kind import RunFigure, Selection
 from jointplay.figures.quantity import scale
 from jointplay.figures.time_axis import TimeAxis
@@ -13,13 +13,26 @@ from jointplay.records.arrays import Floats
 from jointplay.records.run import Source
 
 _HEIGHT: Final = 60.0  # mm
+_LOWER_HEIGHT: Final = 40.0  # mm
 _DRIVERS, _GRAVITY, _KINETIC = "drivers", "gravity", "kinetic energy"
 _REST: Final = "contacts, friction, elements"
-_CAPTION: Final = (
-    "Since the first sample: work of drivers and gravity; gain of kinetic energy; the rest is lost"
-    " in contacts, friction and force elements, or stored there."
+_CONTACTS, _FRICTION, _ELEMENTS, _STORED = "contacts", "friction", "elements", "stored"
+_CAPTION: Final = "Since the first sample: work of drivers and gravity; gain of kinetic energy; "
+_TOGETHER: Final = "the rest is lost in contacts, friction and force elements, or stored there."
+_APART: Final = (
+    "the rest. Below, of that: lost in contacts, in friction and in force elements; stored in"
+    " contacts and elements."
 )
 _LEDGER: Final = " Rings: the ledger at the end, integrated with the motion; its residual is"
+
+_LOSSES: Final = {
+    _CONTACTS: "contact_loss",
+    _FRICTION: "friction_loss",
+    _ELEMENTS: "element_loss",
+}
+"""Terms of the ledger by curve."""
+
+Curves = dict[str, Floats]
 
 
 def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
@@ -31,40 +44,69 @@ def _channels(source: Source, selection: Selection) -> tuple[str, ...]:
 def _draw(source: Source, selection: Selection) -> page.Figure:
     names = _channels(source, selection)
     time, values = sampling.whole(source, names, selection)
-    curves = _curves(time, values)
+    works = between_samples.works(source, time)
+    curves = _curves(time, values, works)
+    parts = _parts(curves, works)
     ledger = _at_the_end(source, selection)
-    joules = scale("J", *curves.values())
     across = TimeAxis(source, [time])
     residual = ledger.pop("residual", None)
-    caption = _CAPTION
+    caption = _CAPTION + (_APART if parts else _TOGETHER)
     if residual is not None:
         caption += f"{_LEDGER} {residual:.1e} J.".replace("-", "−")
-    figure, (axes,) = page.stack([_HEIGHT], 2, page.caption_height(caption))
+    heights = [_HEIGHT, _LOWER_HEIGHT] if parts else [_HEIGHT]
+    figure, panels = page.stack(heights, 1 + len(heights), page.caption_height(caption))
     page.caption(figure, caption)
+    for axes, shown in zip(panels, (curves, parts), strict=False):
+        lines = _draw_panel(axes, shown, ledger, time, across)
+        if axes is panels[0]:
+            page.legend(figure, axes, ncols=3)
+        else:
+            look: page.Look = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "ncols": 4}
+            axes.legend(handles=lines, borderaxespad=0.2, **look)
+    page.finish_stack(figure, panels, across.label)
+    return figure
+
+
+def _draw_panel(
+    axes: page.Axes, curves: Curves, ledger: dict[str, float], time: Floats, across: TimeAxis
+) -> list[Any]:
+    """Draw curves, and a ring where the ledger has the end of one; return the curves."""
+    lines, joules = [], scale("J", *curves.values())
     for (name, curve), (colour, dashes, _) in zip(curves.items(), colours.COMPARED, strict=False):
         look: page.Look = {"color": colour, "linestyle": dashes, "label": name}
-        axes.plot(*_thinned(across.shown(time), curve / joules.factor), **look)
+        lines += axes.plot(*_thinned(across.shown(time), curve / joules.factor), **look)
         if name in ledger:
             end = across.shown(time[-1:]), [ledger[name] / joules.factor]
             axes.plot(*end, "o", color=colour, markersize=4.0, clip_on=False, **page.RING)
     axes.axhline(0.0, color=colours.GEOMETRY, linewidth=0.4, zorder=1.0)
     across.shade(axes)
     axes.set_ylabel(joules.label("energy"))
-    axes.set_xlabel(across.label)
-    page.legend(figure, axes, ncols=3)
-    return figure
+    return lines
 
 
-def _curves(time: Floats, values: Mapping[str, Floats]) -> dict[str, Floats]:
+def _curves(time: Floats, values: Mapping[str, Floats], works: Curves | None) -> Curves:
     """Give the terms of the balance [J] since the first sample, by name."""
     kinetic = values["energy.kinetic"] - values["energy.kinetic"][0]
     gravity = values["energy.potential"][0] - values["energy.potential"]
     power = sum((column for name, column in values.items() if name.endswith(".power")), 0.0 * time)
     steps = 0.5 * (power[1:] + power[:-1]) * np.diff(time)
     drivers = np.concatenate([[0.0], np.cumsum(steps)])
+    if works is not None:
+        drivers = works["driver_work"]
     rest = drivers + gravity - kinetic
     given = {_DRIVERS: drivers} if any(name.endswith(".power") for name in values) else {}
     return {**given, _GRAVITY: gravity, _KINETIC: kinetic, _REST: rest}
+
+
+def _parts(curves: Curves, works: Curves | None) -> Curves:
+    """Give what the rest of the balance [J] is made of, by name; nothing where it is not known."""
+    if works is None:
+        return {}
+    losses = {name: works[term] for name, term in _LOSSES.items()}
+    stored = curves[_REST] - sum(losses.values())
+    if not losses[_ELEMENTS].any():
+        del losses[_ELEMENTS]
+    return {**losses, _STORED: stored}
 
 
 def _at_the_end(source: Source, selection: Selection) -> dict[str, float]:
@@ -78,6 +120,8 @@ def _at_the_end(source: Source, selection: Selection) -> dict[str, float]:
         _GRAVITY: energy["gravity_work"],
         _KINETIC: energy["kinetic_change"],
         _REST: stored_and_lost,
+        **{name: energy[term] for name, term in _LOSSES.items() if term in energy},
+        **({_STORED: energy["stored_change"]} if "stored_change" in energy else {}),
         "residual": energy["residual"],
     }
 

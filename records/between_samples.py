@@ -34,5 +34,8 @@ class BetweenSamples(Protocol):
     def extremes(self, names: Sequence[str], edges: Floats) -> Found:
         """Give (bins, names, 4) between edges, s: lowest, its time, highest, its time."""
 
+    def works(self, start: float, stop: float) -> Found:
+        """Give (k, 5) times of a window, s, and works since its start, J; see `records.works`."""
+
     def instants(self, start: float, stop: float, most: int) -> Floats | None:
         """Give times, s, at which a path in a plane looks as it is; None: more than `most`."""

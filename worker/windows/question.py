@@ -20,7 +20,7 @@ WHOLE = (
 
 @dataclass(frozen=True)
 class Question:
-    """Either values at `times`, or extremes between `edges`."""
+    """Values at `times`, extremes between `edges`, or else the works of all `steps`."""
 
     job: dict[str, Any]
     """The admitted job's document."""
@@ -43,7 +43,8 @@ class Answer:
     """Numbers that were asked for, or why there are none."""
 
     values: Floats | None
-    """(m, names) values, or (bins, names, 4) extremes: lowest, its time, highest, its time."""
+    """(m, names) values, or (bins, names, 4) extremes: lowest, its time, highest, its time; or
+    (n, 5) when each step ends, s, and its works, J."""
     rounded: bool = False
     """The last steps did not end where the run went on, bit for bit: another processor rounds."""
     refused: str = ""

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.records.works import WORKS
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.intervals import Intervals
 from jointplay.worker.windows.pieces import between, folded, merged
@@ -126,6 +127,33 @@ class Trajectory:
         if found.values is None:
             return found
         return replace(found, values=folded(edges, np.concatenate(begins), found.values))
+
+    def works(self, start: float, stop: float) -> Answer:
+        """Return times (k,) and works since the start (k, 4) as one table: s, then J.
+
+        Times are those at which steps end, and both ends of the window; within a step, a work is
+        taken to grow evenly.
+        """
+        pieces = self._pieces((), start, stop, 0)
+        if isinstance(pieces, str):
+            return Answer(None, refused=pieces)
+        stored = self._reader.steps
+        if stored is None:
+            return Answer(None, refused="An ideal motion has no ledger of its energy.")
+        first, last = stored.around(start, stop)
+        answers = [
+            self._ask(self._question((), stored.read(k, min(k + AT_ONCE, last))))
+            for k in range(first, last, AT_ONCE)
+        ]
+        found = together(answers)
+        if found.values is None:
+            return found
+        ends = np.append(stored.begin(first), found.values[:, 0])
+        sums = np.cumsum(np.vstack([np.zeros(len(WORKS)), found.values[:, 1:]]), axis=0)
+        times = np.concatenate([[start], ends[(ends > start) & (ends < stop)], [stop]])
+        curves = [np.interp(times, ends, column) for column in sums.T]
+        since = [times, *(curve - curve[0] for curve in curves)]
+        return replace(found, values=np.column_stack(since))
 
     def instants(self, start: float, stop: float, most: int) -> Floats | None:
         """Return times, s: `PARTS` in each step, or even ones of a motion without steps."""

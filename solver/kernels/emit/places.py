@@ -92,7 +92,7 @@ eccentricity eccentricity_start before_step change inner slip_row
 penetration_row y k1_ largest_step known_range
 clock_start clock_travel clock_turn channel previous highest lowest highest_time lowest_time
 impact_floor restart onset_time approach onset_total opened weight steps pace_at look_at stored
-stored_start
+stored_start kledger1_
 """
 SLOTS = tuple(_SLOTS.split())
 """Blocks of the work array that loops read or write; see the `allocate` functions beside this."""
@@ -104,9 +104,10 @@ OF_TANGENTS = (
     "gap_acceleration",
 )
 """Blocks that only a kernel with tangents has; without, nothing reads their offsets, -1."""
-DERIVED = ("size", "impulse", "contact_row")
-"""Slots of the work array; where `total` has the pairs' impulses; first row of the channel block
-that has a normal force again, for the peak of each contact."""
+DERIVED = ("size", "impulse", "power", "contact_row")
+"""Slots of the work array; where `total` has the pairs' impulses; powers of the ledger's terms at
+the stage; first row of the channel block that has a normal force again, for the peak of each
+contact."""
 
 ROW_DTYPE = np.dtype([(name, np.int64) for name in DenseRow.__annotations__])
 STEP_DTYPE = np.dtype([(name, np.int64) for name in StepRow.__annotations__])
@@ -134,6 +135,7 @@ def places_of(
     found = dict(counts) | {name: layout.block(name).start for name in SLOTS}
     found |= dict.fromkeys(OF_TANGENTS, -1) | {"size": layout.size}
     found["impulse"] = layout.block("total").stop - counts["pairs"]
+    found["power"] = layout.block("ledger").start
     found["contact_row"] = counts["rows"] - counts["pairs"]
     for name in NAMES:
         places[name] = found[name]

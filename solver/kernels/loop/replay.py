@@ -102,6 +102,39 @@ def states_in_steps(
 
 
 @deferred(void(ADDRESSES, PLACES, WORK, RUNS, TABLE, TABLE))
+def works_in_steps(
+    addresses: np.ndarray,
+    places: np.ndarray,
+    work: np.ndarray,
+    runs: np.ndarray,
+    steps: np.ndarray,
+    works: np.ndarray,
+) -> None:
+    """Write what steps (n, width) add to the terms of the energy ledger, (n, terms), J.
+
+    Else as `states_in_steps`.
+    """
+    call, at = functions_at(addresses[0]), places[0]
+    work, runs = unowned(work), unowned(runs)
+    for first in range(0, len(steps), LANES):
+        count = read_steps(steps, first, runs, at, work)
+        call.right_hand_side(work)
+        call.weigh(work)
+        for lane in range(LANES):
+            work[at.stored_start, lane] = work[at.stored, lane]
+            for k in range(at.ledger):
+                work[at.kledger1_ + k, lane] = work[at.power + k, lane]
+                work[at.total + k, lane] = 0.0
+        call.attempt(work)
+        for lane in range(LANES):
+            work[at.accept, lane] = 1.0
+        call.take(work)
+        for lane in range(count):
+            for k in range(works.shape[1]):
+                works[first + lane, k] = work[at.total + k, lane]
+
+
+@deferred(void(ADDRESSES, PLACES, WORK, RUNS, TABLE, TABLE))
 def step_ends(
     addresses: np.ndarray,
     places: np.ndarray,

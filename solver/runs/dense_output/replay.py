@@ -13,7 +13,12 @@ from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.loop.replay import find_steps, states_in_steps, step_ends
+from jointplay.solver.kernels.loop.replay import (
+    find_steps,
+    states_in_steps,
+    step_ends,
+    works_in_steps,
+)
 from jointplay.solver.kernels.loop.windows import size_of_table
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.runs.dense_output.parts import cut
@@ -114,6 +119,23 @@ class Replay:
             rows,
         )
         return self._bundle.observe(LANE, rows, self.rows(names))
+
+    def works(self, steps: Floats) -> Floats:
+        """Return works (n, 4) of steps (n, width), J, in the order of `records.works.WORKS`."""
+        kernel = self.kernel
+        found = np.empty((len(steps), kernel.losses + len(kernel.drivers)))
+        works_in_steps(
+            kernel.addresses,
+            kernel.places,
+            self._bundle.groups[0].work,
+            self.runs,
+            np.ascontiguousarray(steps),
+            found,
+        )
+        contact, friction, *elements = found.T[: kernel.losses]
+        nothing = np.zeros(len(steps))
+        drivers = found.T[kernel.losses :]
+        return np.column_stack([contact, friction, sum(elements, nothing), sum(drivers, nothing)])
 
     def mismatch(self, steps: Floats) -> float:
         """Return how far steps, made again, end from where the next one starts, in its scales.
