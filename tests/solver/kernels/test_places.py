@@ -39,7 +39,7 @@ def kernel_of(name: str) -> Kernel:
 
 def layout_without(missing: str) -> Layout:
     layout = Layout()
-    for name in SLOTS:
+    for name in (*SLOTS, "ledger"):
         if name != missing:
             layout.add_block(name, 3)
     return layout
