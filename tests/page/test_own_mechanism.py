@@ -2,6 +2,7 @@
 
 from tests.page.browsing import barriers
 from tests.page.test_watching import MOVED
+
 PASTED = """(editor, text) => {
   const clipboardData = new DataTransfer();
   clipboardData.setData("text/plain", text);

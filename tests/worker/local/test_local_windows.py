@@ -79,7 +79,7 @@ def test_a_spectrum_of_forces_reaches_beyond_what_samples_resolve(source):
 
 
 def test_the_balance_of_energy_ends_where_the_ledger_does(source):
-    (axes,) = figures.draw(source, "energy").axes
+    axes = figures.draw(source, "energy").axes[0]
     curves = [
         line for line in axes.lines if line.get_marker() == "None" and line.get_label()[0] != "_"
     ]
