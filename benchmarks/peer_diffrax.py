@@ -13,7 +13,8 @@ import numpy as np
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.loop.bundle import Bundle
 from jointplay.solver.kernels.loop.problem import LaneProblem
-from jointplay.solver.kernels.record.recorder import Expression, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression
 
 LONGEST_STEP, FIRST_STEP = 1e-3, 1e-7
 """s, as other peers have."""

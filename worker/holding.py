@@ -1,4 +1,4 @@
-"""What a worker asks of whoever keeps the catalogue, about one block that it holds."""
+"""Questions of a worker about a block that it holds, to whoever keeps the catalogue."""
 
 from typing import Protocol
 

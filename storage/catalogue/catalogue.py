@@ -4,11 +4,8 @@ It is the truth. Celery and Redis only wake workers; wiping them loses nothing.
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import AbstractContextManager
-from functools import update_wrapper
-from typing import Concatenate, ParamSpec, TypeVar
 
-from sqlalchemy import Connection, text
+from sqlalchemy import text
 from sqlalchemy.exc import DBAPIError
 
 from jointplay.storage.catalogue import (
@@ -40,48 +37,10 @@ from jointplay.storage.catalogue.records import (
     Submitted,
     SubmittedBatch,
 )
+from jointplay.storage.catalogue.units import claiming, durably, reading, writing
 
-Given = ParamSpec("Given")
-Answer = TypeVar("Answer")
-_InUnit = Callable[Concatenate[Unit, Given], Answer]
 _CANDIDATES = 8
 """Blocks that a worker tries to claim before it asks again: others may be quicker."""
-_Method = Callable[Concatenate["Catalogue", Given], Answer]
-
-
-def _in_unit(
-    function: _InUnit[Given, Answer],
-    begin: Callable[["Catalogue"], AbstractContextManager[Connection]],
-) -> _Method[Given, Answer]:
-    def method(catalogue: "Catalogue", /, *given: Given.args, **named: Given.kwargs) -> Answer:
-        def unit() -> Answer:
-            with begin(catalogue) as connection:
-                return function(Unit(connection, catalogue.clock()), *given, **named)
-
-        return catalogue.connections.repeated(unit)
-
-    update_wrapper(method, function)
-    return method
-
-
-def _reading(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
-    """Make a method of a function that reads in one unit."""
-    return _in_unit(function, lambda catalogue: catalogue.connections.reading())
-
-
-def _writing(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
-    """Make a method of a function that writes in one unit, which a power cut may undo."""
-    return _in_unit(function, lambda catalogue: catalogue.connections.writing())
-
-
-def _durably(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
-    """Make a method of a function that writes in one unit, on the disk when it returns."""
-    return _in_unit(function, lambda catalogue: catalogue.connections.writing(durable=True))
-
-
-def _claiming(function: _InUnit[Given, Answer]) -> _Method[Given, Answer]:
-    """Make a method of a function that writes in one unit, which lasts as long as its caller."""
-    return _in_unit(function, lambda catalogue: catalogue.connections.claiming())
 
 
 class Catalogue:
@@ -230,19 +189,19 @@ class Catalogue:
 
         return self.connections.repeated(submit)
 
-    get = _reading(rows.find_job)
-    batch = _reading(batches.find_batch)
-    page_of_batches = _reading(batches.page_of_batches)
-    jobs = _reading(listing.page_of_jobs)
-    blocks = _reading(listing.blocks_of)
-    attempts = _reading(listing.attempts_of)
-    events = _reading(listing.events_of)
-    statuses = _reading(listing.statuses_of)
-    identical = _reading(submission.same_job)
-    request_cancel = _durably(submission.request_cancel)
-    cancel_batch = _durably(batches.cancel_batch)
-    delete = _durably(upkeep.expire)
-    mark_damaged = _writing(upkeep.mark_damaged)
+    get = reading(rows.find_job)
+    batch = reading(batches.find_batch)
+    page_of_batches = reading(batches.page_of_batches)
+    jobs = reading(listing.page_of_jobs)
+    blocks = reading(listing.blocks_of)
+    attempts = reading(listing.attempts_of)
+    events = reading(listing.events_of)
+    statuses = reading(listing.statuses_of)
+    identical = reading(submission.same_job)
+    request_cancel = durably(submission.request_cancel)
+    cancel_batch = durably(batches.cancel_batch)
+    delete = durably(upkeep.expire)
+    mark_damaged = writing(upkeep.mark_damaged)
 
     def every_job(self) -> Iterator[Job]:
         """Yield all jobs that have not expired, newest first."""
@@ -260,18 +219,18 @@ class Catalogue:
 
     # Who may ask for it
 
-    key = _reading(keys.find_key)
-    make_key = _durably(keys.make_key)
-    revoke_key = _durably(keys.revoke_key)
-    note_use_of_key = _writing(keys.note_use)
-    all_keys = _reading(keys.all_keys)
+    key = reading(keys.find_key)
+    make_key = durably(keys.make_key)
+    revoke_key = durably(keys.revoke_key)
+    note_use_of_key = writing(keys.note_use)
+    all_keys = reading(keys.all_keys)
 
     # What workers do
 
-    claim_block = _claiming(holding.claim)
-    waiting_for = _reading(solvers.waiting_for)
-    held_by = _reading(listing.held_by)
-    note_worker = _writing(solvers.note_worker)
+    claim_block = claiming(holding.claim)
+    waiting_for = reading(solvers.waiting_for)
+    held_by = reading(listing.held_by)
+    note_worker = writing(solvers.note_worker)
 
     def claim_next(self, worker: str, lease: float, solver: Solver) -> Claim | None:
         """Take the block whose turn it is, of those that this solver may; none if none waits."""
@@ -281,40 +240,40 @@ class Catalogue:
                 return claim
         return None
 
-    held = _reading(holding.held)
-    verdict = _reading(holding.verdict)
-    heartbeat = _writing(holding.heartbeat)
-    record_progress = _writing(holding.record_progress)
-    note_activity = _writing(holding.note_activity)
-    record_checkpoint = _writing(holding.record_checkpoint)
-    release = _writing(ending.release)
-    put_off = _writing(ending.put_off)
+    held = reading(holding.held)
+    verdict = reading(holding.verdict)
+    heartbeat = writing(holding.heartbeat)
+    record_progress = writing(holding.record_progress)
+    note_activity = writing(holding.note_activity)
+    record_checkpoint = writing(holding.record_checkpoint)
+    release = writing(ending.release)
+    put_off = writing(ending.put_off)
 
-    finish = _durably(ending.finish)
-    finish_repeatable = _writing(ending.finish)  # for what is quickly found again
+    finish = durably(ending.finish)
+    finish_repeatable = writing(ending.finish)  # for what is quickly found again
 
     # What relay and reaper do, and whoever reconciles the catalogue with the rest
 
-    due_wake_ups = _reading(upkeep.due_wake_ups)
-    on_the_way = _reading(upkeep.on_the_way)
-    mark_published = _writing(upkeep.mark_published)
-    holders = _reading(upkeep.holders)
-    reap = _durably(upkeep.reap)
-    removable = _reading(upkeep.removable)
-    mark_removed = _writing(upkeep.mark_removed)
-    mend_after_setting_back = _writing(upkeep.mend_after_setting_back)
-    announce_again = _writing(upkeep.announce_again)
-    contradicting = _reading(disagreements.find)
-    reconcile = _writing(disagreements.mend)
-    adopt = _durably(adoption.adopt)
-    newest_event = _reading(listing.newest_event)
-    known_blocks = _reading(listing.known_blocks)
-    census = _reading(census.census)
-    leader = _reading(upkeep.leader)
-    take_lead = _writing(upkeep.take_lead)
-    workers = _reading(solvers.workers)
-    workers_at_work = _reading(at_work.workers_at_work)
-    forget_workers = _writing(solvers.forget_workers)
-    unserved = _reading(solvers.unserved)
-    note_unserved = _writing(solvers.note_unserved)
-    release_lead = _writing(upkeep.release_lead)
+    due_wake_ups = reading(upkeep.due_wake_ups)
+    on_the_way = reading(upkeep.on_the_way)
+    mark_published = writing(upkeep.mark_published)
+    holders = reading(upkeep.holders)
+    reap = durably(upkeep.reap)
+    removable = reading(upkeep.removable)
+    mark_removed = writing(upkeep.mark_removed)
+    mend_after_setting_back = writing(upkeep.mend_after_setting_back)
+    announce_again = writing(upkeep.announce_again)
+    contradicting = reading(disagreements.find)
+    reconcile = writing(disagreements.mend)
+    adopt = durably(adoption.adopt)
+    newest_event = reading(listing.newest_event)
+    known_blocks = reading(listing.known_blocks)
+    census = reading(census.census)
+    leader = reading(upkeep.leader)
+    take_lead = writing(upkeep.take_lead)
+    workers = reading(solvers.workers)
+    workers_at_work = reading(at_work.workers_at_work)
+    forget_workers = writing(solvers.forget_workers)
+    unserved = reading(solvers.unserved)
+    note_unserved = writing(solvers.note_unserved)
+    release_lead = writing(upkeep.release_lead)

@@ -33,7 +33,7 @@ class StoredSteps(StoredRows):
     def __init__(self, files: Files, waiting: Waiting | None) -> None:
         super().__init__(files, GROUP, waiting)
         self.period = float(self.attributes["period"])
-        """Of the run, s: what whole periods are of."""
+        """Period of the run, s, which windows of whole periods count in."""
 
     def read(self, first: int, last: int) -> Floats:
         """Read steps [first, last): (last - first, columns)."""

@@ -80,7 +80,7 @@ class Files(Document):
 
 
 class Progress(Document):
-    """How far a block is; see `Catalogue.record_progress`."""
+    """Progress of a block; see `Catalogue.record_progress`."""
 
     time: _Time
     fraction: _Fraction

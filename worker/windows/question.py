@@ -54,7 +54,7 @@ class Answer:
 
     @property
     def note(self) -> str:
-        """What is to be known of the numbers; else empty."""
+        """Remark on how far the numbers hold; else empty."""
         notes = []
         if self.rounded:
             notes.append(ROUNDED)

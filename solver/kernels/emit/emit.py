@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from jointplay.solver.kernels.layout import Layout
+from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
     Expression,
-    reachable,
     too_many,
 )
 from jointplay.solver.kernels.watched import require_wanted

@@ -12,7 +12,8 @@ from jointplay.solver.kernels.emit.emit import FixedNodes, lane_function, nothin
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression
 
 Kinks = tuple[tuple[Expression, Expression], ...]
 """Piecewise linear functions, each with its argument."""

@@ -12,7 +12,8 @@ from jointplay.solver.kernels.emit.emit import RETURNING, FixedNodes, Known, Out
 from jointplay.solver.kernels.emit.judged_step import JudgedStep, before
 from jointplay.solver.kernels.layout import Layout
 from jointplay.solver.kernels.record.equations import MOTION, Equations
-from jointplay.solver.kernels.record.recorder import Expression, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.quantities.scalars import maximum, minimum, select_positive
 
 

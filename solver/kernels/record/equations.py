@@ -5,11 +5,11 @@ from itertools import islice
 
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.knots import KnotsOnPath, knots_on_path
+from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import (
     MOST_STATEMENTS,
     Expression,
     Recorder,
-    reachable,
     too_many,
 )
 from jointplay.solver.mechanics.closing_rows import closing_rows

@@ -7,7 +7,8 @@ mechanism lies or moves meets them where the motion does.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
-from jointplay.solver.kernels.record.recorder import Expression, Knots, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression, Knots
 
 
 @dataclass(frozen=True)
@@ -16,7 +17,7 @@ class KnotsOnPath:
 
     knots: Knots
     rate: Expression
-    """Of the argument; of a clock it depends on the scene's numbers alone."""
+    """Rate of the argument; that of a clock depends on the scene's numbers alone."""
 
     @property
     def clocked(self) -> bool:

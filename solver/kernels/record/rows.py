@@ -7,7 +7,8 @@ of the watch: its extremes follow afterwards. What is watched costs memory traff
 from dataclasses import dataclass
 
 from jointplay.solver.kernels.record.equations import Equations
-from jointplay.solver.kernels.record.recorder import Expression, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.scene.document import Scene
 
 

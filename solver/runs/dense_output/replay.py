@@ -69,7 +69,7 @@ class Replay:
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """What kernels take that make steps again: functions, places, room and runs."""
+        """Arguments of the kernels that make steps again: functions, places, room and runs."""
         bundle = self._bundle
         return (
             self.kernel.addresses,

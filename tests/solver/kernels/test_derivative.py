@@ -13,7 +13,8 @@ from jointplay.solver.kernels.record import lane_functions
 from jointplay.solver.kernels.record.derivative import Derivative
 from jointplay.solver.kernels.record.equations import record
 from jointplay.solver.kernels.record.operations import OPERATIONS
-from jointplay.solver.kernels.record.recorder import Expression, Recorder, reachable
+from jointplay.solver.kernels.record.reachable import reachable
+from jointplay.solver.kernels.record.recorder import Expression, Recorder
 from jointplay.solver.mechanics.tree import spanning_tree
 from jointplay.solver.quantities import scalars
 from tests.solver.kernels.test_recorder import evaluate
