@@ -1,36 +1,44 @@
-/** Buttons that save a moment as SVG or PNG, and a stretch of time as a film. */
+/** Buttons that save a moment as SVG, and a stretch of time as a film. */
 
+import { LENGTHS, stretch } from "../film/stretch.js";
 import { element } from "./element.js";
 
-/** Returns the buttons of a stage and its clock. */
-export function saving(stage, clock, name) {
+const FILMS = { gif: "GIF", mp4: "MP4", webm: "WebM" };
+
+/**
+ * Returns the buttons of a stage and its clock.
+ *
+ * @param insets its magnified joints, `impacts()` the onsets of contacts in s, sorted
+ * @param name of the files
+ */
+export function saving({ stage, insets, clock, impacts, name }) {
   const said = element("span", { role: "status", class: "small quiet" });
+  const tell = (text) => (said.textContent = text);
+  const length = element("select", { "aria-label": "Length of the film" },
+    Object.entries(LENGTHS).map(([value, text]) => element("option", { value }, text)));
   const button = (text, act) => element("button", {
     type: "button",
     onclick: async (event) => {
       event.target.disabled = true;
       try {
         await act();
-        said.textContent = "";
+        tell("");
       } catch (error) {
-        said.textContent = error.message;
+        tell(error.message);
       } finally {
         event.target.disabled = false;
       }
     },
   }, text);
-  const tell = (text) => (said.textContent = text);
   return [
     button("SVG", () => save(new Blob([stage.svg(clock.time)], { type: "image/svg+xml" }), `${name}.svg`)),
-    button("Film", async () => {
-      const { film } = await import("../mechanism/film.js");
-      const { blob, suffix } = await film(stage, clock, tell);
-      save(blob, `${name}.${suffix}`);
-    }),
-    button("GIF", async () => {
-      const { gif } = await import("../mechanism/gif.js");
-      save(await gif(stage, clock, tell), `${name}.gif`);
-    }),
+    Object.entries(FILMS).map(([form, text]) => button(text, async () => {
+      clock.stop();
+      const shown = stretch(length.value, clock, impacts());
+      const { film } = await import("../film/film.js");
+      save(await film(form, stage, insets, shown, tell), `${name}.${form}`);
+    })),
+    element("label", { class: "buttons small" }, "of ", length),
     said,
   ];
 }

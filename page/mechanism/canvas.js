@@ -22,6 +22,15 @@ export function paint(context, shapes, frame, colours) {
   for (const shape of shapes) PAINTERS[shape.kind](context, shape, frame, colours);
 }
 
+/** Writes a line of words on a picture, its left end and middle at `[right, down]`. */
+export function words(context, text, [right, down], colour) {
+  context.font = `13px ${FONT}`;
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  context.fillStyle = colour;
+  context.fillText(text, right, down);
+}
+
 const PAINTERS = {
   line(context, { points, colour, width, dash, cap, alpha }, frame, colours) {
     path(context, points, frame);

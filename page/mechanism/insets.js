@@ -4,7 +4,9 @@ import { element, fill } from "../interface/element.js";
 import { short, withUnit } from "../interface/numbers.js";
 import { bearing } from "./bearing.js";
 import { paint, prepared } from "./canvas.js";
+import { follower } from "./follower.js";
 import { frame } from "./frame.js";
+import { REACH } from "./magnified.js";
 import { magnifiable, pairs } from "./motion.js";
 import { palette } from "./palette.js";
 import { heading } from "./placing.js";
@@ -12,11 +14,12 @@ import { walls } from "./walls.js";
 
 const TRAIL = 260; // samples
 const MOST = 6;
-const REACH = 140; // half the width of a picture, px
 const NAMES = {
   revolute: (joint) => `Journal of joint ${joint} in its bearing`,
   prismatic: (joint) => `Slider of joint ${joint} in its guide`,
   "pin-in-slot": (joint) => `Pin of joint ${joint} in its slot`,
+  "flat-follower": (joint) => `Follower of joint ${joint} on its cam`,
+  "roller-follower": (joint) => `Follower of joint ${joint} on its cam`,
 };
 
 export class Insets {
@@ -33,32 +36,50 @@ export class Insets {
     this.element = element("div", { class: "insets" }, this.joints.map(({ figure }) => figure));
   }
 
-  draw(time, { pose, contacts }) {
-    const { scene } = this.motion;
+  draw(time, state) {
     const colours = palette();
-    for (const { name, canvas, words } of this.joints) {
-      const joint = scene.joints[name];
-      const found = pairs(scene, name).map((pair) => contacts[pair]);
-      if (!found.every(Boolean) || !canvas.clientWidth) continue;
-      const limits = {
-        strongest: this.peak(name, "normal_force") || 1,
-        deepest: Math.max(this.peak(name, "penetration"), 1e-9),
-      };
-      const { shapes, exaggerated, deeper } = joint.type === "revolute"
-        ? bearing(joint.clearance, found[0], this.motion.trail(name, time, TRAIL), limits)
-        : walls(joint, heading(pose, joint), found, limits);
+    const places = new Map(this.joints.map((joint) => [joint.name, joint]));
+    for (const { name, force, factors, shapes } of this.pictures(time, state)) {
+      const { canvas, words } = places.get(name);
       const { clientWidth, clientHeight } = canvas;
+      if (!clientWidth) continue;
       const scale = Math.min(clientWidth, clientHeight) / (2 * REACH);
       const context = prepared(canvas);
       context.translate(clientWidth / 2, clientHeight / 2);
       context.scale(scale, scale);
       paint(context, shapes, frame([0, 0, 0, 0], 0, 0), colours);
-      const sum = found.reduce((total, { normal_force: one }) => total + one, 0);
-      const force = sum > 0 ? withUnit(sum, "N", 3) : "no contact";
-      const factors = `gap ×${short(exaggerated, 2)}, penetration ×${short(deeper, 2)}`;
       if (words.textContent === `${name} ${force}${factors}`) continue;
       fill(words, element("strong", {}, name), ` ${force}`, element("br"), factors);
     }
+  }
+
+  /** Returns what is seen of the joints at a time: `{name, force, factors, shapes}` of each. */
+  pictures(time, { pose, contacts }) {
+    const { scene } = this.motion;
+    return this.joints.flatMap(({ name }) => {
+      const joint = scene.joints[name];
+      const found = pairs(scene, name).map((pair) => contacts[pair]);
+      if (!found.every(Boolean)) return [];
+      const limits = {
+        strongest: this.peak(name, "normal_force") || 1,
+        deepest: Math.max(this.peak(name, "penetration"), 1e-9),
+      };
+      const { shapes, exaggerated, deeper } = this.magnified(name, time, pose, found, limits);
+      const sum = found.reduce((total, { normal_force: one }) => total + one, 0);
+      const force = sum > 0 ? withUnit(sum, "N", 3) : "no contact";
+      const factors = `gap ×${short(exaggerated, 2)}, penetration ×${short(deeper, 2)}`;
+      return [{ name, force, factors, shapes }];
+    });
+  }
+
+  magnified(name, time, pose, contacts, limits) {
+    const { scene } = this.motion;
+    const joint = scene.joints[name];
+    if (joint.type === "revolute") {
+      return bearing(joint.clearance, contacts[0], this.motion.trail(name, time, TRAIL), limits);
+    }
+    if (joint.type.endsWith("follower")) return follower(scene, joint, pose, contacts[0], limits);
+    return walls(joint, heading(pose, joint), contacts, limits);
   }
 
   /** Returns the largest value of a quantity of a joint in the run; 0 while it is not known. */

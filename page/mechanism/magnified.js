@@ -1,5 +1,6 @@
 /** Measures of magnified joints: gaps and penetrations that can be seen, and arrows of forces. */
 
+export const REACH = 140; // half the width of a picture, px
 export const GAP = 30; // width that play is drawn with, px
 export const DEEPEST = 12; // of the largest penetration, px
 const LONGEST = 44; // arrow of the largest force, px

@@ -9,11 +9,15 @@ const QUANTITIES = {
   revolute: ["eccentricity_x", "eccentricity_y", "normal_force"],
   prismatic: ["penetration", "normal_force"],
   "pin-in-slot": ["penetration", "normal_force"],
+  "flat-follower": ["penetration", "normal_force"],
+  "roller-follower": ["penetration", "normal_force"],
 };
 const PARTS = {
   revolute: [""],
   prismatic: [".corner_1", ".corner_2", ".corner_3", ".corner_4"],
   "pin-in-slot": [".wall_1", ".wall_2"],
+  "flat-follower": [""],
+  "roller-follower": [""],
 };
 
 /** The channels that the pictures of a scene are made of. */
@@ -59,17 +63,28 @@ export class Motion {
 
   /** Returns the chunk that holds a time, or null while it is fetched. */
   chunk(time) {
-    const index = Math.max(0, Math.floor(time / this.step / CHUNK + 1e-9));
+    const index = indexOf(time, this.step);
     const found = this.chunks.get(index);
     if (!found && !this.error) this.fetch(index);
     return found?.columns ?? null;
   }
 
+  /** Waits until the motion at a time is there. */
+  async ready(time) {
+    if (this.chunk(time)) return;
+    await this.chunks.get(indexOf(time, this.step))?.coming;
+    if (this.error) throw this.error;
+  }
+
   /** Fetches a chunk, unless that is done. */
-  async fetch(index) {
+  fetch(index) {
     if (this.chunks.has(index)) return;
     const entry = { columns: null, complete: false };
     this.chunks.set(index, entry);
+    entry.coming = this.fill(entry, index);
+  }
+
+  async fill(entry, index) {
     if (this.chunks.size > KEPT) this.chunks.delete(this.chunks.keys().next().value);
     const start = Math.max(0, (index * CHUNK - 0.5) * this.step);
     const stop = ((index + 1) * CHUNK + 1.5) * this.step;
@@ -142,6 +157,10 @@ export class Motion {
     for (let i = Math.max(0, index - count); i <= index; i++) path.push([x[i], y[i]]);
     return path;
   }
+}
+
+function indexOf(time, step) {
+  return Math.max(0, Math.floor(time / step / CHUNK + 1e-9));
 }
 
 /** Returns the index of the last time that is not later, and the share of the way to the next. */

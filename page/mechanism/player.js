@@ -12,8 +12,9 @@ export function player(clock, impacts = null) {
   const slider = element("input", {
     type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Time",
     oninput: () => {
+      const share = slider.value / STEPS; // a clock that stops shows its own time here
       clock.stop();
-      clock.seek(clock.first + (slider.value / STEPS) * (clock.last - clock.first));
+      clock.seek(clock.first + share * (clock.last - clock.first));
     },
   });
   const speed = element(

@@ -18,24 +18,35 @@ export class Stage {
 
   /** Draws the mechanism at a time; returns its states, of each motion one or null. */
   draw(time) {
-    const states = this.motions.map((motion) => motion.at(time));
-    if (!this.canvas.clientWidth) return states;
+    if (!this.canvas.clientWidth) return this.motions.map((motion) => motion.at(time));
     this.reach(time);
     const context = prepared(this.canvas);
+    const { clientWidth, clientHeight } = this.canvas;
+    const states = this.paint(context, time, clientWidth, clientHeight);
     if (!this.box) {
       this.say(context, this.motions.find(({ error }) => error)?.error.message ?? "Loading the motion …");
-      return states;
     }
-    const view = this.view();
-    const colours = palette();
-    states.forEach((state, i) => {
-      if (!state) return;
-      context.globalAlpha = 1;
-      paint(context, this.shapes(state.pose, i), view, this.tinted(colours, i));
-    });
     if (states.some(Boolean)) this.frames += 1;
     this.canvas.dataset.frames = String(this.frames);
     return states;
+  }
+
+  /** Draws the mechanism into a picture of some width and height; returns its states. */
+  paint(context, time, width, height) {
+    const states = this.motions.map((motion) => motion.at(time));
+    const view = this.box && this.view(width, height);
+    const colours = palette();
+    states.forEach((state, i) => {
+      if (!state || !view) return;
+      context.globalAlpha = 1;
+      paint(context, this.shapes(state.pose, i), view, this.tinted(colours, i));
+    });
+    return states;
+  }
+
+  /** Waits until the motions at a time are there. */
+  async ready(time) {
+    for (const motion of this.motions) await motion.ready(time);
   }
 
   say(context, sentence) {
@@ -58,8 +69,8 @@ export class Stage {
     return { ...colours, ...Object.fromEntries(tints), edge: own };
   }
 
-  view() {
-    return frame(this.box, this.canvas.clientWidth, this.canvas.clientHeight, 42);
+  view(width = this.canvas.clientWidth, height = this.canvas.clientHeight) {
+    return frame(this.box, width, height, 42);
   }
 
   /** Lets the frame grow so that everything fits that was loaded around a time. */

@@ -10,13 +10,13 @@ import { drawHorizon, drawImpacts } from "./marks.js";
 import { Panning } from "./panning.js";
 
 const HEIGHT = 150; // px of a plot
-const QUIET = 60; // ms without a change of the window before it is fetched
+const QUIET = 60; // ms without a change of the window until it stands
 
 export class HistoryPlots {
   /**
    * @param jobs jobs as the service shows them, compared in the same plots
    * @param clock time that is shown beside; a click sets it
-   * @param onWindow called with `[start, stop]` whenever the window has changed; nulls: all
+   * @param onWindow called with `[start, stop]` when the window has changed and stands; nulls: all
    */
   constructor(jobs, clock, signal, onWindow = () => {}) {
     Object.assign(this, { jobs, clock, signal, onWindow, plots: new Map(), onsets: [] });
@@ -46,8 +46,6 @@ export class HistoryPlots {
     for (const { plot } of this.plots.values()) {
       plot.setScale("x", { min: this.window[0], max: this.window[1] });
     }
-    const whole = width >= this.all[1] - this.all[0];
-    this.onWindow(whole ? [null, null] : this.window);
     this.later();
   }
 
@@ -72,10 +70,16 @@ export class HistoryPlots {
     if (whole) this.setWindow([...this.all]);
   }
 
+  /** Tells of the window and fetches it once it stands still: a new address costs a frame. */
   later() {
     this.fetching.abort();
     this.fetching = new AbortController();
-    pause(QUIET, this.fetching.signal).then(() => this.fetch(), () => {});
+    pause(QUIET, this.fetching.signal).then(() => {
+      if (this.signal.aborted) return; // the view was left, and the address is another's
+      const whole = this.window[1] - this.window[0] >= this.all[1] - this.all[0];
+      this.onWindow(whole ? [null, null] : this.window);
+      this.fetch();
+    }, () => {});
   }
 
   async fetch() {

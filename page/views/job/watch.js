@@ -80,7 +80,7 @@ class Watch {
       player(clock, () => this.impacts),
       element("div", { class: "buttons" },
         element("label", { class: "buttons small", for: "labels" }, labels, "Names"),
-        saving(stage, clock, scene.name)),
+        saving({ stage, clock, insets: this.insets, impacts: () => this.impacts, name: scene.name })),
       this.insets.joints.length > 0 && this.insets.element,
     );
   }
