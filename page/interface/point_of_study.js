@@ -37,7 +37,7 @@ export function offer(room, study, values, words, beside, signal) {
 
 /** Returns the document of the run of a study's scene with these values. */
 async function simulation({ scene: given, tolerance, method, duration }, values, signal) {
-  const document = await sceneOf({ scene: given }, signal);
+  const document = await sceneOf({ scene: given });
   const declared = given.parameters ?? {};
   const set = given.preset
     ? { ...Object.fromEntries(Object.entries(declared).filter(([, value]) => value !== null)), ...values }

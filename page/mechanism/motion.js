@@ -1,10 +1,11 @@
 /** The motion of a job: poses and contacts at any time, from the history that it has stored. */
 
 import { play } from "./placing.js";
+import { turn } from "./sketch.js";
 import { getArrays } from "../requests/arrays.js";
 
-const CHUNK = 2048; // samples that are fetched at once
-const KEPT = 24; // chunks
+const CHUNK = [256, 2048]; // samples that are fetched at once, at least and at most
+const KEPT = 49152; // samples
 const QUANTITIES = {
   revolute: ["eccentricity_x", "eccentricity_y", "normal_force"],
   prismatic: ["penetration", "normal_force"],
@@ -59,20 +60,34 @@ export class Motion {
     this.missing = Object.keys(scene.bodies).filter((body) => !stored.has(`${body}.x`)
       || !stored.has(`${body}.y`) || !stored.has(`${body}.theta`));
     this.chunks = new Map();
+    // a turn: the first shows how far the mechanism reaches, and comes soon
+    const wanted = Math.ceil((turn(scene) ?? 0) / this.step);
+    this.count = Math.min(Math.max(wanted, CHUNK[0]), CHUNK[1]);
   }
 
   /** Returns the chunk that holds a time, or null while it is fetched. */
   chunk(time) {
-    const index = indexOf(time, this.step);
+    const index = this.indexOf(time);
     const found = this.chunks.get(index);
     if (!found && !this.error) this.fetch(index);
     return found?.columns ?? null;
   }
 
+  indexOf(time) {
+    return Math.max(0, Math.floor(time / this.step / this.count + 1e-9));
+  }
+
+  /** Fetches what follows soon, if it is computed. */
+  prepare(time) {
+    const span = this.count * this.step;
+    const next = this.indexOf(time + span / 2);
+    if (next > this.indexOf(time) && next * span < this.job.progress.time) this.fetch(next);
+  }
+
   /** Waits until the motion at a time is there. */
   async ready(time) {
     if (this.chunk(time)) return;
-    await this.chunks.get(indexOf(time, this.step))?.coming;
+    await this.chunks.get(this.indexOf(time))?.coming;
     if (this.error) throw this.error;
   }
 
@@ -85,9 +100,9 @@ export class Motion {
   }
 
   async fill(entry, index) {
-    if (this.chunks.size > KEPT) this.chunks.delete(this.chunks.keys().next().value);
-    const start = Math.max(0, (index * CHUNK - 0.5) * this.step);
-    const stop = ((index + 1) * CHUNK + 1.5) * this.step;
+    if (this.chunks.size > KEPT / this.count) this.chunks.delete(this.chunks.keys().next().value);
+    const start = Math.max(0, (index * this.count - 0.5) * this.step);
+    const stop = ((index + 1) * this.count + 1.5) * this.step;
     try {
       const query = { channels: this.names.join(","), start, stop };
       const { columns, complete } = await getArrays(this.job.links.history, query, this.signal);
@@ -114,6 +129,7 @@ export class Motion {
   at(time) {
     const columns = this.chunk(time);
     if (!columns) return null;
+    this.prepare(time);
     const { index, share } = between(columns.time, time);
     const value = (name) => {
       const values = columns[name];
@@ -149,18 +165,22 @@ export class Motion {
   /** Returns the journal's path of a joint up to a time: `[[x, y], …]`, at most `count` samples. */
   trail(joint, time, count) {
     const columns = this.chunk(time);
-    const x = columns?.[`${joint}.eccentricity_x`];
-    const y = columns?.[`${joint}.eccentricity_y`];
-    if (!x || !y) return [];
+    if (!columns) return [];
     const { index } = between(columns.time, time);
-    const path = [];
-    for (let i = Math.max(0, index - count); i <= index; i++) path.push([x[i], y[i]]);
-    return path;
+    const path = stretch(columns, joint, index - count + 1, index + 1);
+    const before = this.chunks.get(this.indexOf(time) - 1)?.columns;
+    if (path.length >= count || !before) return path;
+    const last = before.time.findLastIndex((one) => one < columns.time[0]); // they overlap
+    return [...stretch(before, joint, last + 1 - (count - path.length), last + 1), ...path];
   }
 }
 
-function indexOf(time, step) {
-  return Math.max(0, Math.floor(time / step / CHUNK + 1e-9));
+/** Returns the places of a journal in its bearing from one sample to before another. */
+function stretch(columns, joint, from, to) {
+  const [x, y] = ["x", "y"].map((one) => columns[`${joint}.eccentricity_${one}`]);
+  const path = [];
+  for (let i = Math.max(0, from); x && y && i < to; i++) path.push([x[i], y[i]]);
+  return path;
 }
 
 /** Returns the index of the last time that is not later, and the share of the way to the next. */

@@ -29,7 +29,7 @@ export async function show(room, { query, signal }) {
     fill(room, head, element("p", { class: "panel" }, "Choose jobs above, or mark them in the list of jobs."));
     return;
   }
-  const scenes = await Promise.all(jobs.map((job) => sceneOf(job.job, signal)));
+  const scenes = await Promise.all(jobs.map((job) => sceneOf(job.job)));
   const clock = new Clock(0, Math.max(...jobs.map((job) => job.progress.time), 1e-9));
   clock.speed = watchable(Math.min(turn(scenes[0]) ?? Infinity, clock.last));
   const draw = () => stage.draw(clock.time);

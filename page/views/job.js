@@ -3,6 +3,7 @@
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
 import { address, go } from "../interface/place.js";
+import { preset } from "../interface/scene_of_job.js";
 import { parameterWords, progressWords, sceneName, stateMark } from "../interface/state.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { TERMINAL, follow } from "../requests/following.js";
@@ -23,6 +24,7 @@ const PATIENCE = 1500; // ms in the queue after which is asked who is there to c
 
 export async function show(room, { parts, query, signal }) {
   const [id, wanted] = parts;
+  TABS[wanted ?? "watch"]?.[1]().catch(() => {}); // its modules come along with the job
   const job = await get(`/v1/jobs/${encodeURIComponent(id ?? "")}`, {}, signal);
   const tabs = Object.entries(TABS).filter(([, [, , links]]) => links.some((one) => job.links[one]));
   const tab = tabs.find(([name]) => name === wanted) ?? tabs[0];
@@ -116,11 +118,9 @@ class Head {
   }
 
   async showParameters(place) {
-    const { preset, parameters } = this.job.job.scene ?? {};
-    const declared = preset
-      ? (await get(`/v1/scenes/${preset}`, {}, this.signal).catch(() => ({}))).parameters
-      : Object.fromEntries(Object.entries(parameters ?? {}).map(([name]) => [name, {}]));
-    const words = preset ? parameterWords(this.job.job, declared) : "";
+    const { preset: name } = this.job.job.scene ?? {};
+    const declared = name && (await preset(name).catch(() => ({}))).parameters;
+    const words = name ? parameterWords(this.job.job, declared) : "";
     fill(place, element("dt", {}, "Set"), element("dd", {}, words));
     place.hidden = !words;
   }

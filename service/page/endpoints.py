@@ -3,12 +3,19 @@
 They are no part of the API: the OpenAPI document does not list them.
 """
 
+import re
 from typing import Final
 
 from fastapi import APIRouter, Request, Response
 
 from jointplay.service.dependencies import SettingsDependency
-from jointplay.service.page.files import PageFile, page_file, report_file
+from jointplay.service.page.files import (
+    VERSION_LENGTH,
+    PageFile,
+    page_file,
+    report_file,
+    version,
+)
 from jointplay.service.problems import RequestRefused, clipped, kinds
 
 router = APIRouter(include_in_schema=False)
@@ -44,6 +51,8 @@ _HEADERS: Final = {
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-cache",  # asks again after an upgrade, and is told 304 otherwise
 }
+_FOREVER: Final = {"Cache-Control": "public, max-age=31536000, immutable"}
+_VERSIONED: Final = re.compile(rf"([0-9a-f]{{{VERSION_LENGTH}}})/(.+)")
 
 
 @router.api_route("/", methods=["GET", "HEAD"])
@@ -66,8 +75,18 @@ def show_icon(request: Request) -> Response:
 
 @router.api_route("/page/{name:path}", methods=["GET", "HEAD"])
 def show_file(request: Request, name: str) -> Response:
-    """Show a style, module or picture of the page."""
-    return _file(request, name)
+    """Show a style, module or picture of the page.
+
+    HTML names them with their version, and modules one another beside themselves, so that browsers
+    ask for each once. Under another version, as between two APIs during an upgrade, it is not kept.
+    """
+    versioned = _VERSIONED.fullmatch(name)
+    if versioned is None:
+        return _file(request, name)
+    answer = _file(request, versioned[2])
+    if versioned[1] == version():
+        answer.headers.update(_FOREVER)
+    return answer
 
 
 @router.api_route("/report", methods=["GET", "HEAD"])

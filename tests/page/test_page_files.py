@@ -1,12 +1,15 @@
 """The files of the page: served from the package, allowed to load nothing from elsewhere."""
 
 import hashlib
+import os
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 
 from jointplay.service.app import create_app
+from jointplay.service.page.files import page_file, version
 from jointplay.storage.settings import Settings
 from tests.service_in_thread import client_of, serving
 
@@ -33,6 +36,32 @@ def test_the_page_is_served_under_a_strict_policy(http, address):
     again = http.get(address, headers={"If-None-Match": answer.headers["ETag"]})
     assert (again.status_code, again.content) == (304, b"")
     assert http.head(address).status_code == 200
+
+
+def test_browsers_keep_what_html_names_and_ask_for_html(http):
+    html = http.get("/")
+    assert html.headers["Cache-Control"] == "no-cache"
+    named = re.findall(r'"(/page/[^"]*)"', html.text)
+    assert len(named) > 4
+    for address in named:
+        assert http.get(address).headers["Cache-Control"].endswith("immutable")
+    own = named[0].split("/")[2]
+    assert http.get(f"/page/{own}/views/job.js").status_code == 200
+    for other in ("/page/start.js", f"/page/{'0' * len(own)}/start.js"):
+        assert http.get(other).headers["Cache-Control"] == "no-cache"
+    assert http.get(f"/page/{own}/none.js").status_code == 404
+
+
+def test_a_changed_file_changes_the_version(tmp_path):
+    folder = tmp_path / "page"
+    shutil.copytree(PAGE, folder, ignore=shutil.ignore_patterns("vendor", "__pycache__"))
+    before = version(folder)
+    start = folder / "start.js"
+    start.write_text(start.read_text().replace("Mechanisms", "Mechanismz"))
+    after = version(folder)
+    os.utime(start, ns=(0, 0))  # as on another machine
+    assert before != after == version(folder)
+    assert after.encode() in page_file("index.html", folder).content
 
 
 def test_the_report_that_the_operator_names_is_shown_and_carries_nothing_out(tmp_path):

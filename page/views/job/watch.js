@@ -36,7 +36,7 @@ class Watch {
 
   async begin() {
     const { job, query, signal } = this;
-    const scene = await sceneOf(job.job, signal);
+    const scene = await sceneOf(job.job);
     this.clock = new Clock(0, TERMINAL.has(job.state) && !job.error && job.state === "succeeded"
       ? job.job.duration : Math.max(job.progress.time, 1e-9));
     this.clock.speed = watchable(Math.min(turn(scene) ?? Infinity, job.job.duration));
@@ -55,10 +55,12 @@ class Watch {
     signal.addEventListener("abort", () => this.clock.stop());
     this.clock.listen(() => this.draw());
     this.clock.seek(Number(query.get("t") ?? 0));
-    const plots = this.plots(plotRoom, scene);
     this.listen();
     if (!calm() && !query.has("t")) this.clock.play();
-    await Promise.all([plots, this.facts()]);
+    if (!this.motion.missing.length) {
+      await this.motion.ready(this.clock.time).catch(() => {}); // what is asked besides would delay it
+    }
+    if (!signal.aborted) await Promise.all([this.plots(plotRoom, scene), this.facts()]);
   }
 
   drawing(scene) {
