@@ -98,6 +98,12 @@ export class HistoryPlots {
     }
   }
 
+  /** Draws what is known besides the curves: `onsets` of contacts, the `certificate`. */
+  mark(known) {
+    Object.assign(this, known);
+    if (this.data && this.channels.every((channel) => channel in this.data)) this.draw();
+  }
+
   draw() {
     const same = this.channels.join() === [...this.plots.keys()].join();
     if (!same || !this.plots.size) this.rebuild();

@@ -12,7 +12,7 @@ export class SpectrumPlot {
   constructor(signal) {
     this.room = element("div");
     this.value = element("p", { class: "quiet small" }, "\u00a0");
-    this.element = element("div", { role: "img" }, this.room, this.value);
+    this.element = element("div", { role: "img", "aria-label": "Power over frequency" }, this.room, this.value);
     onNewColours(() => this.draw(), signal);
     new ResizeObserver(() => this.plot?.setSize({ width: this.room.clientWidth, height: HEIGHT }))
       .observe(this.room);

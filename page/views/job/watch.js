@@ -104,7 +104,7 @@ class Watch {
     this.history.onsets = this.impacts;
     const choice = new ChannelChoice(job.job.channels, chosen(query, job, scene), (names) => {
       note({ channels: names.join(",") });
-      this.history.show(names);
+      this.history.show(names).then(() => this.certify());
     });
     room.append(this.history.element, choice.element);
     if (query.has("from") && query.has("to")) {
@@ -112,6 +112,7 @@ class Watch {
     }
     this.follow();
     await this.history.show(choice.names);
+    await this.certify();
   }
 
   /** Shows the same window otherwise. */
@@ -119,23 +120,25 @@ class Watch {
     for (const look of this.looks) look.follow(this.history.window);
   }
 
-  /** What is drawn besides, as far as it is there: peaks, impacts, the certificate. */
+  /** What is drawn besides, as far as it is there: peaks and impacts. */
   async facts() {
     const { links } = this.job;
-    const ask = (path, query) => (path ? get(path, query, this.signal).catch(() => null) : null);
-    const [peaks, impacts, certificate] = await Promise.all([
-      ask(links.peaks), ask(links.impacts), ask(TERMINAL.has(this.job.state) && links.certificate, {
-        channels: this.job.job.channels.slice(0, 60).join(","),
-      }),
-    ]);
+    const ask = (path) => (path ? get(path, {}, this.signal).catch(() => null) : null);
+    const [peaks, impacts] = await Promise.all([ask(links.peaks), ask(links.impacts)]);
     this.insets.peaks = peaks?.peaks ?? {};
     this.impacts = (impacts?.impacts ?? []).map(({ onset }) => onset).sort((a, b) => a - b);
-    if (this.history) {
-      Object.assign(this.history, { onsets: this.impacts, certificate });
-      this.history.rebuild();
-      if (this.history.data) this.history.draw();
-    }
+    this.history?.mark({ onsets: this.impacts });
     this.clock.tell();
+  }
+
+  /** Shows how far the curves hold that are shown, once that is known. */
+  async certify() {
+    const { links, state } = this.job;
+    const names = this.history.channels.join(",");
+    if (!links.certificate || !TERMINAL.has(state)) return;
+    const found = await get(links.certificate, { channels: names }, this.signal).catch(() => null);
+    if (names !== this.history.channels.join(",")) return; // others are shown meanwhile
+    this.history.mark({ certificate: found });
   }
 
   /** Shows what a running job has computed meanwhile. */
@@ -146,7 +149,9 @@ class Watch {
       this.motion.refresh();
       this.clock.extend(Math.max(reached, this.clock.last));
       this.history?.extend(this.clock.last);
-      if (over) this.facts();
+      if (!over) return;
+      this.facts();
+      if (this.history?.channels) this.certify();
     });
   }
 }
