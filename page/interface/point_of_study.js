@@ -15,14 +15,14 @@ import { post } from "../requests/service.js";
  * @param words what is known of the point
  * @param beside what stands beside the button, in short
  */
-export function offer(room, study, values, words, beside, signal) {
+export function offer(room, study, values, words, beside) {
   const named = (digits) => Object.entries(values).map(([name, [value, unit]]) =>
     `${name} = ${withUnit(value, unit, digits)}`).join(", ");
   const run = async ({ target }) => {
     target.disabled = true;
     try {
       const plain = Object.fromEntries(Object.entries(values).map(([name, [value]]) => [name, value]));
-      const job = await post("/v1/jobs", { ...(await simulation(study.job, plain, signal)), label: named(4) });
+      const job = await post("/v1/jobs", { ...(await simulation(study.job, plain)), label: named(4) });
       go(["job", job.id]);
     } catch (error) {
       fill(room, element("div", { class: "notice bad" }, error.message));
@@ -36,7 +36,7 @@ export function offer(room, study, values, words, beside, signal) {
 }
 
 /** Returns the document of the run of a study's scene with these values. */
-async function simulation({ scene: given, tolerance, method, duration }, values, signal) {
+async function simulation({ scene: given, tolerance, method, duration }, values) {
   const document = await sceneOf({ scene: given });
   const declared = given.parameters ?? {};
   const set = given.preset

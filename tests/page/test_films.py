@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from tests.page.conftest import submitted
+from tests.page.test_own_mechanism import paste
 from tests.page.test_watching import MOVED
 from tests.solver import cams, sliders
 
@@ -148,7 +149,7 @@ def test_a_slider_and_a_cam_are_shown(browsing, url, artifacts):
         drawn(page, "Follower of joint cam on its cam", "ground", 2000)
         page.screenshot(path=artifacts / "follower.png")
     with browsing.page(f"{url}/#/editor") as page:
-        page.get_by_label("Scene document").fill(json.dumps(cams.valve(joint)))
+        paste(page, json.dumps(cams.valve(joint)))
         page.get_by_text("Degrees of freedom: 1").wait_for()
         drawn(page, EDITED, "ground", 2000)
         page.screenshot(path=artifacts / "cam.png")

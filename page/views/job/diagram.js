@@ -142,6 +142,6 @@ class Diagram {
     const lines = [`${nearest.sections.length} sections`, nearest.verdict, nearest.reason].filter(Boolean);
     const exponent = nearest.exponent === null ? "" : `exponent ${short(nearest.exponent, 3)} 1/s`;
     const values = { [this.parameter]: [nearest.value, this.unit] };
-    offer(this.chosen, this.job, values, lines.join("; "), exponent, this.signal);
+    offer(this.chosen, this.job, values, lines.join("; "), exponent);
   }
 }

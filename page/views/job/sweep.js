@@ -101,7 +101,7 @@ class Sweep {
     const { name, unit, curves } = this.quantities.shown(palette());
     const words = curves.filter((one) => one.values).map(({ title, values: all }) =>
       `${title} ${withUnit(all[point], unit)}`).join(", ");
-    offer(this.chosen, this.job, values, `${name}: ${words}`, "", this.signal);
+    offer(this.chosen, this.job, values, `${name}: ${words}`, "");
   }
 
   list(curves, unit) {
