@@ -5,7 +5,9 @@ from typing import Final
 import numpy as np
 
 from jointplay.figures import page
+from jointplay.figures.turns import within_a_turn
 from jointplay.records.arrays import Floats, Integers
+from jointplay.records.channel import by_name
 from jointplay.records.study import StudySource
 
 MOST_VALUES: Final = 4_000_000
@@ -18,7 +20,10 @@ _LARGEST, _SMALLEST = 2.5, 0.4  # diameter, points
 
 
 def sections(source: StudySource, observable: str, points: slice) -> Floats:
-    """Give (points, k) values at sections, evenly chosen if there are more than can be shown."""
+    """Give (points, k) values at sections, evenly chosen if there are more than can be shown.
+
+    Angles that go round are within one turn.
+    """
     count = points.stop - points.start
     stride = max(1, -(-count * source.record // MOST_VALUES))
     rows = max(1, _BLOCK // max(source.record, 1))
@@ -26,7 +31,10 @@ def sections(source: StudySource, observable: str, points: slice) -> Floats:
         source.sections(observable, first, min(first + rows, points.stop))[:, ::stride]
         for first in range(points.start, points.stop, rows)
     ]
-    return np.concatenate(parts)
+    values = np.concatenate(parts)
+    return (
+        within_a_turn(values) if by_name(source.observables)[observable].unit == "rad" else values
+    )
 
 
 def size(count: int) -> float:

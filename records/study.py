@@ -124,6 +124,8 @@ class StudyDataset:
         (points, record) times [s] and, by observable, values; NaN where nothing was recorded.
     extremes
         By channel.
+    recorded
+        (points,) sections that were recorded, where `times` has a window of them.
     """
 
     attributes: Mapping[str, Any]
@@ -142,6 +144,7 @@ class StudyDataset:
     verdict_names: Sequence[str] = ()
     reasons: Mapping[int, str] = field(default_factory=dict)
     documents: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
+    recorded: NDArray[np.int64] | None = None
 
     @property
     def kind(self) -> str:
@@ -166,6 +169,8 @@ class StudyDataset:
     @property
     def counts(self) -> NDArray[np.int64]:
         """(points,) sections that were recorded."""
+        if self.recorded is not None:
+            return self.recorded
         return np.asarray(np.isfinite(self.times).sum(axis=1), dtype=np.int64)
 
     def section_times(self, start: int = 0, stop: int | None = None) -> Floats:

@@ -53,6 +53,8 @@ def on_axes(study: StudySource) -> "xr.Dataset":
     for one in study.observables:
         variables[one.name] = ([*axes, "section"], laid_out(study.sections(one.name)), _told(one))
     if study.observables:
+        told = {"units": "1", "long_name": "sections that were recorded"}
+        variables["sections"] = (axes, laid_out(study.counts), told)
         told = {"units": "s", "long_name": "time"}
         variables["time"] = ([*axes, "section"], laid_out(study.section_times()), told)
     return xr.Dataset(variables, coordinates)

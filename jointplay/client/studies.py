@@ -50,7 +50,9 @@ def with_sections(
     channels = pages[0]["channels"]
     found = {name: table(name) for name in channels}
     observables = _channels(channels)
-    return _study(job, pages, observables=observables, times=table(""), section_values=found)
+    recorded = np.array([count for page in pages for count in page["counts"]], np.int64)
+    sections_found: dict[str, Any] = {"section_values": found, "recorded": recorded}
+    return _study(job, pages, observables=observables, times=table(""), **sections_found)
 
 
 def with_extremes(job: JobRecord, fetch: Callable[..., Document]) -> StudyDataset:

@@ -141,6 +141,8 @@ class TabledJob(JobRecord, ABC):
         # one section of each: they are not in this table
         study = self.results.study(None, None, None if "sweep" in self.links else (0, 1))
         columns = _values(study)
+        if study.observables:
+            columns["sections"] = study.counts
         columns["status"] = [PointStatus(code).name for code in study.status]
         codes = {point: failure.code for point, failure in study.failures.items()}
         columns["failure"] = [codes.get(point, "") for point in range(study.points)]

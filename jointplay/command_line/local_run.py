@@ -86,4 +86,4 @@ def _lines(job: "Job", found: dict[str, Any], table: Path) -> Iterator[str]:
     if peaks is not None:
         yield f"all {len(peaks)} channels are in {table}"
     if points is not None:
-        yield f"all {points.points} points are in {table}"
+        yield f"the table of points is {table}"

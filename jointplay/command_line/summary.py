@@ -76,12 +76,24 @@ def _summary_of(source: "StudySource") -> dict[str, Any]:
     return {
         "number": source.points,
         "status": {word: counts[word] for word in PointStatus.__members__},
+        "sections": _sections_of(source),
         "verdicts": None if verdicts is None else dict(verdicts.most_common()),
         "reasons": [{"point": point, "reason": reason} for point, reason in source.reasons.items()],
         "failures": [
             {"point": point, **failure._asdict()} for point, failure in source.failures.items()
         ],
     }
+
+
+def _sections_of(source: "StudySource") -> dict[str, int] | None:
+    """Return the fewest and most sections of a point that is done; None where none is taken."""
+    from jointplay.records.point import PointStatus
+
+    done = source.status == PointStatus.done
+    if not source.observables or not done.any():
+        return None
+    counts = source.counts[done]
+    return {"fewest": int(counts.min()), "most": int(counts.max())}
 
 
 def units(source: "StudySource") -> dict[str, str]:
@@ -103,6 +115,11 @@ def _study_lines(source: "StudySource") -> Iterator[str]:
         if counts is not None:
             listed = ", ".join(f"{number} {word}" for word, number in counts.items() if number)
             yield f"{heading:9} {listed}"
+    if (sections := summary["sections"]) is not None:
+        fewest, most = sections.values()
+        yield "sections  " + (
+            f"{most} a point" if fewest == most else f"{fewest} to {most} a point"
+        )
     if source.points == 1 and 0 in source.reasons:
         yield from textwrap.wrap(source.reasons[0], 100, initial_indent="because   ")
     done = source.status == PointStatus.done

@@ -146,8 +146,10 @@ def _rows(source: StudySource, points: range, name: str) -> Iterator[str]:
 def columns_of_points(
     source: StudySource, channels: Sequence[str], units: Mapping[str, str]
 ) -> dict[str, Floats]:
-    """Return extremes, indicators and statistics of all points, by title with unit."""
+    """Return counts of sections, extremes, indicators and statistics of all points, by title."""
     columns: dict[str, Floats] = {}
+    if source.observables:
+        columns["sections [1]"] = source.counts.astype(np.float64)
     described = {one.name: one.unit for one in source.channels}
     for name in channels:
         peaks, unit = source.peaks(name), described[name]

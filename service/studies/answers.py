@@ -114,6 +114,7 @@ def _judged(store: StudyReader, points: range, following: int | None) -> dict[st
     codes, names = store.verdicts, store.verdict_names
     return {
         **_points(store, points, following),
+        "counts": store.counts[part].tolist(),
         "indicators": _described(store, store.indicators, part),
         "verdicts": None
         if codes is None

@@ -41,6 +41,9 @@ class StudyPoints(Partial):
 class JudgedPoints(StudyPoints):
     """Points with what tells regular from chaotic motion."""
 
+    counts: list[int] = Field(
+        description="Sections that each point has recorded, also where a window shows fewer."
+    )
     indicators: dict[str, Series] = Field(
         description="By name, the uncertainties as `…_error`: lyapunov, zero_one, period, rotation "
         "and others, as far as they were asked for."

@@ -19,7 +19,10 @@ def test_a_study_comes_as_arrays(client, finished_study):
     assert [(one.name, one.unit) for one in study.parameters] == [("clearance", "m")]
     assert np.flatnonzero(study.status == PointStatus.failed).tolist() == [3, 17]
     assert study.failures[17].code == "step-size-underflow"
-    assert study.counts.tolist() == [3 if point in (3, 17) else 6 for point in range(20)]
+    counts = [3 if point in (3, 17) else 6 for point in range(20)]
+    assert study.counts.tolist() == counts
+    assert client.job(finished_study).points["sections"].tolist() == counts
+    assert client.job(finished_study).dataset["sections"].values.tolist() == counts
     names = client.job(finished_study).job["observables"]
     column = names.index("A.eccentricity_rate_x")
     rows = study.sections("A.eccentricity_rate_x")

@@ -130,6 +130,7 @@ def test_a_study_is_shown_with_what_became_of_its_points(
     assert shown.code == 0
     assert "bifurcation" in shown.out
     assert "18 done, 2 failed" in shown.out
+    assert "sections  6 a point" in shown.out
     assert "verdicts  5 undecided, 5 quasi-periodic, 4 periodic, 4 chaotic" in shown.out
     assert "point 3 (clearance = 0.000242105): The step fell below 1e-15 s." in shown.out
     shown = jointplay("show", finished_sweep, *at)

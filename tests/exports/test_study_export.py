@@ -54,6 +54,8 @@ def test_points_have_a_word_for_what_became_of_them_and_a_verdict():
     assert (rows[1][2], rows[1][4]) == ("", "step-size-underflow")
     names = source.verdict_names
     assert rows[3][2] == names[source.verdicts[3]]
+    sections = header.index("sections [1]")
+    assert [float(row[sections]) for row in rows] == source.counts.tolist()
     column = header.index("lyapunov [1/s]")
     assert float(rows[3][column]) == source.indicators["lyapunov"][3]
     assert rows[1][column] == "nan"

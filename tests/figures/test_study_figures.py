@@ -162,6 +162,22 @@ def test_a_section_shows_each_position_against_its_rate():
     np.testing.assert_allclose(marks, expected * 1e3)
 
 
+def test_angles_that_go_round_are_drawn_within_one_turn():
+    turns = 2.0 * np.pi * np.arange(5)
+    sections = {"rod.theta": np.stack([turns + 3.1, turns - 3.1]), "rod.omega": np.ones((2, 5))}
+    described = [Channel("rod.theta", "rad", "angle"), Channel("rod.omega", "rad/s", "rate")]
+    spun = replace(bifurcation(points=2, record=5), observables=described, section_values=sections)
+    (axes,) = drawn_with(spun, "bifurcation", None).axes
+    (marks,) = marks_of(axes).values()
+    expected = np.repeat([3.1, 2.0 * np.pi - 3.1], 5)  # on both sides of pi, not of its ends
+    np.testing.assert_allclose(marks[:, 1], expected, rtol=1e-12)  # rounding of some turns
+    assert axes.get_ylabel() == "rod.theta [rad]"
+    still = replace(spun, section_values={**sections, "rod.theta": np.array([[4.0] * 5] * 2)})
+    (axes,) = drawn_with(still, "section", Selection(start=0, stop=1)).axes
+    (marks,) = marks_of(axes).values()
+    np.testing.assert_array_equal(marks[:, 0], 4.0)  # nothing turns: as it is
+
+
 def test_verdicts_colour_the_sections_of_an_ensemble():
     source = replace(one_point("ensemble", 4, record=5), verdicts=np.array([1, 3, 3, 1]))
     axes, _ = drawn_with(source, "section", None).axes

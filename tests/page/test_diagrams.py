@@ -1,9 +1,17 @@
 """From a form to a bifurcation diagram, and from a click on it to that simulation."""
 
+import math
 import re
+
+import pytest
 
 from tests.page.browsing import barriers, expect
 from tests.page.test_watching import MOVED
+
+TURNED = """async (angles) => {
+  const { intoATurn } = await import("/page/plots/turns.js");
+  return angles.map(intoATurn(angles));
+}"""
 
 
 def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
@@ -34,6 +42,9 @@ def test_a_click_on_a_diagram_runs_that_simulation(browsing, url, artifacts):
 def test_a_sweep_over_two_parameters_is_a_map(browsing, service_url, finished_sweep, artifacts):
     with browsing.page(f"{service_url}/#/job/{finished_sweep}") as page:
         page.get_by_role("img", name=re.compile("over clearance and friction")).wait_for()
+        round_pi = [3.1, 3.1 - 2 * math.pi, 3.2 + 4 * math.pi]  # angles that go round, at pi
+        assert page.evaluate(TURNED, round_pi) == pytest.approx([3.1, 3.1, 3.2])
+        assert page.evaluate(TURNED, [1.0, 7.0]) == [1.0, 7.0]
         page.get_by_label("Quantity").select_option("minimum")
         expect(page).to_have_url(re.compile("of=minimum"))
         page.get_by_role("img", name="minimum of").wait_for()

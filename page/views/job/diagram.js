@@ -9,6 +9,7 @@ import { onNewColours, palette } from "../../mechanism/palette.js";
 import { drawAxes, extent, scales } from "../../plots/axes.js";
 import { drawCloud } from "../../plots/cloud.js";
 import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
+import { intoATurn } from "../../plots/turns.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
 
@@ -79,6 +80,10 @@ class Diagram {
       reason: page.reasons?.[i],
       exponent: page.indicators.lyapunov?.values[i] ?? null,
     })));
+    if (answer.sections.unit === "rad") {
+      const shown = intoATurn(this.points.flatMap(({ sections }) => sections));
+      for (const one of this.points) one.sections = one.sections.map(shown);
+    }
     const done = this.points.filter(({ status }) => status === "done").length;
     this.canvas.setAttribute("aria-label", `${answer.observable} at the sections over ${parameter}: `
       + `${done} of ${this.points.length} values are computed`);

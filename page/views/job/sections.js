@@ -4,6 +4,7 @@ import { element, fill } from "../../interface/element.js";
 import { note } from "../../interface/place.js";
 import { whenThere } from "../../interface/when_there.js";
 import { Plane, firstPlane } from "../../plots/plane.js";
+import { intoATurn } from "../../plots/turns.js";
 import { get } from "../../requests/service.js";
 
 export async function show(room, context) {
@@ -17,7 +18,10 @@ export async function show(room, context) {
   const panel = element("section", { class: "panel" }, plane.element);
   const take = (answer) => {
     const found = plane.chosen.map((name) => answer.channels[name]);
-    const [x, y] = found.map(({ values }) => values.flat().map((value) => value ?? NaN));
+    const [x, y] = found.map(({ values, unit }) => {
+      const numbers = values.flat().map((value) => value ?? NaN);
+      return unit === "rad" ? numbers.map(intoATurn(numbers)) : numbers;
+    });
     const words = `${x.length} sections`;
     plane.show({ x, y, units: found.map(({ unit }) => unit), words, note: answer.note });
   };

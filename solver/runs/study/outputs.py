@@ -3,6 +3,10 @@
 STATISTICS = {
     "steps": ("1", "accepted steps"),
     "rejections": ("1", "rejected steps"),
+    "rough_steps": (
+        "1",
+        "steps in which a channel strayed too far for all its extremes to be found",
+    ),
     "onsets": ("1", "beginnings of contact"),
     "smallest_step": ("s", "smallest accepted step"),
     "driver_work": ("J", "work of the drivers"),
