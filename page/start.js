@@ -12,6 +12,7 @@ const VIEWS = {
   job: ["Job", () => import("./views/job.js")],
   compare: ["Compared jobs", () => import("./views/compare.js")],
   batch: ["Batch", () => import("./views/batch.js")],
+  workers: ["Workers", () => import("./views/workers.js")],
   editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
 const UNFETCHED = /dynamically imported module|Importing a module script failed/;

@@ -8,6 +8,11 @@ export async function workers(signal) {
   return (await get("/v1/workers", {}, signal)).workers;
 }
 
+/** Returns the machine and the process that a worker's name tells: "host:1234". */
+export function processOf(name) {
+  return name.split(":").slice(0, 2).join(":");
+}
+
 /** Returns a sentence, or more, on why queued jobs wait. */
 export function whyQueued(alive) {
   const busy = alive.filter(({ blocks }) => blocks.length).length;
@@ -30,7 +35,7 @@ export function atWork(alive, job) {
   const rows = alive.flatMap(({ name, processor, blocks }) => blocks
     .filter((one) => one.job === job)
     .map(({ block, attempt, since }) => element("tr", {},
-      element("td", { class: "small" }, name.split(":").slice(0, 2).join(":")),
+      element("td", { class: "small", title: name }, processOf(name)),
       element("td", { class: "small" }, processor),
       element("td", {}, String(block)),
       element("td", {}, String(attempt)),

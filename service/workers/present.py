@@ -26,6 +26,9 @@ class Worker(BaseModel):
     name: str = Field(description="Of its machine and process, as events of jobs have it.")
     version: str = Field(description="Version of its solver; jobs keep to the one they began with.")
     processor: str = Field(description="Class of the processor that it compiles for.")
+    since: Moment | None = Field(
+        description="When it was heard of first; null: before the service kept this."
+    )
     seen: Moment = Field(description="When it was heard of last.")
     blocks: list[BlockAtWork]
 

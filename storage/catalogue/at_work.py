@@ -28,6 +28,7 @@ class WorkerAtWork:
     name: str
     version: str
     processor: str
+    since: float | None  # None: it was there before this was kept
     seen: float
     blocks: tuple[HeldBlock, ...]
 
@@ -49,6 +50,6 @@ def workers_at_work(unit: Unit) -> tuple[WorkerAtWork, ...]:
     for name, *facts in rows:
         held.setdefault(name, []).append(HeldBlock(*facts))
     return tuple(
-        WorkerAtWork(one.name, one.version, one.processor, one.seen, tuple(held.get(one.name, ())))
+        WorkerAtWork(blocks=tuple(held.get(one.name, ())), **one._asdict())
         for one in unit.execute(lately)
     )

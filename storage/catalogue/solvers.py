@@ -108,7 +108,7 @@ def note_worker(unit: Unit, name: str, solver: Solver) -> None:
     facts = {"version": solver.version, "processor": solver.processor, "seen": unit.now}
     known = update(_worker).where(_worker.c.name == name).values(facts)
     if not unit.execute(known).rowcount:
-        unit.execute(insert(_worker).values(name=name, **facts))
+        unit.execute(insert(_worker).values(name=name, since=unit.now, **facts))
 
 
 def note_holder(unit: Unit, block_id: str) -> None:

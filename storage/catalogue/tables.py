@@ -190,7 +190,7 @@ api_key = Table(
     Column("last_used", Float(53)),
 )
 
-# Processes that take blocks, with what each computes them, and when it was heard of last.
+# Processes that take blocks, with what each computes them, and when it was heard of last and first.
 worker = Table(
     "worker",
     metadata,
@@ -198,6 +198,7 @@ worker = Table(
     Column("version", String(64), nullable=False),
     Column("processor", String(64), nullable=False),
     Column("seen", Float(53), nullable=False),
+    Column("since", Float(53)),
 )
 
 # Which process does what only one should do at a time, and until when.

@@ -68,6 +68,10 @@ def test_a_job_is_followed_from_the_queue_to_its_failure(browsing, service_url, 
         page.get_by_role("link", name="Document").click()
         page.get_by_role("heading", name="Who computes it").wait_for()
         page.get_by_role("cell", name="zen4").wait_for()
+        page.get_by_role("link", name="Workers").click()
+        page.get_by_text(f"{job_id}: block 0, for").wait_for()
+        assert barriers(page) == []
+        page.goto(f"{service_url}/#/job/{job_id}/document")
         worker.store(claim, complete=False)
         error = JobError("solver", "step-size-underflow", "The step fell below 1e-15 s.", 0.7)
         worker.finish(claim, BlockState.failed, error)

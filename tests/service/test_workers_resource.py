@@ -44,6 +44,10 @@ def test_a_worker_is_listed_with_what_it_has_and_an_owner_is_told_of_his_own_job
     (block,) = busy["blocks"]
     assert (block["job"], block["block"], block["attempt"]) == (job, 0, 1)
     assert idle["blocks"] == []
+    assert idle["since"] == idle["seen"]
+    catalogue.note_worker("idle", SOLVER)  # again: it is there since the first time
+    _, again = workers_seen_by(guarded, "ada")
+    assert again["since"] == idle["since"] < again["seen"]
     (hidden,) = workers_seen_by(guarded, "bob")[0]["blocks"]
     assert hidden["job"] is None
 
