@@ -1,4 +1,4 @@
-"""Read a results store with stock zarr, also while it is being written."""
+"""Read a results store, also while it is being written."""
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property, partial
@@ -25,6 +25,7 @@ from jointplay.storage.results.metadata import Document
 from jointplay.storage.results.steps import GROUP as STEPS
 from jointplay.storage.results.steps import StoredSteps, stored_steps
 from jointplay.storage.results.store_reader import StoreReader
+from jointplay.storage.results.stored_column import StoredColumn
 from jointplay.storage.results.waiting import Waiting
 
 
@@ -97,8 +98,7 @@ class ResultReader(StoreReader):
         """As `history`, in consecutive pieces of at most one chunk, in bounded memory."""
         names = self._names(channels)
         start, stop = self._window(start, stop)
-        time = self._array(TIME)
-        rows = time.chunks[0]
+        rows = self._stored("", TIME).chunk_rows
         while start < stop:
             end = min(start - start % rows + rows, stop)
             yield self._read("", names, start, end)
@@ -215,7 +215,7 @@ class ResultReader(StoreReader):
             first = min(int(np.searchsorted(last_times, time, side)) * size, self.samples)
             found = self._column("", TIME, first, min(first + size, self.samples))
             return first + int(np.searchsorted(found, time, side))
-        rows = self._array(TIME).chunks[0]
+        rows = self._stored("", TIME).chunk_rows
         low, high = 0, -(-self.samples // rows)  # chunks
         while low < high:
             middle = (low + high) // 2
@@ -236,7 +236,7 @@ class ResultReader(StoreReader):
     @cached_property
     def _last_times(self) -> tuple[int, Floats] | None:
         """Samples of a bucket, and the last time [s] of each: where a time is to be looked for."""
-        rows = self._array(TIME).chunks[0]
+        rows = self._stored("", TIME).chunk_rows
         levels = [level for level in self._envelope.levels if level.size <= rows]
         if not self.sealed or not levels:
             return None
@@ -251,16 +251,20 @@ class ResultReader(StoreReader):
 
     def _column(self, group: str, name: str, start: int, stop: int) -> NDArray[Any]:
         """Read rows of one array: from shards, then from those that wait for theirs."""
-        array = self._array(f"{group}/{name}" if group else name)
+        column = self._stored(group, name)
         waiting = self._waiting.get(group)
         if waiting is None or not waiting.columns or stop <= waiting.durable:
-            return np.asarray(array[start:stop])
+            return column.read(start, stop)
         durable = waiting.durable
         tail = waiting.columns[columns_of(self.attributes)[group].index(name)]
         tail = tail[max(start - durable, 0) : stop - durable]
         if start >= durable:
             return tail
-        return np.concatenate([np.asarray(array[start:durable]), tail])
+        return np.concatenate([column.read(start, durable), tail])
+
+    def _stored(self, group: str, name: str) -> StoredColumn:
+        path = f"{group}/{name}" if group else name
+        return StoredColumn(self.files, path, self._members[path])
 
     def _names(self, channels: Sequence[str] | None) -> tuple[str, ...]:
         known = tuple(self.attributes["channels"])

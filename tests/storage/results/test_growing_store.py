@@ -14,8 +14,15 @@ from zarr.storage import ZipStore
 
 from jointplay.records.channel import Channel
 from jointplay.records.peak import Peak
-from jointplay.storage.errors import InvalidAppend, InvalidLayout, StoreExists, StoreSealed
+from jointplay.storage.errors import (
+    InvalidAppend,
+    InvalidLayout,
+    LostObject,
+    StoreExists,
+    StoreSealed,
+)
 from jointplay.storage.packed import Running
+from jointplay.storage.packed.running import ROWS
 from jointplay.storage.results.layout import ResultLayout
 from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.results.writer import ResultWriter
@@ -91,6 +98,14 @@ def test_a_sealed_store_needs_nothing_of_its_folder(tmp_path, run, writer):
     # who began to read the growing store reads on
     np.testing.assert_array_equal(early.history()[1]["slider7.q1"], run.samples[:, 1])
     np.testing.assert_array_equal(early.impacts(), run.impacts)
+
+
+def test_rows_that_go_while_they_are_read_are_missed(tmp_path, run, writer):
+    run.append(writer, 0.0, 0.7)
+    reader = ResultReader(tmp_path / "store")
+    shutil.rmtree(tmp_path / "store" / ROWS)
+    with pytest.raises(LostObject, match="time/c/0"):
+        reader.history()
 
 
 def test_a_sealed_store_takes_nothing_more(tmp_path, run, writer):
