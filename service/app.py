@@ -33,6 +33,7 @@ from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
 from jointplay.service.batches.admission import BatchDocument
 from jointplay.service.checking import Checker
+from jointplay.service.compression import Compression
 from jointplay.service.jobs.submission import FIELDS
 from jointplay.service.jobs.waiting import Watcher
 from jointplay.service.metrics import registry_of
@@ -136,6 +137,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redoc_url=None,
     )
     app.state.settings = settings
+    app.add_middleware(Compression)
     if settings.log_format == "json":
         app.add_middleware(RequestLog)
     app.add_middleware(SignedLinks)

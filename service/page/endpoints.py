@@ -49,6 +49,7 @@ REPORT_POLICY: Final = "; ".join(
 _HEADERS: Final = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
+    "Vary": "Accept-Encoding",  # as compressed ones say, and 304 must say what they do
     "Cache-Control": "no-cache",  # asks again after an upgrade, and is told 304 otherwise
 }
 _FOREVER: Final = {"Cache-Control": "public, max-age=31536000, immutable"}

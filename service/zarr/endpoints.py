@@ -7,10 +7,10 @@ from typing import Annotated, Any, Final
 from fastapi import APIRouter, Path, Request, Response
 
 from jointplay.service.access.signed import SIGNED
+from jointplay.service.compression import takes_gzip
 from jointplay.service.dependencies import NO_PARAMETERS
 from jointplay.service.fields import BINARY
 from jointplay.service.problems import ErrorDetail, RequestRefused, clipped, header, kinds, problems
-from jointplay.service.results.forms import weights_of
 from jointplay.service.results.stores import ResultsOfThePath
 from jointplay.service.zarr import ranges
 from jointplay.service.zarr.contents import Content, content_of, former_content, is_key
@@ -110,7 +110,7 @@ def _answer(request: Request, key: str, content: Content) -> Response:
     if key.endswith(_DOCUMENT):
         media_type = "application/json"
         headers["Vary"] = "Accept-Encoding"
-        if asked is None and _takes_gzip(request.headers.get("accept-encoding", "")):
+        if asked is None and takes_gzip(request.headers.get("accept-encoding", "")):
             packed = gzip.compress(content.read(0, content.size), 6, mtime=0)
             tag = f'{content.tag[:-1]}-gzip"'
             content = Content(len(packed), tag, lambda start, stop: packed[start:stop])
@@ -126,11 +126,6 @@ def _answer(request: Request, key: str, content: Content) -> Response:
     headers["Content-Length"] = str(stop - start)
     body = b"" if request.method == "HEAD" else content.read(start, stop)
     return Response(body, 206 if part else 200, headers, media_type)
-
-
-def _takes_gzip(accepted: str) -> bool:
-    weights = weights_of(accepted)
-    return weights.get("gzip", weights.get("*", 0.0)) > 0.0
 
 
 def _not_satisfiable(request: Request, key: str, size: int) -> RequestRefused:
