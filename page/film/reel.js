@@ -1,14 +1,11 @@
 /** The pictures of a film: the mechanism at times of a stretch, its joints with play below it. */
 
+import { arrangement, MARGIN } from "./arrangement.js";
 import { paint, words } from "../mechanism/canvas.js";
 import { frame } from "../mechanism/frame.js";
 import { REACH } from "../mechanism/magnified.js";
 import { palette } from "../mechanism/palette.js";
 import { short, withUnit } from "../interface/numbers.js";
-
-const CELL = 200; // least width of a magnified joint, px
-const CAPTION = 44; // height of its words, px
-const MARGIN = 14; // px
 
 export class Reel {
   /**
@@ -23,11 +20,8 @@ export class Reel {
     this.length = Math.max(1, Math.round(stretch.seconds * rate));
     this.seconds = stretch.seconds || 1 / rate;
     const { clientWidth: wide, clientHeight: high } = stage.canvas;
-    const joints = insets?.joints.length ?? 0;
-    this.columns = Math.max(1, Math.min(joints, Math.floor(wide / CELL)));
-    this.cell = Math.min(wide / this.columns, 1.4 * CELL);
-    const rows = Math.ceil(joints / this.columns);
-    this.size = [wide, high + rows * (this.cell + CAPTION)];
+    this.arrangement = arrangement(wide, high, insets?.joints.length ?? 0);
+    this.size = this.arrangement.size;
     const dots = window.devicePixelRatio || 1;
     this.scale = Math.min(dots, widest / wide, Math.sqrt(most / (this.size[0] * this.size[1])));
     const sides = this.size.map((side) => Math.floor(side * this.scale));
@@ -67,21 +61,19 @@ export class Reel {
     const slow = speed < 1 ? `, ${short(1 / speed, 3)} times slower` : "";
     words(context, `t = ${withUnit(time, "s", 4)}${slow}`, [MARGIN, MARGIN + 6], colours.ink);
     if (!state || !insets) return;
+    const { side, place } = this.arrangement;
     insets.pictures(time, state).forEach(({ name, force, factors, shapes }, i) => {
-      const column = wide / this.columns;
-      const left = (i % this.columns) * column + (column - this.cell) / 2;
-      const top = high + Math.floor(i / this.columns) * (this.cell + CAPTION);
+      const { left, top, words: [first, second] } = place(i);
       context.save();
       context.beginPath();
-      context.rect(left, top, this.cell, this.cell);
+      context.rect(left, top, side, side);
       context.clip();
-      context.translate(left + this.cell / 2, top + this.cell / 2);
-      context.scale(this.cell / (2 * REACH), this.cell / (2 * REACH));
+      context.translate(left + side / 2, top + side / 2);
+      context.scale(side / (2 * REACH), side / (2 * REACH));
       paint(context, shapes, frame([0, 0, 0, 0], 0, 0), colours);
       context.restore();
-      const below = top + this.cell + 10;
-      words(context, `${name}, ${force}`, [left + MARGIN, below], colours.ink);
-      words(context, factors, [left + MARGIN, below + 18], colours.quiet);
+      words(context, `${name}, ${force}`, first, colours.ink);
+      words(context, factors, second, colours.quiet);
     });
   }
 }

@@ -31,7 +31,11 @@ export function saving({ stage, insets, clock, impacts, name }) {
     },
   }, text);
   return [
-    button("SVG", () => save(new Blob([stage.svg(clock.time)], { type: "image/svg+xml" }), `${name}.svg`)),
+    button("SVG", async () => {
+      const { still } = await import("../film/still.js");
+      const text = await still(stage, insets, clock.time);
+      save(new Blob([text], { type: "image/svg+xml" }), `${name}.svg`);
+    }),
     Object.entries(FILMS).map(([form, text]) => button(text, async () => {
       clock.stop();
       const shown = stretch(length.value, clock, impacts());

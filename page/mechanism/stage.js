@@ -1,4 +1,4 @@
-/** The mechanism of a job as its clock runs: drawing, and pictures and films to keep. */
+/** The mechanism of a job, drawn as its clock runs. */
 
 import { element } from "../interface/element.js";
 import { bounds } from "./bounds.js";
@@ -6,7 +6,6 @@ import { paint, prepared } from "./canvas.js";
 import { frame } from "./frame.js";
 import { palette } from "./palette.js";
 import { shapes } from "./shapes.js";
-import { svgFile } from "./svg.js";
 
 export class Stage {
   /** @param motions one, or several to be compared in the same place */
@@ -84,14 +83,5 @@ export class Stage {
         ? [0, 1, 2, 3].map((i) => Math[i < 2 ? "min" : "max"](this.box[i], box[i]))
         : box;
     }
-  }
-
-  /** Returns the text of an SVG file of a moment. */
-  svg(time) {
-    const drawn = this.motions.flatMap((motion, i) => {
-      const state = motion.at(time);
-      return state ? this.shapes(state.pose, i) : [];
-    });
-    return svgFile(drawn, this.view(), palette(), `${this.name} at ${time} s`);
   }
 }

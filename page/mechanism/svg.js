@@ -2,17 +2,28 @@
 
 import { svgElement } from "../interface/element.js";
 
-/** Returns the text of an SVG file that shows shapes (see `shapes.js`) in a frame. */
-export function svgFile(shapes, frame, colours, title) {
-  const { width, height } = frame;
+/** Returns the text of an SVG file of some elements, in a picture of `[width, height]`. */
+export function svgFile(elements, [width, height], paper, title) {
   const picture = svgElement(
     "svg",
     { viewBox: `0 0 ${width} ${height}`, width, height },
     svgElement("title", {}, title),
-    svgElement("rect", { width, height, fill: colours.paper }),
-    shapes.map((shape) => WRITERS[shape.kind](shape, frame, colours)),
+    svgElement("rect", { width, height, fill: paper }),
+    elements,
   );
   return new XMLSerializer().serializeToString(picture);
+}
+
+/** Returns the elements of shapes (see `shapes.js`) in a frame. */
+export function written(shapes, frame, colours) {
+  return shapes.map((shape) => WRITERS[shape.kind](shape, frame, colours));
+}
+
+/** Returns a line of words, its left end and middle at `[x, y]`. */
+export function svgWords(text, [x, y], fill) {
+  return svgElement("text", {
+    x, y, fill, "font-size": 13, "font-family": "sans-serif", "dominant-baseline": "middle",
+  }, text);
 }
 
 const WRITERS = {

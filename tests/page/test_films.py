@@ -90,6 +90,16 @@ def test_a_gif_shows_the_stretch_that_is_asked_with_the_magnified_joints(ready):
     ready.get_by_text("t = 45 ms").wait_for()
 
 
+def test_a_moment_is_saved_with_the_magnified_joints(ready):
+    _, mechanism, *insets = saved(ready, "SVG").read_text().split("<svg")
+    assert "<title>a press to watch at 0.045 s</title>" in mechanism
+    assert ">t = 45 ms<" in mechanism
+    assert len(insets) == 2
+    for inset in insets:
+        assert JOURNAL in inset
+        assert ">gap ×3.8, penetration ×" in inset
+
+
 @pytest.mark.parametrize("form", ["MP4", "WebM"])
 def test_a_video_lasts_from_impact_to_impact(ready, url, press, form, tmp_path):
     job = httpx.get(f"{url}/v1/jobs/{press}", trust_env=False).json()
