@@ -101,6 +101,7 @@ def main() -> None:
     options = parser.parse_args()
     row("measured", "value")
     print("|---|---|")
+    before = os.getloadavg()[0]
     with (
         tempfile.TemporaryDirectory() as folder,
         running_service(Path(folder) / "data") as url,
@@ -110,9 +111,10 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=chromium(), args=FLAGS)
         measure(browser, client)
         browser.close()
+    loads = f"{before:.1f} before, {os.getloadavg()[0]:.1f} after"
+    row(f"load of {os.cpu_count()} cores, last minute", loads)
     if not options.without_tests:
         row("tests/page", tests())
-    row("load of the machine, last minute; cores", f"{os.getloadavg()[0]:.1f}; {os.cpu_count()}")
 
 
 if __name__ == "__main__":
