@@ -192,7 +192,7 @@ def _find(
         return roster[name], selection
     found = _of_channel(source, name)
     if found is None:
-        raise UnknownFigure(name, list(roster))
+        raise UnknownFigure(name, [one for one, kind in roster.items() if _offered(kind, source)])
     if selection.channels:
         raise NotDrawable(f"The figure {name!r} is of one channel; leave channels out.", "channels")
     found.check(selection)
@@ -211,6 +211,15 @@ def _of_channel(source: Source | StudySource, name: str) -> FigureKind[Any] | No
 
 def _roster(source: Source | StudySource) -> Mapping[str, FigureKind[Any]]:
     return STUDY_ROSTER if is_study(source) else ROSTER
+
+
+def _offered(kind: FigureKind[Any], source: Source | StudySource) -> bool:
+    """Whether the results hold what a figure needs, though it may want a choice among them."""
+    try:
+        kind.channels(source, Selection())
+    except NotDrawable as error:
+        return error.cause != "name"
+    return True
 
 
 def _drawable(kind: FigureKind[Any], source: Source | StudySource) -> bool:

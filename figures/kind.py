@@ -24,7 +24,8 @@ class UnknownFigure(FigureError):
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
         super().__init__(
-            f"There is no figure {name!r}; there are {', '.join(known)}, and every stored channel."
+            f"There is no figure {name!r} of these results; there are "
+            f"{', '.join((*known, 'every stored channel'))}."
         )
 
 

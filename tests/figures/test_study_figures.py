@@ -273,8 +273,10 @@ def test_what_cannot_be_shown_is_said(source, name, selection, says, cause):
 
 
 def test_an_unknown_figure_is_refused_with_those_there_are():
-    with pytest.raises(UnknownFigure, match="bifurcation, exponents, sweep"):
+    with pytest.raises(UnknownFigure, match="there are sweep, every stored channel"):
         figures.draw(sweep(), "orbit")
+    with pytest.raises(UnknownFigure, match="there are bifurcation, section, every"):
+        figures.draw(bifurcation(points=3), "orbit")  # of one point, which is to be chosen
 
 
 def test_a_study_before_its_first_result_is_drawn_empty():
