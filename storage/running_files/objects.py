@@ -4,23 +4,24 @@ An object cannot be appended to: a file is one object or several, whose keys end
 the file that each begins with, such as ``a1/parts/00000001+000000004096``.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Final, Self
+from typing import Final, Self, TypeVar
 
 from jointplay.storage.places import Place, StoredObject
 
 _MOST_PIECES: Final = 64
 """Objects of one file, after which all of it is put as one again."""
 _FIRST: Final = f"+{0:012d}"
+Answer = TypeVar("Answer")
 
 
 @dataclass
 class InPlace:
     """See `storage.running_files.RunningFiles`.
 
-    Those who read have one for each moment: `version` and `read` go by the names that there were
-    when they were last listed.
+    Those who read have one for each moment: names are those that were last listed, and, of the
+    only one who writes a file, its own.
 
     Parameters
     ----------
@@ -30,7 +31,7 @@ class InPlace:
 
     place: Place
     prefix: str
-    _listed: frozenset[str] | None = field(default=None, init=False, repr=False, compare=False)
+    _listed: set[str] | None = field(default=None, init=False, repr=False, compare=False)
 
     @property
     def name(self) -> str:
@@ -46,10 +47,9 @@ class InPlace:
 
     def names(self, folder: str = "") -> Iterator[str]:
         """List the objects."""
-        begin = len(self.prefix) + 1
-        self._listed = frozenset(key[begin:] for key in self.place.list(f"{self.prefix}/"))
+        self._listed = None
         inside = f"{folder}/" if folder else ""
-        for key in sorted(self._listed):
+        for key in sorted(self._known()):
             if key.endswith(_FIRST) and key.startswith(inside):
                 yield key.removesuffix(_FIRST)
 
@@ -59,48 +59,39 @@ class InPlace:
 
     def size(self, name: str) -> int:
         """Return where the last piece ends."""
-        *_, (offset, key) = self._pieces(name)
-        return offset + self.place.size(key)
+        return self._again(self._size, name)
 
     def read(self, name: str) -> bytes:
         """Join the pieces; what the first one has, and was put again with it, is not read again."""
-        content = b""
-        pieces = self._pieces(name)
-        ends = [offset for offset, _ in pieces[1:]]
-        for (offset, key), end in zip(pieces, [*ends, None], strict=True):
-            if end is not None and end <= len(content):
-                continue
-            piece = self.place.read(key, 0, self.place.size(key))
-            if offset + len(piece) > len(content):
-                content = content[:offset] + piece
-        return content
+        return self._again(self._joined, name)
 
     def object(self, name: str) -> StoredObject:
         """Name the first piece, which is all of it."""
         return StoredObject(self.place, self._key(name))
 
     def put(self, name: str, pieces: Iterable[bytes]) -> None:
-        """Replace the first piece."""
-        self._listed = None
+        """Replace the first piece, which is all of it then."""
+        known = self._known()
         self.place.replace(self._key(name), pieces)
+        for later in [one for one in known if _is_piece(one, name) and not one.endswith(_FIRST)]:
+            self.place.remove(f"{self.prefix}/{later}")
+            known.discard(later)
+        known.add(f"{name}{_FIRST}")
 
     def append(self, name: str, offset: int, pieces: Iterable[bytes]) -> None:
         """Put one more piece, or all of the file in one if there are many."""
-        self._listed = None
         there = self._pieces(name)
-        if offset > self.size(name):
+        if offset > self._size(name):
             raise ValueError(f"{name!r} has fewer than {offset} bytes")
-        self._listed = None
-        if len(there) < _MOST_PIECES:
+        if len(there) < _MOST_PIECES and offset >= there[-1][0]:
             self.place.replace(f"{self.prefix}/{name}+{offset:012d}", pieces)
-            return
-        self.put(name, [self.read(name)[:offset], *pieces])
-        for _, key in there[1:]:
-            self.place.remove(key)
+            self._known().add(f"{name}+{offset:012d}")
+        else:
+            self.put(name, [self._joined(name)[:offset], *pieces])
 
     def adopt(self, name: str, source: str) -> bool:
         """Have the place copy the object."""
-        self._listed = None
+        self._listed = None  # it may not have been there
         return self.place.adopt(self._key(name), self._key(source))
 
     def remove(self, name: str) -> None:
@@ -113,19 +104,49 @@ class InPlace:
         self._listed = None
         self.place.remove(f"{self.prefix}/")
 
+    def _again(self, ask: Callable[[str], Answer], name: str) -> Answer:
+        """Ask again, if it is not there any more as it was listed."""
+        known = self._listed is not None
+        try:
+            return ask(name)
+        except FileNotFoundError:
+            if not known:
+                raise
+            self._listed = None
+        return ask(name)
+
+    def _size(self, name: str) -> int:
+        offset, key = self._pieces(name)[-1]
+        return offset + self.place.size(key)
+
+    def _joined(self, name: str) -> bytes:
+        content = b""
+        pieces = self._pieces(name)
+        ends = [offset for offset, _ in pieces[1:]]
+        for (offset, key), end in zip(pieces, [*ends, None], strict=True):
+            if end is not None and end <= len(content):
+                continue
+            piece = self.place.read(key, 0, self.place.size(key))
+            if offset + len(piece) > len(content):
+                content = content[:offset] + piece
+        return content
+
     def _pieces(self, name: str) -> list[tuple[int, str]]:
         """Return offset and key of each piece, in order; FileNotFoundError if there is none."""
-        for _ in range(2):
-            found = sorted(key for key in self._known() if key.rpartition("+")[0] == name)
-            if found:
-                return [(int(key.rpartition("+")[2]), f"{self.prefix}/{key}") for key in found]
-            self._listed = None
-        raise FileNotFoundError(f"{self.prefix}/{name} is not there")
+        found = sorted(key for key in self._known() if _is_piece(key, name))
+        if not found:
+            raise FileNotFoundError(f"{self.prefix}/{name} is not there")
+        return [(int(key.rpartition("+")[2]), f"{self.prefix}/{key}") for key in found]
 
-    def _known(self) -> frozenset[str]:
+    def _known(self) -> set[str]:
         if self._listed is None:
-            [*self.names()]
-        return self._listed or frozenset()
+            begin = len(self.prefix) + 1
+            self._listed = {key[begin:] for key in self.place.list(f"{self.prefix}/")}
+        return self._listed
 
     def _key(self, name: str) -> str:
         return f"{self.prefix}/{name}{_FIRST}"
+
+
+def _is_piece(key: str, name: str) -> bool:
+    return key.rpartition("+")[0] == name

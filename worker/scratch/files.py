@@ -72,11 +72,14 @@ class Scratch:
     def fetch(self, beat: Callable[[], None]) -> None:
         """Get what the attempt builds on; `beat` is called now and then."""
         for name, _ in self._elsewhere.needed():
+            sealed = self._files.sealed(name)
+            if sealed is not None and sealed.exists():
+                continue
             try:
                 self._files.put(name, self._beating(name, beat))
             except FileNotFoundError:  # replaced by the last one of its block, or removed
                 continue
-            if self._files.sealed(name) is None:
+            if sealed is None:
                 self._sent[name] = _version(self._folder / name)
 
     def _beating(self, name: str, beat: Callable[[], None]) -> Iterator[bytes]:

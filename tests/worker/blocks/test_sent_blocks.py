@@ -27,6 +27,7 @@ from jointplay.worker.execute import execute
 from jointplay.worker.scratch.computing import compute
 from tests.seaweedfs_server import BUCKET, running_store
 from tests.stores import files_of, packed, sealed_run, target
+from tests.waiting import until
 
 # steps of so many samples fill files of rows between restart points
 JOB = {
@@ -82,8 +83,8 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return packed(folder)
 
 
-def attempt(catalogue: Catalogue, settings: Settings, block: str, lease: float = 30.0) -> None:
-    claim = catalogue.claim_block(block, "this process", lease)
+def attempt(catalogue: Catalogue, settings: Settings, block: str) -> None:
+    claim = catalogue.claim_block(block, "this process", settings.lease)
     assert claim is not None
     compute(catalogue, settings, claim, threading.Event())
 
@@ -106,8 +107,9 @@ def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
 ) -> None:
     job = submit(catalogue, JOB)
     losing = ShortOfPower(settings.catalogue_url)
+    short = settings.model_copy(update={"lease": 0.2, "heartbeat": 0.1})
     with pytest.raises(MachineLost):
-        attempt(losing, settings, f"{job}-0", lease=0.0)
+        attempt(losing, short, f"{job}-0")
     losing.close()
     assert not settings.running_folder(job).exists()
     assert all("rows/" not in key or "/a1/" in key for key in settings.place.list("running/"))
@@ -117,8 +119,7 @@ def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
     assert 0 < growing.samples == block.watermark < expected.samples
     for name, column in growing.history()[1].items():
         np.testing.assert_array_equal(column, expected.history([name])[1][name][: growing.samples])
-    while not catalogue.reap(3).requeued:
-        pass
+    until(lambda: bool(catalogue.reap(3).requeued))
     attempt(catalogue, settings, f"{job}-0")
     ended = catalogue.get(job)
     assert (ended.state, ended.attempt) == (JobState.succeeded, 2)
