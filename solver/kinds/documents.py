@@ -7,13 +7,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from jointplay.records.failure import InvalidInput
+from jointplay.records.failure import InvalidInput, Problem
 from jointplay.records.suggestions import did_you_mean
 from jointplay.solver.kinds.job import Job, MechanismJob, PresetScene
 from jointplay.solver.kinds.kind import J, Kind
 from jointplay.solver.kinds.mechanism import Echo
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.scene import presets
+from jointplay.solver.scene.parameters import undeclared
 from jointplay.solver.scene.sentences import schema_problems
 
 
@@ -38,8 +39,20 @@ def job_of(document: Any, kind: Kind[J]) -> J:
     try:
         job: J = model.model_validate(dict(document))
     except ValidationError as error:
-        raise InvalidInput(schema_problems(error, model, document)) from None
+        problems = [*schema_problems(error, model, document), *_unknown_parameters(document)]
+        raise InvalidInput(problems) from None
     return job
+
+
+def _unknown_parameters(document: Mapping[str, Any]) -> list[Problem]:
+    """Return the misspelt parameters of a preset, to be told together with a job's other errors."""
+    scene = document.get("scene")
+    if not (isinstance(scene, Mapping) and isinstance(scene.get("parameters"), Mapping)):
+        return []
+    preset = scene.get("preset")
+    if not isinstance(preset, str) or preset not in presets.names():
+        return []
+    return undeclared(presets.document(preset)["parameters"], scene["parameters"])
 
 
 def filled(

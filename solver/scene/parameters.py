@@ -2,7 +2,7 @@
 
 import copy
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from pydantic import BaseModel
@@ -33,11 +33,7 @@ def set_parameters(
         A name that is not declared, a value outside its declared range or choices, a required one
         that is not given.
     """
-    problems = [
-        Problem(f"{PLACE}/{name}", unknown("parameter", name, scene.parameters))
-        for name in values
-        if name not in scene.parameters
-    ]
+    problems = undeclared(scene.parameters, values)
     filled = _Edited(document)
     echo: dict[str, float | str | None] = {}
     for name, parameter in scene.parameters.items():
@@ -57,6 +53,15 @@ def set_parameters(
     if problems:
         raise InvalidInput(problems)
     return filled.document, echo
+
+
+def undeclared(declared: Collection[str], names: Iterable[str]) -> list[Problem]:
+    """Return a problem for every name that no parameter has."""
+    return [
+        Problem(f"{PLACE}/{name}", unknown("parameter", name, declared))
+        for name in names
+        if name not in declared
+    ]
 
 
 def parameter_of(scene: Scene, echo: Mapping[str, float | str | None], path: str) -> str | None:

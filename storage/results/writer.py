@@ -110,11 +110,6 @@ class ResultWriter:
         return writer
 
     @property
-    def watermark(self) -> int:
-        """Samples that are durable: readers may see these and no others."""
-        return self._history.durable
-
-    @property
     def samples(self) -> int:
         """Samples appended so far, durable or waiting."""
         return self._history.rows

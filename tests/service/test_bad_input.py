@@ -154,6 +154,14 @@ def test_a_wrong_job_is_refused_with_the_field_and_what_would_be_right(
     assert all(len(error["detail"]) >= 15 for error in problem["errors"])
 
 
+def test_a_misspelt_parameter_is_told_together_with_a_missing_field(http: httpx.Client) -> None:
+    job = {name: value for name, value in press_with(clearence=1e-4).items() if name != "duration"}
+    problem = refused(http, json.dumps(job).encode(), 422)
+    told = {error["pointer"]: error["detail"] for error in problem["errors"]}
+    assert told.keys() == {"/duration", "/scene/parameters/clearence"}
+    assert "did you mean 'clearance'?" in told["/scene/parameters/clearence"]
+
+
 MALFORMED = {
     "NaN": (b'{"kind": "simulate", "duration": NaN}', "/duration"),
     "infinity": (b'{"kind": "simulate", "duration": -Infinity}', "/duration"),

@@ -4,6 +4,8 @@ from pathlib import Path
 import pytest
 from one_block import JOB
 
+from jointplay.solver.kernels.emit.tangents import compile_tangents
+from jointplay.solver.kernels.kernel_cache import ready_kernel
 from jointplay.solver.kinds import Admission, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
@@ -13,6 +15,9 @@ from jointplay.storage.settings import Settings
 def admission() -> Admission:
     admission = admit(JOB)
     assert isinstance(admission, Admission)
+    # a block that is told to stop while it compiles has no restart point yet
+    kernel = ready_kernel(admission.scene, admission.job["formulation"], admission.method)
+    compile_tangents(kernel)
     return admission
 
 
