@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from jointplay.records.channel import Channel
+from jointplay.records.resolution import Resolution
 from jointplay.records.run import Dataset, Floats
 
 
@@ -40,6 +41,8 @@ class Window:
         Extremes are those of the trajectory, between its samples too.
     note
         What is to be known of the numbers, such as why they are of samples only; else empty.
+    resolution
+        What the numbers were computed from: steps, intervals between samples, or samples.
     """
 
     time: Floats
@@ -48,6 +51,7 @@ class Window:
     exact: bool = True
     note: str = ""
     between_samples: bool = False
+    resolution: Resolution | None = None
 
     def __getitem__(self, channel: str) -> Floats:
         """Return the values of ``channel``, (n,)."""
@@ -72,7 +76,8 @@ class Window:
             for name, one in columns.items()
         }
         note, between = document.get("note", ""), document.get("exact", False)
-        return cls(time, channels, document["complete"], exact, note, between)
+        found = Resolution.from_document(document.get("resolution"))
+        return cls(time, channels, document["complete"], exact, note, between, found)
 
     def dataset(self) -> Dataset:
         """Return the window as exports take it."""

@@ -47,14 +47,23 @@ def exact_window(
         found = trajectory.values(names, times)
         if found.values is None:
             return found.refused
-        return window_of(run, times, dict(zip(names, found.values.T, strict=True)))
+        columns = dict(zip(names, found.values.T, strict=True))
+        return window_of(run, times, columns, note=found.note, resolution=found.resolution)
     edges = trajectory.edges(first, last, points or 1)
     found = trajectory.extremes(names, edges)
     if found.values is None:
         return found.refused
     time = np.column_stack([edges[:-1], edges[1:]]).ravel()
     columns = {name: found.values[:, c, ::2].ravel() for c, name in enumerate(names)}
-    return window_of(run, time, columns, exact=False, between_samples=True, note=found.note)
+    return window_of(
+        run,
+        time,
+        columns,
+        exact=False,
+        between_samples=True,
+        note=found.note,
+        resolution=found.resolution,
+    )
 
 
 def exact_peaks(

@@ -15,6 +15,7 @@ from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
+from jointplay.records.resolution import of_samples
 from jointplay.solver.runs.work_precision.work_precision import WorkPrecision
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
@@ -65,13 +66,15 @@ class FolderResults:
             if step is not None:
                 raise _refused("step", found)
             note = found
+        made_of = of_samples(run.attributes["job"])
         first, last = run.between(start, stop)
         if points is None or last - first <= points:
-            return window_of(run, *run.history(names, first, last), note=note)
+            samples = run.history(names, first, last)
+            return window_of(run, *samples, note=note, resolution=made_of)
         time, extremes = run.extremes(names, first, last, points)
         pairs = {n: with_contact_peaks(run, n, time, pair) for n, pair in extremes.items()}
         columns = {name: pair.ravel() for name, pair in pairs.items()}
-        return window_of(run, time.ravel(), columns, exact=False, note=note)
+        return window_of(run, time.ravel(), columns, exact=False, note=note, resolution=made_of)
 
     def sections(self, channels: Names) -> Window:
         """Return channels at the Poincare sections."""

@@ -7,6 +7,7 @@ from fastapi import APIRouter, Query, Response
 
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel import TIME, by_name
+from jointplay.records.resolution import of_samples
 from jointplay.records.run import inside
 from jointplay.records.table_files import Column
 from jointplay.service.dependencies import NO_PARAMETERS
@@ -25,7 +26,7 @@ from jointplay.service.results.queries import (
 )
 from jointplay.service.results.schemas import as_json
 from jointplay.service.results.stores import ResultsOfThePath, RunOfThePath
-from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, series
+from jointplay.service.results.windows import ExactRunOfThePath, bins, extremes, resolution, series
 from jointplay.storage.results.contact_peaks import with_contact_peaks
 from jointplay.storage.results.reader import ResultReader
 
@@ -81,6 +82,7 @@ def show_history(
         time=schemas.Series.of(TIME, values=time),
         channels=series(run, columns),
         note=note,
+        resolution=resolution(of_samples(run.attributes["job"])),
     )
     return _shown_as(form, file, history)
 
@@ -177,6 +179,7 @@ def _overview(
         extremes=extremes(run, names, columns),
         exact=False,
         note=note,
+        resolution=resolution(of_samples(run.attributes["job"])),
     )
 
 

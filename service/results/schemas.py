@@ -8,6 +8,7 @@ from pydantic import BaseModel, Field
 
 from jointplay.records.channel import Channel
 from jointplay.records.impact import MEASURED
+from jointplay.records.resolution import Basis
 from jointplay.service.fields import in_unit
 
 Values = list[float | None]
@@ -47,12 +48,32 @@ class Series(Described):
 _NOTE = Field(default="", description="What is to be known of these numbers; mostly empty.")
 
 
+class Resolution(BaseModel):
+    """What the numbers of a window were computed from."""
+
+    basis: Basis = Field(
+        description="steps: those of the run, so that no peak is lost; motion: the same, of an"
+        " ideal mechanism; intervals: extremes of the trajectory from each sample to the next;"
+        " samples: what the samples show."
+    )
+    spacing: float | None = in_unit(
+        "s", "From a sample to the next, where the basis is intervals or samples.", default=None
+    )
+    since: float | None = in_unit(
+        "s", "From when on extremes are of intervals; before, they are of steps.", default=None
+    )
+
+
+_RESOLUTION = Field(default=None, description="What the numbers were computed from.")
+
+
 class History(Partial):
     """Channels on the output grid, or every so many seconds."""
 
     time: Series
     channels: dict[str, Series]
     note: str = _NOTE
+    resolution: Resolution | None = _RESOLUTION
 
 
 class Bins(BaseModel):
@@ -81,6 +102,7 @@ class Overview(Partial):
         description="Whether these are extremes of the trajectory, and not only of samples.",
     )
     note: str = _NOTE
+    resolution: Resolution | None = _RESOLUTION
 
 
 class Poincare(History):

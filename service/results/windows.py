@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import TIME, by_name
 from jointplay.records.peak import Peak
+from jointplay.records.resolution import Resolution
 from jointplay.service.dependencies import of_the_application
 from jointplay.service.problems import RequestRefused
 from jointplay.service.results import schemas
@@ -44,6 +45,7 @@ class ExactRun:
             time=schemas.Series.of(TIME, values=times),
             channels=series(self.run, columns),
             note=found.note,
+            resolution=resolution(found.resolution),
         )
 
     def overview(
@@ -66,6 +68,7 @@ class ExactRun:
             extremes=extremes(self.run, names, found.values[:, :, ::2]),
             exact=True,
             note=found.note,
+            resolution=resolution(found.resolution),
         )
 
     def peaks(self, start: float | None, stop: float | None) -> dict[str, Peak]:
@@ -92,6 +95,11 @@ class ExactRun:
         reached = self.trajectory.reached
         first = 0.0 if start is None else max(start, 0.0)
         return first, reached if stop is None else min(stop, reached)
+
+
+def resolution(found: Resolution | None) -> schemas.Resolution | None:
+    """Return what a window was computed from, as the API shows it."""
+    return None if found is None else schemas.Resolution.model_construct(**vars(found))
 
 
 def bins(times: Floats) -> schemas.Bins:

@@ -32,10 +32,9 @@ class SettledPeaks:
         self._replay = Replay(admission, method)
         self._edges = np.array([admission.settle, float(admission.job["duration"])])
         self._names = [channel.name for channel in admission.channels]
-        self._sources, watched, rest = self._replay.sought(self._names)
-        self._wanted = [*watched, *rest]
-        self._rows = self._replay.rows(watched), self._replay.rows(rest)
-        self._table = self._replay.table()
+        self._sources, self._wanted = self._replay.sought(self._names)
+        self._rows, self._table = self._replay.rows(self._wanted), self._replay.table()
+        self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
         self._record = np.full((1, len(self._wanted), 4), np.nan)
 
     def add(self, steps: Floats) -> None:
@@ -54,9 +53,9 @@ class SettledPeaks:
             np.ascontiguousarray(steps[first:last]),
             parts,
             shares,
-            *self._rows,
-            np.zeros(len(self._wanted)),
+            self._rows,
             SHARP,
+            self._book,
             self._record,
         )
 
@@ -69,8 +68,9 @@ class SettledPeaks:
 
     def state(self, name: str) -> dict[str, NDArray[Any]]:
         """Return what the next call depends on, as arrays of a checkpoint."""
-        return {f"{name}/record": self._record}
+        return {f"{name}/record": self._record, f"{name}/book": self._book.copy()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""
         self._record = saved[f"{name}/record"].copy()
+        self._book = saved[f"{name}/book"].copy()

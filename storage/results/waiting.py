@@ -52,16 +52,14 @@ class Checkpoint:
         CorruptStore
             It is not the one that the checkpoint describes.
         """
-        name = f"{self._token['generation']:08d}"
+        path = lost.folder / PARTS / f"{self._token['generation']:08d}"
         try:
-            content = lost.part(name)[: self._token["size"]]
+            with path.open("rb") as file:
+                content = file.read(self._token["size"])
         except FileNotFoundError as error:
-            sentence = f"{PARTS}/{name} of {lost} is gone: resume where it was written"
-            raise CheckpointMismatch(sentence) from error
+            raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
         if hashlib.sha256(content).hexdigest() != self._token["sha256"]:
-            raise CorruptStore(
-                f"{PARTS}/{name} of {lost} has not the bytes that the checkpoint describes"
-            )
+            raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
         _, frames = _read(content, lost.owner)
         for position, table in enumerate(tables):
             dtypes = [column.dtype for column in table.table.columns]
@@ -101,9 +99,13 @@ def waiting_rows(
         One for each table of `dtypes`, or None if no journal has this checkpoint: it was
         removed, replaced by a later one, or has other bytes than were written.
     """
-    for name in reversed(files.parts()):
+    try:
+        paths = sorted((files.folder / PARTS).iterdir(), reverse=True)
+    except FileNotFoundError:
+        return None
+    for path in paths:
         with suppress(FileNotFoundError):
-            found = _at(files.part(name), files.owner, samples, dtypes)
+            found = _at(path.read_bytes(), files.owner, samples, dtypes)
             if found is not None:
                 return found
     return None

@@ -5,6 +5,7 @@ import pytest
 
 from jointplay.client import Client
 from jointplay.records.job import JobError
+from jointplay.records.resolution import Resolution
 from jointplay.service.results import schemas
 from jointplay.storage.catalogue.records import BlockState
 from jointplay.storage.packed import Packed
@@ -37,6 +38,7 @@ def test_every_peak_is_in_a_window_of_any_resolution(http, job):
         shown = schemas.Overview.model_validate(ask(http, job, channels=FORCE, points=points))
         assert shown.exact
         assert shown.note == ""
+        assert shown.resolution == schemas.Resolution(basis="steps")
         assert len(shown.bins.first) == points
         highest = shown.extremes[FORCE].maximum
         assert max(highest) == pytest.approx(peak["maximum"], rel=1e-6)
@@ -46,6 +48,7 @@ def test_every_peak_is_in_a_window_of_any_resolution(http, job):
 
 def test_values_at_any_instants_are_those_that_samples_have(http, job):
     samples = ask(http, job)
+    assert samples["resolution"] == {"basis": "samples", "spacing": STEP, "since": None}
     again = ask(http, job, step=STEP)
     assert again["time"]["values"] == pytest.approx(samples["time"]["values"], abs=1e-15)
     for name, one in samples["channels"].items():
@@ -109,6 +112,7 @@ def test_what_cannot_be_computed_is_refused_or_said(http, job, worker):
     assert "keeps no steps" in ask(http, by_hand, "peaks", start=0.5, status=422)["detail"]
     shown = ask(http, by_hand, points=3)
     assert not shown["exact"]
+    assert shown["resolution"]["basis"] == "samples"
     assert "keeps no steps" in shown["note"]
 
 
@@ -136,6 +140,7 @@ def test_the_client_reads_what_the_service_says(service_url, settings, job):
         found = client.job(job)
         window = found.window(FORCE, points=300)
         assert window.between_samples
+        assert window.resolution == Resolution("steps")
         assert not window.exact
         peak = ResultReader(Packed(settings.sealed_run(job, 1))).peaks()[FORCE]
         assert window[FORCE].max() == pytest.approx(peak.maximum, rel=1e-6)

@@ -47,7 +47,9 @@ def _of_steps(replay: Replay, steps: Floats, question: Question) -> Floats:
     if question.edges is None:
         return np.column_stack([replay.ends(steps), replay.works(steps)])
     ranges = np.zeros(len(question.names)) if question.ranges is None else question.ranges
-    return replay.extremes(question.names, steps, question.edges, ranges)
+    return replay.extremes(
+        question.names, steps, question.edges, ranges, evaluated=question.evaluated
+    )
 
 
 def _of_motion(motion: ExactMotion, question: Question) -> Floats:

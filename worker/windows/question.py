@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.records.resolution import Resolution
 
 ROUNDED = (
     "Computed on another processor, or by another version of the solver, than the run: values may"
@@ -36,6 +37,8 @@ class Question:
     """Names of methods, by the numbers that the last column of steps has."""
     ranges: Floats | None = None
     """(names,) range of each channel in its run; 0 where it is not known."""
+    evaluated: bool = True
+    """Extremes are evaluated where they are; otherwise they are sharp enough, and sooner there."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,8 @@ class Answer:
     """A sentence, where the steps cannot be made again here."""
     whole_from: float | None = None
     """Time, s, from which extremes are of whole intervals between samples."""
+    resolution: Resolution | None = None
+    """What the numbers were computed from."""
 
     @property
     def note(self) -> str:

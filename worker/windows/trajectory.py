@@ -4,10 +4,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from jointplay.records.arrays import Floats
+from jointplay.records.resolution import Resolution
 from jointplay.records.works import WORKS
 from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.intervals import Intervals
@@ -17,8 +19,13 @@ from jointplay.worker.windows.question import Answer, Question, together
 AT_ONCE = 200_000
 """Steps of one question, each counted once and `A_CHANNEL` for each channel: 0.3 s of computing."""
 A_CHANNEL = 0.1
-MOST_PIECES = 4
+A_SHARP_CHANNEL = 0.02
+"""The same where extremes are sharp, and not evaluated where they are: so they are of a window
+that is more than one question."""
+MOST_PIECES = 40
 """Questions of one window: others' are answered between them."""
+MOST_STEPS = 800_000
+"""Steps of a ledger of energy."""
 MOST_INSTANTS = 200_000
 """Instants of an ideal motion in one window: as long."""
 PARTS = 8
@@ -27,6 +34,11 @@ EVEN = 10_000
 """Instants of a path of an ideal motion."""
 ROUNDING = 1e-12
 """Share of a time by which a window may go beyond what is kept."""
+
+
+def at_once(channels: int, a_channel: float) -> int:
+    """Return how many steps one question reads of so many channels."""
+    return max(int(AT_ONCE / (1.0 + a_channel * channels)), 1)
 
 
 class Trajectory:
@@ -58,6 +70,15 @@ class Trajectory:
         end = steps.end if steps is not None else 0.0
         return None if stored is None else Intervals(self._reader, stored, end)
 
+    @property
+    def _is_motion(self) -> bool:
+        """The run needs no steps: its motion is known as it is."""
+        return bool(self._reader.attributes.get("exact") == "motion")
+
+    @property
+    def _finest(self) -> Resolution:
+        return Resolution("motion" if self._is_motion else "steps")
+
     def edges(self, start: float, stop: float, points: int) -> Floats:
         """Return edges (at most `points` + 1,), s, between which extremes are known exactly.
 
@@ -79,7 +100,8 @@ class Trajectory:
         """Return channels (m, names) at ascending times (m,), s: the bits that samples have."""
         if not len(times):
             return Answer(np.empty((0, len(names))))
-        pieces = self._pieces(names, float(times[0]), float(times[-1]), len(times))
+        start, stop, count = float(times[0]), float(times[-1]), len(times)
+        pieces = self._pieces(start, stop, count, at_once(len(names), A_CHANNEL))
         if isinstance(pieces, str):
             return Answer(None, refused=pieces)
         behind = np.searchsorted(times, [high for _, high in pieces], side="right")
@@ -90,7 +112,7 @@ class Trajectory:
                 steps = self._steps(float(times[first]), float(times[last - 1]))
                 question = self._question(names, steps, times=times[first:last])
                 answers.append(self._ask(question))
-        return together(answers)
+        return replace(together(answers), resolution=self._finest)
 
     def extremes(self, names: Sequence[str], edges: Floats) -> Answer:
         """Return extremes (bins, names, 4) between edges: lowest, its time, highest, its time."""
@@ -98,6 +120,7 @@ class Trajectory:
         if whole is None or edges[-1] <= whole.begin * (1.0 + ROUNDING):
             return self._in_steps(names, edges)
         found = np.full((len(edges) - 1, len(names), 4), np.nan)
+        spacing = float(self._reader.attributes["job"]["output_step"])
         known = Answer(found)
         inner = edges[edges < whole.begin]
         if len(inner):
@@ -108,11 +131,21 @@ class Trajectory:
         begin = max(len(inner) - 1, 0)
         beyond = whole.extremes(tuple(names), edges[begin:])
         found[begin:] = merged(found[begin:], beyond)
-        return replace(known, values=found, whole_from=max(whole.begin, float(edges[0])))
+        since = max(whole.begin, float(edges[0]))
+        return replace(
+            known,
+            values=found,
+            whole_from=since,
+            resolution=Resolution("intervals", spacing, since),
+        )
 
     def _in_steps(self, names: Sequence[str], edges: Floats) -> Answer:
-        start, stop = float(edges[0]), float(edges[-1])
-        pieces = self._pieces(names, start, stop, 8 * len(edges))
+        start, stop, instants = float(edges[0]), float(edges[-1]), 8 * len(edges)
+        every = len(self._reader.channels)  # bits of a channel do not depend on what is asked
+        pieces = self._pieces(start, stop, instants, at_once(every, A_CHANNEL))
+        evaluated = not isinstance(pieces, str) and len(pieces) == 1
+        if not evaluated:
+            pieces = self._pieces(start, stop, instants, at_once(every, A_SHARP_CHANNEL))
         if isinstance(pieces, str):
             return Answer(None, refused=pieces)
         ranges = self._ranges(names, start, stop)
@@ -120,13 +153,14 @@ class Trajectory:
         for low, high in pieces:
             parts = edges if len(pieces) == 1 else between(edges, low, high)
             steps = self._steps(low, high)
-            asked = self._question(names, steps, edges=parts, ranges=ranges)
-            answers.append(self._ask(asked))
+            about = {"edges": parts, "ranges": ranges, "evaluated": evaluated}
+            answers.append(self._ask(self._question(names, steps, **about)))
             begins.append(parts[:-1])
         found = together(answers)
         if found.values is None:
             return found
-        return replace(found, values=folded(edges, np.concatenate(begins), found.values))
+        values = folded(edges, np.concatenate(begins), found.values)
+        return replace(found, values=values, resolution=self._finest)
 
     def works(self, start: float, stop: float) -> Answer:
         """Return times (k,) and works since the start (k, 4) as one table: s, then J.
@@ -134,7 +168,7 @@ class Trajectory:
         Times are those at which steps end, and both ends of the window; within a step, a work is
         taken to grow evenly.
         """
-        pieces = self._pieces((), start, stop, 0)
+        pieces = self._pieces(start, stop, 0, MOST_STEPS // MOST_PIECES)
         if isinstance(pieces, str):
             return Answer(None, refused=pieces)
         stored = self._reader.steps
@@ -157,7 +191,7 @@ class Trajectory:
 
     def instants(self, start: float, stop: float, most: int) -> Floats | None:
         """Return times, s: `PARTS` in each step, or even ones of a motion without steps."""
-        pieces = self._pieces((), start, stop, most)
+        pieces = self._pieces(start, stop, most, AT_ONCE)
         if isinstance(pieces, str) or len(pieces) > 1:
             return None
         steps = self._steps(start, stop)
@@ -171,18 +205,18 @@ class Trajectory:
         lengths = np.diff(np.append(begins, stop))[:, None]
         return np.append((begins[:, None] + lengths * (np.arange(parts) / parts)).ravel(), stop)
 
-    def _question(self, names: Sequence[str], steps: Floats | None, **asked: Floats) -> Question:
+    def _question(self, names: Sequence[str], steps: Floats | None, **asked: Any) -> Question:
         attributes = self._reader.attributes
         methods = tuple(attributes.get("methods", ()))
         return Question(dict(attributes["job"]), tuple(names), steps, methods=methods, **asked)
 
     def _pieces(
-        self, names: Sequence[str], start: float, stop: float, instants: int
+        self, start: float, stop: float, instants: int, steps: int
     ) -> list[tuple[float, float]] | str:
-        """Return the times between which steps are read at once, or why there are none."""
+        """Return the times between which so many steps are read at once, or why there are none."""
         if start < 0.0 or stop > self.reached * (1.0 + ROUNDING):
             return f"The run has been computed from 0 to {self.reached:.9g} s."
-        if self._reader.attributes.get("exact") == "motion":
+        if self._is_motion:
             too_many = instants > MOST_INSTANTS
             refusal = f"An answer has at most {MOST_INSTANTS} instants; ask for fewer."
             return refusal if too_many else [(start, stop)]
@@ -193,12 +227,11 @@ class Trajectory:
             limit = self._reader.attributes["job"].get("steps_limit", 0)
             sentence = f"Steps are kept up to {stored.end:.6g} s, within {limit:g} bytes"
             return f"{sentence}; beyond there are samples, and extremes between them."
-        at_once = int(AT_ONCE / (1.0 + A_CHANNEL * len(names)))
         first, last = stored.around(start, stop)
-        if last - first > MOST_PIECES * at_once:
-            sentence = f"The window has {last - first} steps; of {len(names)} channels at most"
-            return f"{sentence} {MOST_PIECES * at_once} are read. A shorter one is exact."
-        cuts = [stored.begin(k) for k in range(first + at_once, last, at_once)]
+        if last - first > MOST_PIECES * steps:
+            sentence = f"The window has {last - first} steps; at most {MOST_PIECES * steps}"
+            return f"{sentence} are read. A shorter one is exact."
+        cuts = [stored.begin(k) for k in range(first + steps, last, steps)]
         return list(pairwise([start, *(cut for cut in cuts if start < cut < stop), stop]))
 
     def _steps(self, start: float, stop: float) -> Floats | None:

@@ -9,19 +9,21 @@ from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
-from jointplay.solver.kernels.loop.bin_records import (
+from jointplay.solver.kernels.loop.book import (
     HIGHEST,
     HIGHEST_TIME,
     LOWEST,
     LOWEST_TIME,
-    count_smooth,
-    find_suspects,
-    widen,
+    RANGE,
+    close_bin,
+    write_bin,
 )
 from jointplay.solver.kernels.loop.inner_peaks import WIDTHS, place_evenly
 from jointplay.solver.kernels.loop.passages import NARROWEST, closest_approach, passes
-from jointplay.solver.kernels.loop.peaks import look_at_extremes
+from jointplay.solver.kernels.loop.peaks import look_where_foretold
 from jointplay.solver.kernels.loop.runs import RUNS, Run
+from jointplay.solver.kernels.loop.seeking_in_turn import seek_in_turn
+from jointplay.solver.kernels.loop.suspects import find_suspects
 from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.unowned_view import unowned
 from jointplay.solver.kernels.loop.windows import CLOSER
@@ -42,38 +44,27 @@ def remember_start(lane: int, at: Places, work: np.ndarray) -> None:
 
 @inner_kernel()
 def load_records(
-    chosen: np.ndarray,
-    watched: np.ndarray,
-    ranges: np.ndarray,
-    records: np.ndarray,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
+    chosen: np.ndarray, book: np.ndarray, lane: int, at: Places, work: np.ndarray
 ) -> None:
-    """Set a lane's records of chosen channels to those that a bin has, and their ranges."""
-    for c in chosen:
-        work[at.known_range + watched[c], lane] = ranges[c]
-        work[at.lowest + watched[c], lane] = records[c, LOWEST]
-        work[at.lowest_time + watched[c], lane] = records[c, LOWEST_TIME]
-        work[at.highest + watched[c], lane] = records[c, HIGHEST]
-        work[at.highest_time + watched[c], lane] = records[c, HIGHEST_TIME]
+    """Set a lane's records of chosen rows to those of a book, and their ranges."""
+    for r in chosen:
+        work[at.known_range + r, lane] = book[RANGE, r]
+        work[at.lowest + r, lane] = book[LOWEST, r]
+        work[at.lowest_time + r, lane] = book[LOWEST_TIME, r]
+        work[at.highest + r, lane] = book[HIGHEST, r]
+        work[at.highest_time + r, lane] = book[HIGHEST_TIME, r]
 
 
 @inner_kernel()
 def store_records(
-    chosen: np.ndarray,
-    watched: np.ndarray,
-    records: np.ndarray,
-    lane: int,
-    at: Places,
-    work: np.ndarray,
+    chosen: np.ndarray, book: np.ndarray, lane: int, at: Places, work: np.ndarray
 ) -> None:
-    """Set a bin's records, (channels, 4), to those that a lane has of chosen channels."""
-    for c in chosen:
-        records[c, LOWEST] = work[at.lowest + watched[c], lane]
-        records[c, LOWEST_TIME] = work[at.lowest_time + watched[c], lane]
-        records[c, HIGHEST] = work[at.highest + watched[c], lane]
-        records[c, HIGHEST_TIME] = work[at.highest_time + watched[c], lane]
+    """Set a book's records to those that a lane has of chosen rows."""
+    for r in chosen:
+        book[LOWEST, r] = work[at.lowest + r, lane]
+        book[LOWEST_TIME, r] = work[at.lowest_time + r, lane]
+        book[HIGHEST, r] = work[at.highest + r, lane]
+        book[HIGHEST_TIME, r] = work[at.highest_time + r, lane]
 
 
 @inner_kernel()
@@ -86,9 +77,20 @@ def any_passes(lane: int, at: Places, work: np.ndarray) -> bool:
 
 
 @inner_kernel()
+def eights(rows: np.ndarray) -> np.ndarray:
+    """Return the first row of each eight that one of ascending rows is in."""
+    found, count = np.empty(len(rows), np.int64), 0
+    for r in rows:
+        first = r - r % INSTANTS
+        if count == 0 or found[count - 1] != first:
+            found[count] = first
+            count += 1
+    return found[:count]
+
+
+@inner_kernel()
 def look_at_suspects(
     chosen: np.ndarray,
-    watched: np.ndarray,
     sharp: float,
     low: float,
     high: float,
@@ -100,21 +102,20 @@ def look_at_suspects(
     table: np.ndarray,
     channels_around: LaneFunction,
 ) -> None:
-    """Seek extremes of chosen channels that are known at even instants between two shares."""
+    """Seek extremes of chosen rows that are known at even instants between two shares."""
     waiting, spacing = 0, (high - low) / (INSTANTS - 1)
-    for c in chosen:
-        r = watched[c]
+    for r in chosen:
         table[CLOSER : CLOSER + INSTANTS] = spare[at.channel + r]
         waiting = open_windows(
             r, 1, low, spacing, INSTANTS, sharp, waiting, lane, run, at, work, table
         )
-    look_at_extremes(waiting, lane, run, at, work, spare, table, channels_around)
+    if look_where_foretold(waiting, lane, run, at, work, spare, table, channels_around) > 0:
+        seek_in_turn(waiting, lane, run, at, work, spare, table, channels_around)
 
 
 @inner_kernel()
 def look_about_passages(
     every: np.ndarray,
-    watched: np.ndarray,
     sharp: float,
     low: float,
     high: float,
@@ -137,7 +138,6 @@ def look_about_passages(
                 channels_within(work, spare, lane)
                 look_at_suspects(
                     every,
-                    watched,
                     sharp,
                     left,
                     right,
@@ -154,7 +154,7 @@ def look_about_passages(
 @deferred(
     void(
         *(ADDRESSES, PLACES, WORK, WORK, RUNS, float64[::1], float64[:, ::1], int64[:, ::1]),
-        *(float64[:, ::1], int64[::1], int64[::1], float64[::1], float64, float64[:, :, ::1]),
+        *(float64[:, ::1], int64[::1], float64, float64[:, ::1], float64[:, :, ::1]),
     )
 )
 def extremes_in_steps(
@@ -167,10 +167,9 @@ def extremes_in_steps(
     steps: np.ndarray,
     parts: np.ndarray,
     shares: np.ndarray,
-    watched: np.ndarray,
-    rest: np.ndarray,
-    ranges: np.ndarray,
+    rows: np.ndarray,
     sharp: float,
+    book: np.ndarray,
     records: np.ndarray,
 ) -> None:
     """Seek extremes of channels in parts of steps, and keep those of each bin.
@@ -187,23 +186,22 @@ def extremes_in_steps(
         Step and bin of each part, both ascending; every step has a part.
     shares : (k, 2)
         Where in its step a part begins and ends.
-    watched : (w,)
-        Rows of the channel block that runs watch for extremes.
-    rest : (r,)
-        Rows of the others, which are functions of time alone.
-    ranges : (w + r,)
-        Range of each channel in its run, as far as it is known: extremes are sharp against that.
-        Those of bins that are complete widen it.
+    rows : (channels,)
+        Rows of the channel block that are wanted, ascending.
     sharp
         Share of its range by which an extreme may be off unseen; 0: it is evaluated where it is.
-    records : (bins, w + r, 4)
-        Lowest value, its time, highest value, its time; NaN where there is none yet.
+    book
+        See `solver.kernels.loop.book`: of bin 0 so far, then of the last one.
+    records : (bins, channels, 4)
+        Lowest value, its time, highest value, its time; left as it is where a bin has no part.
     """
     call, at = functions_at(addresses[0]), places[0]
     work, spare, runs, table = unowned(work), unowned(spare), unowned(runs), unowned(table)
-    every, suspects = np.arange(len(watched)), np.empty(len(watched), np.int64)
+    book, close = unowned(book), np.empty(spare.shape)
+    every, suspects = rows[rows < at.rows], np.empty(book.shape[1], np.int64)
+    blocks = eights(rows)
     around, within = call.channels_around, call.channels_within
-    p = 0
+    p, present = 0, 0
     for first in range(0, len(steps), LANES):
         count = read_steps(steps, first, runs, at, work)
         call.right_hand_side(work)
@@ -211,26 +209,44 @@ def extremes_in_steps(
             remember_start(lane, at, work)
         call.attempt(work)
         while p < len(parts) and parts[p, 0] < first + count:
-            if p > 0 and parts[p - 1, 1] != parts[p, 1]:
-                widen(ranges, records[parts[p - 1, 1]])
-            lane, record = parts[p, 0] - first, records[parts[p, 1]]
+            if parts[p, 1] != present:
+                close_bin(book, rows, records[present])
+                present = parts[p, 1]
+            lane = parts[p, 0] - first
             run, tried = runs[lane], work[at.tried, lane]
             low, high = shares[p, 0], shares[p, 1]
-            begun = float(run.periods) * run.period + work[at.time, lane] + low * tried
+            begin = float(run.periods) * run.period + work[at.time, lane] + low * tried
+            spacing = (high - low) * tried / (INSTANTS - 1)
             place_evenly(low, high, at, spare)
             within(work, spare, lane)
-            spacing = (high - low) * tried / (INSTANTS - 1)
-            count_smooth(rest, record[len(watched) :], begun, spacing, at, spare)
             behind = find_suspects(
-                watched, ranges, sharp, begun, spacing, record, at, spare, suspects
+                low,
+                high,
+                begin,
+                spacing,
+                sharp,
+                blocks,
+                lane,
+                at,
+                work,
+                spare,
+                close,
+                table,
+                book,
+                within,
+                suspects,
             )
-            chosen = every if any_passes(lane, at, work) else suspects[:behind]
-            load_records(chosen, watched, ranges, record, lane, at, work)
-            look_at_suspects(
-                chosen, watched, sharp, low, high, lane, run, at, work, spare, table, around
-            )
-            look_about_passages(
-                every, watched, sharp, low, high, lane, run, at, work, spare, table, around, within
-            )
-            store_records(chosen, watched, record, lane, at, work)
+            passing = any_passes(lane, at, work)
+            chosen = every if passing else suspects[:behind]
+            if len(chosen) > 0:
+                load_records(chosen, book, lane, at, work)
+                look_at_suspects(
+                    chosen, sharp, low, high, lane, run, at, work, spare, table, around
+                )
+                if passing:
+                    look_about_passages(
+                        every, sharp, low, high, lane, run, at, work, spare, table, around, within
+                    )
+                store_records(chosen, book, lane, at, work)
             p += 1
+    write_bin(book, rows, records[present])

@@ -103,6 +103,22 @@ def look_at_extremes(
 
     Mostly that makes them sharp; the others are sought one after the other.
     """
+    if look_where_foretold(waiting, lane, run, at, work, spare, table, channels_around) > 0:
+        seek(waiting, lane, run, at, work, spare, table, channels_around)
+
+
+@inner_kernel()
+def look_where_foretold(
+    waiting: int,
+    lane: int,
+    run: Run,
+    at: Places,
+    work: np.ndarray,
+    spare: np.ndarray,
+    table: np.ndarray,
+    channels_around: LaneFunction,
+) -> int:
+    """Evaluate the channels of windows where their extremes seem to be; how many are not sharp."""
     done = 0
     while done < waiting:
         early, late = 0, HALF
@@ -127,8 +143,7 @@ def look_at_extremes(
             table[w + ROUNDS] = MOST_ROUNDS
         else:
             unsharp += 1
-    if unsharp > 0:
-        seek(waiting, lane, run, at, work, spare, table, channels_around)
+    return unsharp
 
 
 @inner_kernel()

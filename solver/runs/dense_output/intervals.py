@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from jointplay.records.arrays import Floats
 from jointplay.solver.kernels.emit.places import LENGTH
-from jointplay.solver.kernels.loop.bin_records import HIGHEST, LOWEST
+from jointplay.solver.kernels.loop.book import HIGHEST, LOWEST
 from jointplay.solver.kernels.loop.extremes_in_steps import extremes_in_steps
 from jointplay.solver.kernels.loop.seeking import SHARP
 from jointplay.solver.runs.admission import Admission
@@ -33,14 +33,11 @@ class IntervalExtremes:
         self._replay = Replay(admission, method)
         self._last = admission.samples - 1
         self._spacing, self._duration = float(job["output_step"]), float(job["duration"])
-        self._sources, watched, rest = self._replay.sought(names)
-        self._wanted = [*watched, *rest]
-        self._rows = self._replay.rows(watched), self._replay.rows(rest)
-        self._table = self._replay.table()
+        self._sources, self._wanted = self._replay.sought(names)
+        self._rows, self._table = self._replay.rows(self._wanted), self._replay.table()
         self._present = NONE
         """Sample at the end of the interval that is not complete yet."""
-        self._record = np.full((len(self._wanted), 4), np.nan)
-        self._ranges = np.zeros(len(self._wanted))
+        self._book = self._replay.book(self._wanted, np.zeros(len(self._wanted)))
 
     def add(self, steps: Floats) -> Floats:
         """Return the intervals (k, 1 + 2 channels) that further steps (n, width) complete.
@@ -51,46 +48,38 @@ class IntervalExtremes:
             return self._arranged(np.empty((0, len(self._wanted), 4)), 0)
         begins, lengths = self._replay.begins(steps), steps[:, LENGTH]
         first, edges = self._edges(float(begins[0]), float(begins[-1] + lengths[-1]))
-        records = np.full((len(edges) - 1, len(self._wanted), 4), np.nan)
-        ended = np.empty((0, len(self._wanted), 4))
-        if first == self._present:
-            records[0] = self._record
-        elif self._present != NONE:
-            spread = self._record[:, HIGHEST] - self._record[:, LOWEST]
-            self._ranges = np.maximum(self._ranges, spread)
-            ended = self._record[None]
+        goes_on = int(first > self._present != NONE)
+        records = np.full((goes_on + len(edges) - 1, len(self._wanted), 4), np.nan)
         parts, shares = cut(begins, lengths, edges)
+        parts[:, 1] += goes_on
         extremes_in_steps(
             *self._replay.arguments,
             self._table,
             np.ascontiguousarray(steps),
             parts,
             shares,
-            *self._rows,
-            self._ranges,
+            self._rows,
             SHARP,
+            self._book,
             records,
         )
-        self._present = first + len(records) - 1
-        self._record = records[-1].copy()
-        return self._arranged(np.concatenate([ended, records[:-1]]), self._present)
+        self._present = first + len(edges) - 2
+        return self._arranged(records[:-1], self._present)
 
     def end(self) -> Floats:
         """Return the last interval, as `add` does: no step will follow."""
         present, self._present = self._present, NONE
         count = int(present != NONE)
-        return self._arranged(self._record[None][:count], present + count)
+        return self._arranged(self._book[:, self._rows].T[None][:count], present + count)
 
     def state(self, name: str) -> dict[str, NDArray[Any]]:
         """Return what the next call depends on, as arrays of a checkpoint."""
-        found = {"present": np.array(self._present), "record": self._record, "ranges": self._ranges}
-        return {f"{name}/{part}": array for part, array in found.items()}
+        return {f"{name}/present": np.array(self._present), f"{name}/book": self._book.copy()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]], name: str) -> None:
         """Continue from `state`, bit for bit."""
         self._present = int(saved[f"{name}/present"])
-        self._record = saved[f"{name}/record"].copy()
-        self._ranges = saved[f"{name}/ranges"].copy()
+        self._book = saved[f"{name}/book"].copy()
 
     def _edges(self, begin: float, end: float) -> tuple[int, Floats]:
         """Return the first sample behind a time, s, and the edges of intervals to another time."""

@@ -10,6 +10,7 @@ from jointplay.records.arrays import Floats
 from jointplay.solver.integrators import METHODS
 from jointplay.solver.kinds import Admission, admit
 from jointplay.solver.runs.dense_output.columns import METHOD, method_of, step_columns
+from jointplay.solver.runs.dense_output.intervals import IntervalExtremes
 from jointplay.solver.runs.dense_output.replay import Replay
 from jointplay.solver.runs.results import Summary
 from jointplay.solver.runs.simulate import Simulation
@@ -115,6 +116,56 @@ def test_a_window_cut_into_bins_has_the_extremes_of_the_whole_window() -> None:
     (whole,) = replay.extremes(names, steps, np.array([0.01, 0.1]), ranges)
     assert np.all(np.abs(bins[:, :, 2].max(axis=0) - whole[:, 2]) <= SHARP * ranges + 1e-9)
     assert np.all(np.abs(bins[:, :, 0].min(axis=0) - whole[:, 0]) <= SHARP * ranges + 1e-9)
+
+
+def alone_and_together(
+    replay: Replay, steps: Floats, names: list[str], ranges: Floats, edges: Floats
+) -> None:
+    for evaluated in (True, False):
+        together = replay.extremes(names, steps, edges, ranges, evaluated=evaluated)
+        for c in range(len(names)):
+            one = slice(c, c + 1)
+            alone = replay.extremes(names[one], steps, edges, ranges[one], evaluated=evaluated)
+            assert np.array_equal(alone[:, 0], together[:, c], equal_nan=True), names[c]
+
+
+def test_extremes_of_a_channel_do_not_depend_on_what_is_asked_with_it() -> None:
+    alone_and_together(*press(), np.linspace(0.01, 0.06, 41))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "duration"),
+    [
+        ("slider-crank", 0.05),  # its torque is rounding at times, of a large range
+        ("four-bar", 0.05),
+        ("bouncing-journal", 0.5),
+        ("double-pendulum", 1.0),
+    ],
+)
+def test_extremes_of_a_channel_are_its_own_in_other_mechanisms(name: str, duration: float) -> None:
+    admission, _, rows, summary = computed(job({"preset": name}, duration))
+    names = [channel.name for channel in admission.channels]
+    ranges = np.array([summary.peaks[n].maximum - summary.peaks[n].minimum for n in names])
+    edges = np.linspace(0.3 * duration, 0.9 * duration, 41)
+    alone_and_together(*replay_of(admission, rows), names, ranges, edges)
+
+
+def test_intervals_between_samples_are_those_of_a_window() -> None:
+    """Within 1e-6 of the range, and so of channels that are nothing but rounding."""
+    replay, steps, names, ranges = press()
+    admission = admit(job(PRESS, 0.12, steps_limit=0))
+    assert isinstance(admission, Admission)
+    intervals = IntervalExtremes(admission, "tsitouras")
+    found = np.concatenate(
+        [intervals.add(steps[:300]), intervals.add(steps[300:]), intervals.end()]
+    )
+    edges = np.append(np.arange(50) * admission.job["output_step"], 0.12)
+    expected = replay.extremes(names, steps, edges, ranges)
+    assert np.array_equal(found[:, 0], np.arange(1, 51))
+    rounded = np.where(ranges > NOISE, SHARP * ranges, ranges)
+    for column, first in ((0, 1), (2, 2)):
+        assert np.all(np.abs(found[:, first::2] - expected[:, :, column]) <= rounded)
 
 
 def test_steps_follow_one_another_from_the_start_to_the_end() -> None:

@@ -9,12 +9,15 @@ from jointplay.figures import between_samples, sampling
 from jointplay.figures.bearing_angles import loads
 from jointplay.figures.kind import Selection
 from jointplay.local.folder_job import results_in
+from jointplay.records.resolution import Resolution
 from jointplay.records.run import inside
 from jointplay.worker.windows import trajectory
 from jointplay.worker.windows.evaluate import answer
 from jointplay.worker.windows.question import Question
 
 FORCE = "A.normal_force"
+ROUNDING = 1e-7
+"""Range, in SI units, that only channels of nothing but rounding are below."""
 PRESS = {"preset": "seven-bar-press"}
 
 
@@ -100,6 +103,7 @@ def test_a_rose_holds_the_impulse_of_all_contacts(source):
 def test_windows_of_a_folder_are_those_of_a_service(job, peak):
     window = job.window(FORCE, points=100)
     assert window.between_samples
+    assert window.resolution == Resolution("steps")
     assert window[FORCE].max() == pytest.approx(peak.maximum, rel=1e-6)
     fine = job.window(FORCE, 0.02, 0.021, step=1e-6)
     assert len(fine.time) == 1001
@@ -122,6 +126,21 @@ def test_a_long_window_is_read_in_pieces_with_the_same_result(source, monkeypatc
     assert np.all(np.diff(extremes.values[:, 0, 3]) > 0.0)
     monkeypatch.setattr(trajectory, "MOST_PIECES", 2)
     assert "A shorter one is exact" in source.trajectory.extremes(names, edges).refused
+
+
+def test_a_window_of_many_steps_and_all_channels_has_every_extreme(source, monkeypatch):
+    peaks = source.peaks()
+    ranges = np.array([one.maximum - one.minimum for one in peaks.values()])
+    edges, names = np.linspace(0.0, 0.06, 31), list(peaks)
+    whole = source.trajectory.extremes(names, edges)
+    monkeypatch.setattr(trajectory, "AT_ONCE", 600)
+    pieces = source.trajectory.extremes(names, edges)
+    assert pieces.resolution == whole.resolution == Resolution("steps")
+    off = np.abs(pieces.values - whole.values)[:, :, ::2].max(axis=(0, 2))
+    real = ranges > ROUNDING
+    assert np.all(off[real] <= 1e-6 * ranges[real])
+    alone = source.trajectory.extremes([FORCE], edges)
+    assert np.array_equal(alone.values[:, 0], pieces.values[:, names.index(FORCE)])
 
 
 def asked(source, change):
@@ -162,6 +181,7 @@ def test_a_curve_of_too_many_steps_is_of_samples(job, source, monkeypatch):
     window = job.window(FORCE, points=1000)
     assert "A shorter one is exact" in window.note
     assert window.exact
+    assert window.resolution == Resolution("samples", 0.004)
     overview = job.window(FORCE, points=8)
     assert not overview.exact
     assert not overview.between_samples

@@ -8,6 +8,7 @@ from jointplay import figures
 from jointplay.figures import sampling
 from jointplay.figures.kind import Selection
 from jointplay.local.folder_job import results_in
+from jointplay.records.resolution import Resolution
 from jointplay.solver.kinds import admit
 from jointplay.solver.runs.simulate import Simulation
 
@@ -38,6 +39,9 @@ def test_the_impacts_of_a_window_are_in_it_though_no_sample_is(jobs):
     assert window[FORCE].max() == pytest.approx(1821.3, abs=0.1)
     assert window.between_samples
     assert "no steps are kept" in window.note
+    assert window.resolution == Resolution("intervals", 1e-3, 0.02)
+    samples = jobs["none"].window(FORCE, 0.02, 0.06)
+    assert samples.resolution == Resolution("samples", 1e-3)
     assert len(window.time) == 2 * 40  # spans of a millisecond, as samples are
 
 

@@ -1,0 +1,61 @@
+"""Book of a bin: records of all rows of the channel block, and what is known of each beforehand.
+
+An array (`LINES`, width): a column for each row, and some more that make the width a multiple of
+eight. A row that nobody asks for has records that nothing can surpass.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from jointplay.records.arrays import Floats
+from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.layout import INSTANTS
+
+LOWEST, LOWEST_TIME, HIGHEST, HIGHEST_TIME = range(4)
+"""Lines of a book, and columns of a record in the order of `jointplay.records.peak.PEAK`."""
+RANGE = 4
+"""Line of each channel's range as far as it is known: extremes are sharp against that."""
+ROUNDING = 5
+"""Line of what each channel moves by where it is only rounded, as far as that was seen."""
+LINES = 6
+
+
+def blank_book(rows: int, wanted: NDArray[np.int64], ranges: Floats) -> Floats:
+    """Return a book of so many rows, of which some are wanted, with the ranges (wanted,) of these.
+
+    ranges : 0 where a range is not known.
+    """
+    book = np.zeros((LINES, -(-rows // INSTANTS) * INSTANTS))
+    book[LOWEST], book[HIGHEST] = -math.inf, math.inf
+    book[LOWEST, wanted], book[HIGHEST, wanted] = math.inf, -math.inf
+    book[RANGE, wanted] = ranges
+    return book
+
+
+@inner_kernel()
+def close_bin(book: np.ndarray, rows: np.ndarray, record: np.ndarray) -> None:
+    """Write the records (channels, 4) of wanted rows, and let these begin a new bin."""
+    write_bin(book, rows, record)
+    for r in rows:
+        book[RANGE, r] = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])
+        book[LOWEST, r], book[HIGHEST, r] = math.inf, -math.inf
+
+
+@inner_kernel()
+def write_bin(book: np.ndarray, rows: np.ndarray, record: np.ndarray) -> None:
+    """Write the records (channels, 4) of wanted rows, if they have any."""
+    for c in range(len(rows)):
+        if book[LOWEST, rows[c]] <= book[HIGHEST, rows[c]]:
+            for line in range(RANGE):
+                record[c, line] = book[line, rows[c]]
+
+
+@inner_kernel()
+def count_value(book: np.ndarray, r: int, value: float, time: float) -> None:
+    """Let a value of a row at a time, s, count."""
+    if value < book[LOWEST, r]:
+        book[LOWEST, r], book[LOWEST_TIME, r] = value, time
+    if value > book[HIGHEST, r]:
+        book[HIGHEST, r], book[HIGHEST_TIME, r] = value, time

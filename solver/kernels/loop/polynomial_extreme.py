@@ -1,0 +1,95 @@
+"""Extremes of a channel that is a polynomial in a step, as far as eight even values can tell."""
+
+import numpy as np
+
+from jointplay.solver.kernels.emit.places import Places
+from jointplay.solver.kernels.jit import inner_kernel
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.book import HIGHEST, LOWEST, RANGE, count_value
+from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.tops import CORNER
+
+LAST = INSTANTS - 1
+MIDDLE = 0.5 * LAST
+COEFFICIENTS = np.ascontiguousarray(
+    np.linalg.inv(np.vander(np.arange(INSTANTS) - MIDDLE, increasing=True)).T
+)
+"""(values, powers): the polynomial through eight values, about the middle of them."""
+SEVENTH = (-1.0, 7.0, -21.0, 35.0)
+"""Weights of the seventh difference, of a value less its mirror image."""
+MOST_ROUNDS = 8
+CLOSE = 1e-4
+"""Change of a place, in spacings, that ends the search: a value changes by its square."""
+
+
+@inner_kernel()
+def count_if_polynomial(
+    r: int,
+    begin: float,
+    spacing: float,
+    at: Places,
+    spare: np.ndarray,
+    book: np.ndarray,
+    powers: np.ndarray,
+) -> bool:
+    """Let extremes of a row inside a part of a step count, if it is a polynomial; whether it is.
+
+    The seventh difference shows a corner by no less than this goes beyond the values. Without one
+    the polynomial through them is off by a hundredth of that difference.
+
+    powers : (INSTANTS,) room for coefficients.
+    """
+    values, seventh = spare[at.channel + r], 0.0
+    for i in range(len(SEVENTH)):
+        seventh += SEVENTH[i] * (values[i] - values[LAST - i])
+    wide = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])
+    if not abs(seventh) <= SHARP * wide:
+        return False
+    known = False
+    for i in range(INSTANTS):
+        before, behind = values[max(i - 1, 0)], values[min(i + 1, LAST)]
+        rise, fall = values[i] - before, values[i] - behind
+        if rise * fall < 0.0:
+            continue
+        m = min(max(i, 1), LAST - 1)
+        bend = values[m - 1] - 2.0 * values[m] + values[m + 1]
+        beyond = values[i] - CORNER * bend
+        if bend == 0.0 or book[LOWEST, r] <= beyond <= book[HIGHEST, r]:
+            continue
+        if not known:
+            fit(values, powers)
+            known = True
+        place = turning_point(powers, i - MIDDLE)
+        value = powers[LAST]
+        for k in range(LAST - 1, -1, -1):
+            value = value * place + powers[k]
+        count_value(book, r, value, begin + spacing * (place + MIDDLE))
+    return True
+
+
+@inner_kernel()
+def fit(values: np.ndarray, powers: np.ndarray) -> None:
+    """Write the coefficients (powers,) of the polynomial through even values."""
+    powers[:] = 0.0
+    for i in range(INSTANTS):
+        for k in range(INSTANTS):
+            powers[k] += COEFFICIENTS[i, k] * values[i]
+
+
+@inner_kernel()
+def turning_point(powers: np.ndarray, start: float) -> float:
+    """Return where a polynomial turns within one spacing of a place, or that end of it."""
+    low, high = max(start - 1.0, -MIDDLE), min(start + 1.0, MIDDLE)
+    place = start
+    for _ in range(MOST_ROUNDS):
+        rate, bend = 0.0, 0.0
+        for k in range(LAST, 0, -1):
+            bend = bend * place + rate
+            rate = rate * place + k * powers[k]
+        if bend == 0.0:
+            break
+        before = place
+        place = min(max(place - rate / bend, low), high)
+        if abs(place - before) < CLOSE:
+            break
+    return place

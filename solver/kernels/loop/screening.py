@@ -1,0 +1,227 @@
+"""Eight channels at eight instants each: which of them may be beyond a record in between.
+
+A channel at a time this took longer than computing the channels did.
+"""
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from llvmlite import ir
+from numba import int64
+from numba.extending import intrinsic
+
+from jointplay.solver.kernels.layout import INSTANTS
+from jointplay.solver.kernels.loop.book import (
+    HIGHEST,
+    HIGHEST_TIME,
+    LOWEST,
+    LOWEST_TIME,
+    RANGE,
+    ROUNDING,
+)
+from jointplay.solver.kernels.loop.seeking import SHARP
+from jointplay.solver.kernels.loop.tops import CORNER
+
+ULPS = 1e-15
+"""Share of a value that is its own rounding."""
+ONE_BY_ONE = 8
+"""Bits of an answer for the channels, whose values are to be counted one by one."""
+JAGGED = 16
+"""Bits of an answer for the channels which turn at every instant, if that is no rounding."""
+
+NUMBER, WORD, PLACE = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
+EIGHT = ir.VectorType(NUMBER, INSTANTS)
+ALIGNED = 8
+
+
+def _screen(
+    _typing: Any, values: Any, row: Any, book: Any, first: Any, begin: Any, end: Any, sharp: Any
+) -> Any:
+    """Let the ends of a part of a step count, and return which channels may be beyond inside.
+
+    Parameters
+    ----------
+    values : (slots, INSTANTS)
+        At even instants.
+    row
+        Slot of the first of eight channels.
+    book : (rows, channels)
+        See `solver.kernels.loop.book`.
+    first
+        Column of the first of the eight channels there.
+    begin, end
+        Times of the first and the last instant, s.
+    sharp
+        Share of its range by which an extreme may be off unseen.
+
+    Bit k of the answer stands for channel k: its extremes may be inside. Bits from `ONE_BY_ONE`
+    on: it moves by no more than its rounding, and what it does is beyond a record. From `JAGGED`
+    on: it turns at every instant.
+    """
+
+    def generate(context, builder, signature, arguments):
+        arrays = [
+            context.make_array(signature.args[k])(context, builder, value=arguments[k])
+            for k in (0, 2)
+        ]
+        width = builder.extract_value(arrays[1].shape, 1)
+        vectors = _Vectors(builder, arrays[0].data, arrays[1].data, width, arguments[3])
+        return _answer(vectors, arguments[1], *arguments[4:])
+
+    return int64(values, row, book, first, begin, end, sharp), generate
+
+
+screen = cast(Callable[..., int], intrinsic(_screen))
+
+
+def _answer(at, row, begin, end, sharp):
+    """Generate the code of `screen`."""
+    b, v = at.builder, at.channels(row)
+    last = INSTANTS - 1
+    low, high = at.load(LOWEST), at.load(HIGHEST)
+    low_time, high_time = at.load(LOWEST_TIME), at.load(HIGHEST_TIME)
+    for value, time in ((v[0], at.same(begin)), (v[last], at.same(end))):
+        below, above = at.less(value, low), at.less(high, value)
+        low, low_time = b.select(below, value, low), b.select(below, time, low_time)
+        high, high_time = b.select(above, value, high), b.select(above, time, high_time)
+    for line, found in (
+        (LOWEST, low),
+        (HIGHEST, high),
+        (LOWEST_TIME, low_time),
+        (HIGHEST_TIME, high_time),
+    ):
+        at.store(line, found)
+    least, most, bend = v[1], v[1], None
+    for i in range(1, last):
+        least, most = at.smaller(least, v[i]), at.larger(most, v[i])
+        bent = at.size(b.fsub(b.fadd(v[i - 1], v[i + 1]), b.fadd(v[i], v[i])))
+        bend = bent if bend is None else at.larger(bend, bent)
+    far = b.fsub(
+        at.larger(most, at.larger(v[0], v[last])), at.smaller(least, at.smaller(v[0], v[last]))
+    )
+    own = b.fmul(at.number(ULPS), at.larger(at.size(v[0]), at.size(v[last])))
+    moves = at.less(at.larger(at.load(ROUNDING), own), far)
+    spread = at.load(RANGE)
+    beyond = b.fsub(b.fmul(at.number(CORNER), bend), b.fmul(at.same(sharp), spread))
+    inside = b.or_(at.less(high, b.fadd(most, beyond)), at.less(b.fsub(least, beyond), low))
+    wide = at.larger(spread, b.fsub(high, low))
+    hidden = _hides_beside_ends(at, v, low, high, b.fmul(at.number(SHARP), wide))
+    wanted = b.and_(moves, b.or_(inside, hidden))
+    surpassed = b.or_(at.less(high, most), at.less(least, low))
+    one_by_one = b.and_(b.not_(moves), surpassed)
+    jagged = b.and_(wanted, at.less(far, bend))
+    answer = at.bits(wanted)
+    for marks, shift in ((one_by_one, ONE_BY_ONE), (jagged, JAGGED)):
+        answer = b.or_(answer, b.shl(at.bits(marks), WORD(shift)))
+    return answer
+
+
+def _hides_beside_ends(at, v, low, high, sharp):
+    """Return where an end within `sharp` of an extreme may have a greater one beside it, by more.
+
+    The end of the step before is the same instant, but may differ in the last bit.
+
+    A corner shows in the seventh difference of eight values by no less than it goes beyond them;
+    without one, a channel goes on from its end where it bends by less than it rises, or than is
+    worth a look.
+    """
+    b, seventh = at.builder, at.number(0.0)
+    for i, weight in enumerate((-1.0, 7.0, -21.0, 35.0)):
+        apart = b.fsub(v[i], v[INSTANTS - 1 - i])
+        seventh = b.fadd(seventh, b.fmul(at.number(weight), apart))
+    cornered = b.not_(b.fcmp_ordered("<=", at.size(seventh), sharp))
+    found = None
+    for end, sense in ((0, 1), (INSTANTS - 1, -1)):
+        rise = b.fsub(v[end + sense], v[end])
+        bend = at.size(b.fsub(b.fsub(v[end + 2 * sense], v[end + sense]), rise))
+        turns = b.and_(at.less(sharp, bend), b.not_(at.less(bend, at.size(rise))))
+        lowest = b.fcmp_ordered("<=", v[end], b.fadd(low, sharp))
+        best = b.or_(lowest, b.fcmp_ordered(">=", v[end], b.fsub(high, sharp)))
+        hides = b.and_(best, b.or_(cornered, turns))
+        found = hides if found is None else b.or_(found, hides)
+    return found
+
+
+class _Vectors:
+    """Eight numbers at a time: of arrays, and arithmetic."""
+
+    def __init__(self, builder, values, book, width, first) -> None:
+        self.builder, self._values, self._book = builder, values, book
+        self._width, self._first = width, first
+
+    def channels(self, row):
+        """Return eight channels at each of eight instants."""
+        vectors = [self._at(self._values, self.builder.add(row, WORD(k))) for k in range(INSTANTS)]
+        return _transposed(self.builder, [self._load(one) for one in vectors])
+
+    def load(self, line):
+        return self._load(self._place(line))
+
+    def store(self, line, vector) -> None:
+        self.builder.store(vector, self._place(line), align=ALIGNED)
+
+    def same(self, number):
+        """Return a number eight times."""
+        undefined = ir.Constant(EIGHT, ir.Undefined)
+        alone = self.builder.insert_element(undefined, number, PLACE(0))
+        return self.builder.shuffle_vector(alone, undefined, _order([0] * INSTANTS))
+
+    def number(self, value):
+        return ir.Constant(EIGHT, [value] * INSTANTS)
+
+    def less(self, x, y):
+        """Return where x < y; nowhere where one is no number."""
+        return self.builder.fcmp_ordered("<", x, y)
+
+    def smaller(self, x, y):
+        return self.builder.select(self.less(x, y), x, y)
+
+    def larger(self, x, y):
+        return self.builder.select(self.less(y, x), x, y)
+
+    def size(self, x):
+        """Return x without its sign."""
+        words = ir.VectorType(WORD, INSTANTS)
+        kept = self.builder.and_(
+            self.builder.bitcast(x, words), ir.Constant(words, [2**63 - 1] * INSTANTS)
+        )
+        return self.builder.bitcast(kept, EIGHT)
+
+    def bits(self, marks):
+        """Return bit k where mark k is set."""
+        return self.builder.zext(self.builder.bitcast(marks, ir.IntType(INSTANTS)), WORD)
+
+    def _load(self, place):
+        return self.builder.load(place, align=ALIGNED)
+
+    def _at(self, array, row):
+        offset = self.builder.mul(row, WORD(INSTANTS))
+        return self._pointer(array, offset)
+
+    def _place(self, line):
+        offset = self.builder.add(self.builder.mul(self._width, WORD(line)), self._first)
+        return self._pointer(self._book, offset)
+
+    def _pointer(self, array, offset):
+        return self.builder.bitcast(self.builder.gep(array, [offset]), EIGHT.as_pointer())
+
+
+def _transposed(builder, rows):
+    """Return the columns of eight rows: pairs are exchanged across 1, 2 and 4 of them."""
+    for half in (1, 2, 4):
+        upper = [k for k in range(INSTANTS) if not k & half]
+        lower = [INSTANTS + k - half if k & half else k for k in range(INSTANTS)]
+        right = [INSTANTS + k if k & half else k + half for k in range(INSTANTS)]
+        found = list(rows)
+        for k in upper:
+            pair = rows[k], rows[k + half]
+            found[k] = builder.shuffle_vector(*pair, _order(lower))
+            found[k + half] = builder.shuffle_vector(*pair, _order(right))
+        rows = found
+    return rows
+
+
+def _order(places: list[int]) -> Any:
+    return ir.Constant(ir.VectorType(PLACE, len(places)), places)
