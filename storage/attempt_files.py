@@ -5,22 +5,22 @@ What a job needs while it runs has its path below the job's folder, such as
 attempt, or ``sealed/study``.
 """
 
-import os
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import Final
 
 from jointplay.storage import durable
 from jointplay.storage.catalogue.records import Block
 from jointplay.storage.packed.running import DOCUMENTS, make_folders
 from jointplay.storage.places import StoredObject
+from jointplay.storage.running_files.folder import InFolder
 from jointplay.storage.settings import Settings
 
 _NAME: Final = re.compile(r"(?:(?!\.{1,2}/)[A-Za-z0-9._-]{1,80}/){0,2}(?!\.)[A-Za-z0-9._-]{1,120}")
 _SEALED: Final = "sealed/"
 _STUDY: Final = "study"
+_PIECE: Final = 2**20
 
 
 class AttemptFiles:
@@ -37,13 +37,13 @@ class AttemptFiles:
     def __init__(self, settings: Settings, block: Block) -> None:
         self._settings = settings
         self._block = block
-        self.folder = settings.running_folder(block.job)
+        self.running = settings.running_files(block.job)
 
-    def path(self, name: str) -> Path:
-        """Return the path of a file of the running job; ValueError if the name is none of one."""
+    def checked(self, name: str) -> str:
+        """Return the name of a file of the running job; ValueError if it is none of one."""
         if not _NAME.fullmatch(name) or name.startswith(_SEALED) or name.endswith(durable.PARTIAL):
             raise ValueError(f"{name!r} is no file of a running job")
-        return self.folder / name
+        return name
 
     def sealed(self, name: str) -> StoredObject | None:
         """Return the object of sealed results that a name means; None for other files.
@@ -80,15 +80,24 @@ class AttemptFiles:
             lost = self.sealed(f"{_SEALED}{attempt}")
             if lost is not None and lost.exists():
                 yield f"{_SEALED}{attempt}", lost.size()
-        for path in sorted(self.folder.rglob("*")):
-            name = path.relative_to(self.folder).as_posix()
+        if block.attempt == 1 and block.index == block.count == 0:
+            return  # a run that begins
+        for name in self.running.names():
             with suppress(FileNotFoundError):  # replaced, or removed meanwhile
-                if path.is_file() and self._is_needed(name):
-                    yield name, path.stat().st_size
+                if self._is_needed(name):
+                    yield name, self.running.size(name)
+
+    def read(self, name: str) -> Iterator[bytes]:
+        """Give a file in pieces; FileNotFoundError if it is not there."""
+        sealed = self.sealed(name)
+        if sealed is None:
+            yield self.running.read(self.checked(name))
+            return
+        size = sealed.size()
+        for start in range(0, size, _PIECE):
+            yield sealed.read(start, min(start + _PIECE, size))
 
     def _is_needed(self, name: str) -> bool:
-        if name.endswith(durable.PARTIAL):
-            return False
         if self._block.count == 0 or name == f"{_STUDY}/documents.zip":
             return True
         if self._block.attempt == 1:
@@ -103,34 +112,21 @@ class AttemptFiles:
         """
         sealed = self.sealed(name)
         if sealed is None:
-            path = self.path(name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            if path.name == DOCUMENTS:
-                make_folders(path.parent)
-            durable.write(path, pieces)
+            self.running.put(self.checked(name), pieces)
+            if name.endswith(f"/{DOCUMENTS}") and isinstance(self.running, InFolder):
+                make_folders((self.running.path / name).parent)  # a block goes on there
             return
         with suppress(FileExistsError):  # the answer to an earlier try was lost
             sealed.put(pieces)
 
+    def append(self, name: str, offset: int, pieces: Iterable[bytes]) -> None:
+        """See `RunningFiles.append`."""
+        self.running.append(self.checked(name), offset, pieces)
+
+    def adopt(self, name: str, source: str) -> bool:
+        """See `RunningFiles.adopt`."""
+        return self.running.adopt(self.checked(name), self.checked(source))
+
     def remove(self, name: str) -> None:
         """Remove a file of the running job, if it is there."""
-        self.path(name).unlink(missing_ok=True)
-
-    def append(self, name: str, offset: int, pieces: Iterable[bytes]) -> None:
-        """Go on with a file from an offset, which ends with these bytes; durable on return.
-
-        Raises
-        ------
-        ValueError
-            The file is shorter.
-        FileNotFoundError
-            It is not there.
-        """
-        with self.path(name).open("r+b") as file:
-            if file.seek(0, os.SEEK_END) < offset:
-                raise ValueError(f"{name!r} has fewer than {offset} bytes")
-            file.seek(offset)
-            file.writelines(pieces)
-            file.truncate()
-            file.flush()
-            os.fsync(file.fileno())
+        self.running.remove(self.checked(name))

@@ -2,7 +2,7 @@
 
 import shutil
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
@@ -10,6 +10,12 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 from jointplay.records.log_lines import LogFormat
 from jointplay.storage.packed.running import Running
 from jointplay.storage.places import Place, StoredObject, place_at
+from jointplay.storage.running_files import RunningFiles
+from jointplay.storage.running_files.folder import InFolder
+from jointplay.storage.running_files.objects import InPlace
+
+RUNNING: Final = "running"
+"""Folder of jobs that run, or beginning of their keys."""
 
 Minutes = Annotated[float, Field(gt=0, le=600)]
 Hour = Annotated[float, Field(gt=0, le=3600)]
@@ -38,6 +44,12 @@ class Settings(BaseSettings):
         "",
         description="Place for finished results, such as file:/srv/results; empty: the folder"
         " `results` inside the data folder.",
+    )
+    running: Literal["", "data", "results"] = Field(
+        "",
+        description="Where jobs are that run: in the data folder, which all machines then share, or"
+        " in the place for results, to which each worker sends what it computes in a folder of its"
+        " own; empty: there if it is S3.",
     )
     redis_url: str | None = Field(
         None,
@@ -179,15 +191,28 @@ class Settings(BaseSettings):
         """Sealed results of a study; need not be there."""
         return StoredObject(self.place, f"{self.results_prefix(job)}study.zarr.zip")
 
+    @property
+    def sends(self) -> bool:
+        """Whether workers send what they compute, and what jobs need is nowhere else."""
+        return self.running == "results" or (
+            self.running == "" and self.results_url.startswith("s3:")
+        )
+
+    def running_files(self, job: str) -> RunningFiles:
+        """Everything that a job needs while it runs."""
+        if self.sends:
+            return InPlace(self.place, f"{RUNNING}/{job[-2:]}/{job}")
+        return InFolder(self.running_folder(job))
+
     def running_folder(self, job: str) -> Path:
-        """Folder of everything that a job needs while it runs."""
-        return self.data / "running" / job[-2:] / job
+        """Folder of everything that a job needs where it is computed."""
+        return self.data / RUNNING / job[-2:] / job
 
     def running_run(self, job: str, attempt: int) -> Running:
         """Growing results of one attempt at a simulation."""
-        folder = self.running_folder(job) / f"a{attempt}"
-        return Running(folder, self.sealed_run(job, attempt))
+        files = self.running_files(job).below(f"a{attempt}")
+        return Running(files, self.sealed_run(job, attempt))
 
     def running_study(self, job: str) -> Running:
         """Growing results of a study, which all blocks and attempts of the job fill together."""
-        return Running(self.running_folder(job) / "study", self.sealed_study(job))
+        return Running(self.running_files(job).below("study"), self.sealed_study(job))

@@ -1,13 +1,12 @@
 """Removing what nobody will read: expired or deleted jobs, what late attempts wrote."""
 
 import logging
-import shutil
+from contextlib import suppress
 
 from jointplay.records.log_lines import about
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
 from jointplay.storage.catalogue.records import Block
-from jointplay.storage.packed.running import remove
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Holding
 from jointplay.worker.passing import PASSING
@@ -34,9 +33,7 @@ def remove_expired(catalogue: Catalogue, settings: Settings) -> None:
 def _remove(catalogue: Catalogue, settings: Settings, job: str) -> None:
     try:
         settings.place.remove(settings.results_prefix(job))
-        if (folder := settings.running_folder(job)).exists():  # it ended without results
-            shutil.rmtree(folder)
-        remove(settings.running_folder(job))
+        settings.running_files(job).clear()  # of a job that ended without results
         catalogue.mark_removed([job])
     except PASSING as error:
         _log.warning("the results of job %s cannot be removed: %s", job, error)
@@ -55,7 +52,8 @@ def tidy(settings: Settings, block: Block) -> None:
             lost.place.remove(lost.key)
     elif not settings.sealed_study(block.job).exists():
         return
-    remove(settings.running_folder(block.job))
+    with suppress(OSError):  # `doctor` finds what is left
+        settings.running_files(block.job).clear()
 
 
 def withdraw(catalogue: Holding, settings: Settings, block: Block) -> None:
@@ -69,6 +67,6 @@ def withdraw(catalogue: Holding, settings: Settings, block: Block) -> None:
             settings.place.remove(settings.sealed_run(job.id, attempt).key)
         sealed = settings.sealed_run(job.id, job.attempt), settings.sealed_study(job.id)
         if any(results.exists() for results in sealed):
-            remove(settings.running_folder(job.id))
+            settings.running_files(job.id).clear()
     except (CatalogueError, OSError) as error:
         _log.warning("what attempt %d of %s left stays: %s", attempt, block.job, error)

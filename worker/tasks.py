@@ -16,11 +16,11 @@ from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import RUN_BLOCK, app
-from jointplay.worker.block_run import (
-    BlockRun,  # before the fork: all children share numba and the solver
-)
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
+from jointplay.worker.scratch.computing import (
+    compute,  # before the fork: all children share numba and the solver
+)
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
@@ -47,7 +47,7 @@ def run_block(block: str) -> None:
         _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
         return
     if claim is not None:
-        BlockRun(catalogue, settings, claim, _draining).run()
+        compute(catalogue, settings, claim, _draining)
 
 
 @setup_logging.connect  # type: ignore[untyped-decorator]

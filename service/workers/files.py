@@ -9,7 +9,7 @@ from typing import IO, Annotated, Final
 
 from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import FileResponse, StreamingResponse
+from fastapi.responses import StreamingResponse
 
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
@@ -18,7 +18,6 @@ from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import Block
-from jointplay.storage.places import StoredObject
 from jointplay.storage.settings import Settings
 from jointplay.worker.joined.protocol import File, Files
 from jointplay.worker.removal import withdraw
@@ -40,19 +39,14 @@ def list_files(settings: SettingsDependency, held: HeldBlock) -> Files:
 @router.get("/{name:path}", response_model=None)
 def read_file(settings: SettingsDependency, held: HeldBlock, name: Name) -> Response:
     """Return one of them."""
-    files = AttemptFiles(settings, held)
+    pieces = AttemptFiles(settings, held).read(name)
     try:
-        sealed = files.sealed(name)
-        if sealed is not None:
-            return StreamingResponse(_pieces(sealed, sealed.size()))
-        path = files.path(name)
-        if path.is_file():
-            return FileResponse(path, media_type="application/octet-stream")
+        first = next(pieces, b"")
     except ValueError as error:
         raise _no_file(name, error) from error
     except FileNotFoundError:
-        pass
-    raise RequestRefused(kinds.NOT_FOUND, f"The block has no file {name!r}.")
+        raise RequestRefused(kinds.NOT_FOUND, f"The block has no file {name!r}.") from None
+    return StreamingResponse(_rest(first, pieces), media_type="application/octet-stream")
 
 
 @router.put("/{name:path}", status_code=204)
@@ -123,10 +117,10 @@ def _store(
         raise
 
 
-def _pieces(sealed: StoredObject, size: int) -> Iterator[bytes]:
+def _rest(first: bytes, pieces: Iterator[bytes]) -> Iterator[bytes]:
+    yield first
     with suppress(FileNotFoundError):  # removed meanwhile: the answer ends too early
-        for start in range(0, size, _PIECE):
-            yield sealed.read(start, min(start + _PIECE, size))
+        yield from pieces
 
 
 def _no_file(name: str, error: Exception) -> RequestRefused:

@@ -1,4 +1,4 @@
-"""The files of a store that is being filled: a folder with a few packed files.
+"""The files of a store that is being filled: a few packed ones.
 
 ``documents.zip`` holds the documents and is replaced; ``rows`` has a packed file for the chunks of
 all columns at one place, such as ``history-3.zip``, which is written once, when they are full.
@@ -6,7 +6,6 @@ all columns at one place, such as ``history-3.zip``, which is written once, when
 
 import json
 import os
-import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
@@ -18,7 +17,8 @@ from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject
-from jointplay.storage.places.folder import Folder
+from jointplay.storage.running_files import RunningFiles
+from jointplay.storage.running_files.folder import InFolder
 
 DOCUMENTS: Final = "documents.zip"
 ROWS: Final = "rows"
@@ -33,8 +33,8 @@ class Running:
 
     Parameters
     ----------
-    folder
-        Of the store; need not be there yet.
+    source
+        Files below the store's name, or the folder of one that is filled here; need not be there.
     sealed
         Where the store will be once it is sealed. The folder goes then; what is not found in it
         any more is read there, where every chunk has the same bytes.
@@ -44,9 +44,12 @@ class Running:
     """
 
     def __init__(
-        self, folder: Path, sealed: StoredObject | None = None, owner: str | None = None
+        self,
+        source: RunningFiles | Path,
+        sealed: StoredObject | None = None,
+        owner: str | None = None,
     ) -> None:
-        self.folder = folder
+        self._source = InFolder(source) if isinstance(source, Path) else source
         self._target = sealed
         self._owner = owner
         self._packed: Packed | None = None
@@ -54,7 +57,19 @@ class Running:
         self._packs: dict[str, tuple[str, Packed]] = {}
 
     def __str__(self) -> str:
-        return f"{self.folder.parent.name}/{self.folder.name}"
+        return str(self._source)
+
+    @property
+    def name(self) -> str:
+        """Of the store among those of its job."""
+        return self._source.name
+
+    @property
+    def folder(self) -> Path:
+        """Where a store is filled, which must be on this machine."""
+        if not isinstance(self._source, InFolder):
+            raise TypeError(f"{self} is not in a folder of this machine")
+        return self._source.path
 
     def write_documents(self, entries: Iterable[tuple[str, bytes]]) -> None:
         """Replace the documents: readers see all of them or none, a power cut may take them."""
@@ -87,7 +102,7 @@ class Running:
 
     def has(self, key: str) -> bool:
         """Whether the chunks at the place of a key were written, and the folder is there."""
-        return self._path(key).exists()
+        return self._source.version(self.file_of(key)) is not None
 
     @staticmethod
     def file_of(key: str) -> str:
@@ -107,7 +122,7 @@ class Running:
             found += 1
         lost = pattern.format(found)
         if self.has(pattern.format(found + 1)) and not self.has(lost):
-            raise LostObject(f"{self.folder.name} lacks {lost}, which had been written")
+            raise LostObject(f"{self.name} lacks {lost}, which had been written")
         return found
 
     def check(self, key: str) -> None:
@@ -133,8 +148,7 @@ class Running:
         CorruptStore
             A file has other bytes than were written.
         """
-        rows = sorted((self.folder / ROWS).glob("*.zip"))
-        objects = [StoredObject(Folder(str(path.parent)), path.name) for path in rows]
+        objects = [self._source.object(name) for name in self._source.names(ROWS)]
         for packed in (self.documents, *(Packed(one, self.owner) for one in objects)):
             for key in packed:
                 packed.read(key)
@@ -175,9 +189,9 @@ class Running:
             They have other bytes than were written.
         """
         try:
-            return Packed(InMemory(DOCUMENTS, (self.folder / DOCUMENTS).read_bytes()))
+            return Packed(InMemory(DOCUMENTS, self._source.read(DOCUMENTS)))
         except FileNotFoundError as error:
-            raise NotAStore(f"{self.folder} holds no results") from error
+            raise NotAStore(f"{self} holds no results") from error
 
     @cached_property
     def owner(self) -> bytes:
@@ -196,6 +210,14 @@ class Running:
         self._sync_folders()
         durable.write(self.folder / path, pieces)
 
+    def parts(self) -> list[str]:
+        """Name what is in the folder `PARTS`."""
+        return [name.removeprefix(f"{PARTS}/") for name in self._source.names(PARTS)]
+
+    def part(self, name: str) -> bytes:
+        """Read a file of the folder `PARTS`; FileNotFoundError if it is not there."""
+        return self._source.read(f"{PARTS}/{name}")
+
     def _ask(self, key: str, question: Callable[[Packed], Found]) -> Found:
         """Ask the packed file that holds a key."""
         if key in self.documents.entries:
@@ -210,10 +232,10 @@ class Running:
 
     def _pack(self, key: str) -> Packed:
         name = _name(key)
-        found = StoredObject(Folder(str(self.folder)), f"{ROWS}/{name}")
-        version = found.version()
+        found = self._source.object(f"{ROWS}/{name}")
+        version = self._source.version(f"{ROWS}/{name}")
         if version is None:
-            raise FileNotFoundError(f"{self.folder} has no {key!r}")
+            raise FileNotFoundError(f"{self} has no {key!r}")
         known = self._packs.get(name)
         if known is None or known[0] != version:
             try:
@@ -233,7 +255,7 @@ class Running:
             self._synced = True
 
     def _path(self, key: str) -> Path:
-        return self.folder / ROWS / _name(key)
+        return self.folder / self.file_of(key)
 
 
 class InMemory:
@@ -253,13 +275,6 @@ class InMemory:
     def read(self, start: int, stop: int) -> bytes:
         """Return bytes [start, stop)."""
         return self._content[start:stop]
-
-
-def remove(folder: Path) -> None:
-    """Remove what a job needed while it ran, as far as it can be, and the folder above if empty."""
-    shutil.rmtree(folder, ignore_errors=True)
-    with suppress(OSError):  # other jobs are in it
-        folder.parent.rmdir()
 
 
 def make_folders(folder: Path) -> None:

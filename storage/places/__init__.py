@@ -2,7 +2,8 @@
 
 A place is a family member with one file and one line in `PLACES`; what it must do is said by
 `Place` and tested by `tests/storage/places/contract.py`. Its verbs are those of an object store:
-objects are put whole, once, and read by ranges; none is renamed or appended to.
+objects are put whole, once, and read by ranges; none is renamed or appended to. Only what a running
+job needs is replaced; see `storage.running_files`.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -28,6 +29,13 @@ class Place(Protocol):
             There is an object of this key, which stays as it is.
         OSError
             It cannot be stored; nothing can be seen of it.
+        """
+        ...
+
+    def replace(self, key: str, pieces: Iterable[bytes]) -> None:
+        """Store an object as `put` does, in place of one that may be there.
+
+        Readers see the one or the other.
         """
         ...
 

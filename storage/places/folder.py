@@ -33,6 +33,12 @@ class Folder:
             partial.unlink(missing_ok=True)
         durable.sync(path.parent)
 
+    def replace(self, key: str, pieces: Iterable[bytes]) -> None:
+        """Write a partial file, sync it, and give it the name."""
+        path = self._path(key)
+        durable.make_folder(path.parent)
+        durable.write(path, pieces)
+
     def size(self, key: str) -> int:
         """Look the file up."""
         try:

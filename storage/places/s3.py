@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from datetime import timedelta
 from functools import lru_cache
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import parse_qsl, urlsplit
 
 if TYPE_CHECKING:
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 _IN_MEMORY: Final = 2**24
 """Bytes of an object that is gathered in memory; of a larger one the system has the pages."""
-_AT_ONCE: Final = 2**23
 _RETRIES: "Final[RetryConfig]" = {"max_retries": 5, "retry_timeout": timedelta(seconds=20)}
 _OPTIONS: Final = {"endpoint", "region"}
 _ADDRESS: Final = "s3://bucket/prefix?endpoint=http://host:8333&region=us-east-1"
@@ -58,23 +57,16 @@ class Bucket:
 
     def put(self, key: str, pieces: Iterable[bytes]) -> None:
         """Gather the object, then send it in one request, which fails if the key is taken."""
-        import obstore
         from obstore.exceptions import AlreadyExistsError
 
-        with tempfile.SpooledTemporaryFile(max_size=_IN_MEMORY) as gathered:
-            for piece in pieces:
-                gathered.write(piece)
-            size = gathered.tell()
-            gathered.seek(0)
-            mapped = None
-            if size > _IN_MEMORY:
-                mapped = mmap.mmap(gathered.fileno(), 0, access=mmap.ACCESS_READ)
-            content = gathered.read() if mapped is None else mapped
-            with _answering(key):
-                try:
-                    obstore.put(self._store, key, content, mode="create", use_multipart=False)
-                except AlreadyExistsError as error:
-                    raise FileExistsError(f"results are written once: {key}") from error
+        try:
+            self._send(key, pieces, "create")
+        except AlreadyExistsError as error:
+            raise FileExistsError(f"results are written once: {key}") from error
+
+    def replace(self, key: str, pieces: Iterable[bytes]) -> None:
+        """Gather the object, then send it in one request."""
+        self._send(key, pieces, "overwrite")
 
     def size(self, key: str) -> int:
         """Ask for the object's head."""
@@ -127,16 +119,34 @@ class Bucket:
                 obstore.delete(self._store, found)
 
     def adopt(self, key: str, lost: str) -> bool:
-        """Read the object and put it under its second name."""
+        """Have the store copy the object; what is copied at the same time has the same bytes."""
+        import obstore
+
         if self.version(lost) is None:
             return False
-        with suppress(FileExistsError):
-            self.put(key, self._pieces(lost))
+        if self.version(key) is None:
+            with _answering(lost):
+                obstore.copy(self._store, lost, key)
         return True
 
-    def _pieces(self, key: str) -> Iterator[bytes]:
-        for start in range(0, self.size(key), _AT_ONCE):
-            yield self.read(key, start, start + _AT_ONCE)
+    def _send(
+        self, key: str, pieces: Iterable[bytes], mode: Literal["create", "overwrite"]
+    ) -> None:
+        """Put an object; AlreadyExistsError where it is to be made and the key is taken."""
+        import obstore
+        from obstore.exceptions import AlreadyExistsError
+
+        with tempfile.SpooledTemporaryFile(max_size=_IN_MEMORY) as gathered:
+            for piece in pieces:
+                gathered.write(piece)
+            size = gathered.tell()
+            gathered.seek(0)
+            mapped = None
+            if size > _IN_MEMORY:
+                mapped = mmap.mmap(gathered.fileno(), 0, access=mmap.ACCESS_READ)
+            content = gathered.read() if mapped is None else mapped
+            with _answering(key, AlreadyExistsError):
+                obstore.put(self._store, key, content, mode=mode, use_multipart=False)
 
     @property
     def _store(self) -> "S3Store":
@@ -161,12 +171,17 @@ def _opened(parts: tuple[str, str, tuple[tuple[str, str], ...]], _process: int) 
 
 
 @contextmanager
-def _answering(key: str) -> Iterator[None]:
-    """Raise what a folder would: FileNotFoundError, or ConnectionError if the store fails."""
+def _answering(key: str, *but: type[Exception]) -> Iterator[None]:
+    """Raise what a folder would: FileNotFoundError, or ConnectionError if the store fails.
+
+    Errors of the kinds `but` are the caller's.
+    """
     from obstore.exceptions import BaseError, NotFoundError
 
     try:
         yield
+    except but:
+        raise
     except (NotFoundError, FileNotFoundError) as error:
         raise FileNotFoundError(f"{key} is not there") from error
     except BaseError as error:

@@ -10,11 +10,10 @@ from jointplay.storage.catalogue.errors import JobNotFound
 from jointplay.storage.catalogue.records import Job, NewJob
 from jointplay.storage.durable import PARTIAL
 from jointplay.storage.errors import CorruptStore, NotAStore
-from jointplay.storage.packed import running
 from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation.finding import Finding
 from jointplay.storage.reconciliation.results import damage_of, sealed_results, verified
-from jointplay.storage.settings import Settings
+from jointplay.storage.settings import RUNNING, Settings
 
 _DATA: Final = {
     "broker",
@@ -23,7 +22,7 @@ _DATA: Final = {
     "catalogue.sqlite-wal",
     "logs",
     "results",
-    "running",
+    RUNNING,
     "serve.lock",
 }
 """Everything that a data folder may hold."""
@@ -56,6 +55,8 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
 def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
     place = settings.place
     for key in sorted([*place.list(""), *place.cut_off()]):
+        if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") > 2:
+            continue
         named = _SEALED.fullmatch(key)
         if named is None:
             advice = "nothing of this name belongs there; move it away"
@@ -70,20 +71,31 @@ def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Ite
 
 
 def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
-    for folder in sorted((settings.data / "running").glob("*/*")):
-        job = _job_of(catalogue, folder.name)
-        name = str(folder.relative_to(settings.data))
+    for job_id in _running_jobs(settings):
+        job = _job_of(catalogue, job_id)
+        files = settings.running_files(job_id)
+        name = f"{RUNNING}/{job_id[-2:]}/{job_id}"
         if job is None:
             found = "holds what a job computed that is not in the catalogue"
-            yield Finding("running", (name,), found, advice=f"rm -r '{folder}'")
+            advice = "nothing needs it; remove all objects whose keys begin so"
+            if not settings.sends:
+                advice = f"rm -r '{settings.running_folder(job_id)}'"
+            yield Finding("running", (name,), found, advice=advice)
         elif not _settled(job, catalogue, grace):
             continue
         elif not _needed(settings, job):
-            yield _left("running", name, partial(running.remove, folder))
+            yield _left("running", name, files.clear)
         else:  # it ended without sealed results: these show what was computed
-            for path in sorted(folder.rglob(f"*{PARTIAL}")):
+            for path in sorted(settings.running_folder(job_id).rglob(f"*{PARTIAL}")):
                 name = str(path.relative_to(settings.data))
                 yield _left("running", name, partial(path.unlink, missing_ok=True))
+
+
+def _running_jobs(settings: Settings) -> list[str]:
+    """Return the ids of the jobs of which something is kept that they need while they run."""
+    if settings.sends:
+        return sorted({key.split("/")[2] for key in settings.place.list(f"{RUNNING}/")})
+    return [folder.name for folder in sorted((settings.data / RUNNING).glob("*/*"))]
 
 
 def _job_of(catalogue: Catalogue, job_id: str) -> Job | None:

@@ -203,6 +203,6 @@ def _lost(files: Running, root: Document, table: str, rows: int, samples: int) -
         following = files.file_of(f"{key}/c/{rows // shard_rows}")
     return (
         f"of {samples} samples that are committed, {rows} rows of {table or 'the history'} are in"
-        f" the shards of {files.folder.name}: {following} is gone, or the journal in {PARTS} has"
+        f" the shards of {files.name}: {following} is gone, or the journal in {PARTS} has"
         " other bytes than were written"
     )

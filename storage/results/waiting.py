@@ -52,14 +52,16 @@ class Checkpoint:
         CorruptStore
             It is not the one that the checkpoint describes.
         """
-        path = lost.folder / PARTS / f"{self._token['generation']:08d}"
+        name = f"{self._token['generation']:08d}"
         try:
-            with path.open("rb") as file:
-                content = file.read(self._token["size"])
+            content = lost.part(name)[: self._token["size"]]
         except FileNotFoundError as error:
-            raise CheckpointMismatch(f"{path} is gone: resume where it was written") from error
+            sentence = f"{PARTS}/{name} of {lost} is gone: resume where it was written"
+            raise CheckpointMismatch(sentence) from error
         if hashlib.sha256(content).hexdigest() != self._token["sha256"]:
-            raise CorruptStore(f"{path} does not have the bytes that the checkpoint describes")
+            raise CorruptStore(
+                f"{PARTS}/{name} of {lost} has not the bytes that the checkpoint describes"
+            )
         _, frames = _read(content, lost.owner)
         for position, table in enumerate(tables):
             dtypes = [column.dtype for column in table.table.columns]
@@ -99,13 +101,9 @@ def waiting_rows(
         One for each table of `dtypes`, or None if no journal has this checkpoint: it was
         removed, replaced by a later one, or has other bytes than were written.
     """
-    try:
-        paths = sorted((files.folder / PARTS).iterdir(), reverse=True)
-    except FileNotFoundError:
-        return None
-    for path in paths:
+    for name in reversed(files.parts()):
         with suppress(FileNotFoundError):
-            found = _at(path.read_bytes(), files.owner, samples, dtypes)
+            found = _at(files.part(name), files.owner, samples, dtypes)
             if found is not None:
                 return found
     return None

@@ -66,7 +66,7 @@ class StudyBlock:
             There is nothing to go on from: begin anew.
         """
         block = cls(folder, layout, index, attempt)
-        found = Part.read(folder / PARTS / name, layout.digest)
+        found = Part.read(block._files, name, layout.digest)
         require_chunks(block._files, layout, found)
         for key, rows in found.open.items():
             chunk = block._new_chunk()
@@ -80,8 +80,9 @@ class StudyBlock:
     def done(folder: Path, layout: StudyLayout, index: int) -> bool:
         """Whether some attempt finished this block; then there is nothing left to compute."""
         try:
-            found = Part.read(folder / PARTS / part.final_name(index), layout.digest)
-            require_chunks(Running(folder, owner=layout.digest), layout, found)
+            files = Running(folder, owner=layout.digest)
+            found = Part.read(files, part.final_name(index), layout.digest)
+            require_chunks(files, layout, found)
         except (FileNotFoundError, ResultsError):
             return False
         return True
@@ -258,7 +259,7 @@ def require_chunks(files: Running, layout: StudyLayout, found: Part) -> None:
 
 def lost(files: Running, index: int, key: tuple[int, int]) -> LostObject:
     """Return the error for a chunk that a block had written and that is gone."""
-    return LostObject(f"{files.folder.name} lacks {place_of(key)}, which block {index} had written")
+    return LostObject(f"{files.name} lacks {place_of(key)}, which block {index} had written")
 
 
 def place_of(key: tuple[int, int]) -> str:

@@ -86,8 +86,8 @@ class StudyMoment(StoreReader):
                 return {}
             try:
                 found = {
-                    index: Part.read(path, self.attributes["layout"])
-                    for index, path in part.newest(self.files.folder).items()
+                    index: Part.read(self.files, name, self.attributes["layout"])
+                    for index, name in part.newest(self.files.parts()).items()
                 }
             except FileNotFoundError:  # one was replaced by the last part of its block
                 continue

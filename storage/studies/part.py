@@ -5,9 +5,8 @@ full yet, and the restart point of the computation, all of one moment. When a bl
 last part remains until the study is sealed.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Final, Self
 
 import numpy as np
@@ -18,7 +17,7 @@ from jointplay.records.checkpoint import packed
 from jointplay.records.point import Failure, PointStatus
 from jointplay.records.run import Floats
 from jointplay.storage.errors import CheckpointMismatch, CorruptStore
-from jointplay.storage.packed.running import PARTS
+from jointplay.storage.packed.running import PARTS, Running
 from jointplay.storage.studies.layout import StudyLayout
 from jointplay.storage.studies.points import Points, ordered, unknown
 
@@ -83,8 +82,8 @@ class Part(Points):
                     yield row, column
 
     @classmethod
-    def read(cls, path: Path, digest: str) -> Self:
-        """Read a part of the store with this layout's digest.
+    def read(cls, files: Running, name: str, digest: str) -> Self:
+        """Read a part, by its name in the folder `PARTS`, of the store with this layout's digest.
 
         Raises
         ------
@@ -95,15 +94,15 @@ class Part(Points):
         CheckpointMismatch
             It belongs to another study.
         """
-        content, name = path.read_bytes(), f"{PARTS}/{path.name}"
+        content, shown = files.part(name), f"{PARTS}/{name}"
         try:
             facts, arrays = checkpoint.decode(content, _KIND, digest)
         except checkpoint.ForeignCheckpoint as error:
-            raise CheckpointMismatch(f"{name} belongs to another study: {error}") from error
+            raise CheckpointMismatch(f"{shown} belongs to another study: {error}") from error
         except checkpoint.UnusableCheckpoint as error:
-            raise CorruptStore(f"{name} cannot be read: {error}") from error
-        if facts["block"] != int(path.name.partition("-")[0]):
-            raise CorruptStore(f"{name} is the part of block {facts['block']}")
+            raise CorruptStore(f"{shown} cannot be read: {error}") from error
+        if facts["block"] != int(name.partition("-")[0]):
+            raise CorruptStore(f"{shown} is the part of block {facts['block']}")
         part = cls(arrays["status"], arrays["counts"], arrays["peaks"], index=facts["block"])
         for key, array in arrays.items():
             group, _, member = key.partition("/")
@@ -136,18 +135,14 @@ def attempt_of(name: str) -> int | None:
     return int(number) if number else None
 
 
-def newest(folder: Path) -> dict[int, Path]:
+def newest(names: Iterable[str]) -> dict[int, str]:
     """Find each block's last part, or else that of its latest attempt, by the block's index."""
-    found: dict[int, tuple[float, Path]] = {}
-    try:
-        paths = sorted((folder / PARTS).iterdir())
-    except FileNotFoundError:
-        return {}
-    for path in paths:
-        index, _, attempt = path.name.partition("-a")
+    found: dict[int, tuple[float, str]] = {}
+    for name in names:
+        index, _, attempt = name.partition("-a")
         if not index.isdigit() or not (attempt.isdigit() or not attempt):
             continue  # being written
         rank = float(attempt or "inf")
         if int(index) not in found or rank > found[int(index)][0]:
-            found[int(index)] = (rank, path)
-    return {index: path for index, (_, path) in found.items()}
+            found[int(index)] = (rank, name)
+    return {index: name for index, (_, name) in found.items()}

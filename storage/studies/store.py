@@ -21,7 +21,7 @@ from jointplay.storage.errors import (
     StoreExists,
 )
 from jointplay.storage.packed import Running, pack
-from jointplay.storage.packed.running import DOCUMENTS, PARTS
+from jointplay.storage.packed.running import DOCUMENTS
 from jointplay.storage.places import StoredObject
 from jointplay.storage.results import manifest, metadata, shards
 from jointplay.storage.studies import documents, part
@@ -125,8 +125,10 @@ def _files(
     folder: Path, layout: StudyLayout, advanced: Callable[[], None]
 ) -> Iterator[tuple[str, bytes]]:
     """Give key and content of every file of the sealed store, in the same order always."""
-    finals = {index: folder / PARTS / part.final_name(index) for index in range(len(layout.blocks))}
-    missing = [index for index, path in finals.items() if not path.exists()]
+    files = Running(folder, owner=layout.digest)
+    there = frozenset(files.parts())
+    finals = [part.final_name(index) for index in range(len(layout.blocks))]
+    missing = [index for index, name in enumerate(finals) if name not in there]
     if missing:
         raise IncompleteStudy(
             f"{len(missing)} blocks of {folder} are not done, such as {missing[0]}"
@@ -134,14 +136,13 @@ def _files(
 
     def part_of(index: int) -> Part:
         advanced()
-        return Part.read(finals[index], layout.digest)
+        return Part.read(files, finals[index], layout.digest)
 
-    files = Running(folder, owner=layout.digest)
     names, failures, reasons, found, ended = _survey(part_of, layout)
     codes = failure_codes(failures)
     yield from _values(layout)
     yield from _columns(part_of, layout, names, codes)
-    for index in finals:
+    for index in range(len(finals)):
         yield from written_chunks(files, layout, part_of(index))
     yield from _boundary_chunks(part_of, layout)
     if failures:

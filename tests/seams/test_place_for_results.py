@@ -47,6 +47,9 @@ class OneDatabase:
         except sqlite3.IntegrityError as error:
             raise FileExistsError(key) from error
 
+    def replace(self, key: str, pieces: Iterable[bytes]) -> None:
+        self.ask("INSERT OR REPLACE INTO objects VALUES (?, ?)", key, b"".join(pieces))
+
     def size(self, key: str) -> int:
         return len(self._content(key))
 

@@ -4,7 +4,7 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
-from jointplay.worker.joined.scratch import Scratch
+from jointplay.worker.scratch.files import STUDY, Scratch
 
 
 class JoinedAttempt:
@@ -80,7 +80,7 @@ class JoinedAttempt:
         repeatable: bool = False,
     ) -> JobState:
         """Send what was computed, then end the block."""
-        self._scratch.send()
+        self._scratch.send(STUDY)
         self._scratch.send_sealed()
         told = protocol.Finish(
             outcome=outcome,

@@ -14,10 +14,11 @@ from jointplay.storage.settings import Settings
 from jointplay.worker.block_run import BlockRun
 from jointplay.worker.joined.attempt import JoinedAttempt
 from jointplay.worker.joined.connection import Connection
+from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest
-from jointplay.worker.joined.scratch import Scratch
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
+from jointplay.worker.scratch.files import Scratch
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
 _FIRST_PAUSE, _LONGEST_PAUSE = 0.5, 30.0  # s before a service that is away is asked again
@@ -67,10 +68,11 @@ def _compute(connection: Connection, claimed: Claimed, draining: threading.Event
             data=Path(folder),
             catalogue_url="",
             results_url="",
+            running="data",
             redis_url=None,
             **claimed.customs.model_dump(),
         )
-        scratch = Scratch(connection, settings, claim.block)
+        scratch = Scratch(FilesOfService(connection, claim.block), settings, claim.block)
         attempt = JoinedAttempt(connection, claim, scratch)
         next_beat = time.monotonic() + settings.heartbeat
 

@@ -111,11 +111,12 @@ class Try(NamedTuple):
 
 def tries_in(folder: Path) -> dict[int, Try]:
     """Return the next try at every block of a store that was begun, by its index."""
+    from jointplay.storage.packed import Running
     from jointplay.storage.studies.part import attempt_of, newest
 
     return {
-        index: Try((attempt_of(path.name) or 0) + 1, path.name)
-        for index, path in newest(folder).items()
+        index: Try((attempt_of(name) or 0) + 1, name)
+        for index, name in newest(Running(folder).parts()).items()
     }
 
 

@@ -92,6 +92,15 @@ class PlaceContract(ABC):
             place.put(KEY, pieces(b"other"))
         assert self.raw_get(place, KEY) == CONTENT
 
+    def test_what_a_running_job_needs_is_replaced(self, place: Place) -> None:
+        for content in (CONTENT, b"shorter", CONTENT * 2):
+            place.replace(KEY, pieces(content))
+            assert self.raw_get(place, KEY) == content
+        with pytest.raises(CutOff):
+            place.replace(KEY, pieces(b"other" * 999, until=2000))
+        assert self.raw_get(place, KEY) == CONTENT * 2
+        assert list(place.list("")) == [KEY]
+
     @pytest.mark.parametrize("until", [0, 1, 2000])
     def test_a_put_that_is_cut_off_leaves_nothing_to_be_seen(
         self, place: Place, until: int

@@ -14,6 +14,7 @@ from jointplay.storage.places.fitness import Unfit, require_fit
 from jointplay.storage.places.s3 import Bucket
 from tests.seaweedfs_server import BUCKET, running_store, store
 from tests.storage.places.contract import CONTENT, KEY, PlaceContract, pieces
+from tests.storage.running_files.contract import InPlaceContract
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +44,14 @@ class TestBucket(PlaceContract):
 
     def raw_set(self, place: Place, key: str, content: bytes) -> None:
         obstore.put(raw(place), key, content)
+
+
+class TestRunningFiles(InPlaceContract):
+    """What a running job needs can be kept there, too."""
+
+    @pytest.fixture(autouse=True)
+    def _begin(self, new_address: Callable[[], str]) -> None:
+        self.place, self.prefix = place_at(new_address()), "running/2R/JOB"
 
 
 def raw(place: Place) -> obstore.store.S3Store:

@@ -1,0 +1,180 @@
+"""Blocks that are computed in a folder of their own: what others need is in the place for results.
+
+Each attempt's folder goes when it ends, as it would with its machine.
+"""
+
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_block_runs import SWEEP
+
+from jointplay.solver.kinds import Admission, Study, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import JobState, NewJob
+from jointplay.storage.identity import growing_study
+from jointplay.storage.packed.reading import Packed
+from jointplay.storage.places import StoredObject
+from jointplay.storage.reconciliation.leftovers import left_after
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.settings import Settings
+from jointplay.storage.studies.reader import StudyReader
+from jointplay.worker import block_run
+from jointplay.worker.execute import execute
+from jointplay.worker.scratch.computing import compute
+from tests.seaweedfs_server import BUCKET, running_store
+from tests.stores import files_of, packed, sealed_run, target
+from tests.waiting import until
+
+# steps of so many samples fill files of rows between restart points
+JOB = {
+    "kind": "simulate",
+    "scene": {"preset": "seven-bar-press"},
+    "duration": 30.0,
+    "output_step": 2e-3,
+    "channels": ["slider7.*"],
+    "certificate": False,
+}
+
+
+class MachineLost(BaseException):
+    """Ends an attempt where a machine without power would: nothing more is computed or sent."""
+
+
+class ShortOfPower(Catalogue):
+    """The catalogue as a machine sees it that is lost behind a restart point in mid-run."""
+
+    def record_checkpoint(
+        self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
+    ) -> None:
+        super().record_checkpoint(block_id, attempt, watermark=watermark, checkpoint=checkpoint)
+        if watermark:
+            raise MachineLost
+
+
+@pytest.fixture(scope="module", params=["file", "s3"])
+def address(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[str]:
+    if request.param == "file":
+        yield f"file:{tmp_path_factory.mktemp('results')}"
+        return
+    with running_store() as endpoint:
+        yield f"s3://{BUCKET}/sent?endpoint={endpoint}"
+
+
+@pytest.fixture
+def settings(tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch) -> Settings:
+    monkeypatch.setattr(block_run, "_MOST_OVERHEAD", 0)  # a restart point with every slice
+    return Settings(data=tmp_path, results_url=address, running="results", progress_period=1e-3)
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("undisturbed") / "store"
+    admission = admit(JOB)
+    assert isinstance(admission, Admission)
+    assert (
+        execute(admission, folder, target(folder), report=lambda _: "continue").state == "succeeded"
+    )
+    return packed(folder)
+
+
+def attempt(catalogue: Catalogue, settings: Settings, block: str) -> None:
+    claim = catalogue.claim_block(block, "this process", settings.lease)
+    assert claim is not None
+    compute(catalogue, settings, claim, threading.Event())
+
+
+def submit(catalogue: Catalogue, document: dict[str, object]) -> str:
+    admitted = admit(document)
+    more = {"blocks": admitted.blocks, "seal": True} if isinstance(admitted, Study) else {}
+    new = NewJob(str(document["kind"]), admitted.job, admitted.digest, SOLVER_VERSION, **more)
+    return catalogue.submit(new).job.id
+
+
+def chunks(store: Path | StoredObject) -> dict[str, bytes]:
+    measured = "statistics/seconds/"
+    found = files_of(store).items()
+    return {key: some for key, some in found if "/c/" in key and not key.startswith(measured)}
+
+
+def test_another_machine_goes_on_from_what_a_lost_one_had_sent(
+    settings: Settings, catalogue: Catalogue, undisturbed: Path
+) -> None:
+    job = submit(catalogue, JOB)
+    losing = ShortOfPower(settings.catalogue_url)
+    short = settings.model_copy(update={"lease": 0.2, "heartbeat": 0.1})
+    with pytest.raises(MachineLost):
+        attempt(losing, short, f"{job}-0")
+    losing.close()
+    assert not settings.running_folder(job).exists()
+    assert all("rows/" not in key or "/a1/" in key for key in settings.place.list("running/"))
+    (block,) = catalogue.blocks(job)
+    growing = ResultReader(settings.running_run(job, 1), block.watermark)
+    expected = ResultReader(undisturbed)
+    assert 0 < growing.samples == block.watermark < expected.samples
+    for name, column in growing.history()[1].items():
+        np.testing.assert_array_equal(column, expected.history([name])[1][name][: growing.samples])
+    until(lambda: bool(catalogue.reap(3).requeued))
+    attempt(catalogue, settings, f"{job}-0")
+    ended = catalogue.get(job)
+    assert (ended.state, ended.attempt) == (JobState.succeeded, 2)
+    stored = chunks(settings.sealed_run(job, 2))
+    assert stored == chunks(undisturbed)
+    assert len(stored) > 20
+    assert sealed_run(settings, ended).attributes["summary"]["steps"] == ended.steps
+    assert [*settings.place.list("")] == [settings.sealed_run(job, 2).key]
+    settings.place.remove(settings.results_prefix(job))
+
+
+def test_blocks_of_a_study_meet_in_the_place_for_results(
+    settings: Settings, catalogue: Catalogue
+) -> None:
+    study = submit(catalogue, SWEEP)
+    for index in (1, 0):
+        attempt(catalogue, settings, f"{study}-{index}")
+    growing = growing_study(settings, catalogue, study)
+    assert (growing.status == 2).all()
+    assert not growing.sealed
+    attempt(catalogue, settings, f"{study}-2")
+    assert catalogue.get(study).state is JobState.succeeded
+    reader = StudyReader(Packed(settings.sealed_study(study)))
+    reader.verify()
+    np.testing.assert_array_equal(reader.peaks("displacement"), growing.peaks("displacement"))
+    assert [*settings.place.list("")] == [settings.sealed_study(study).key]
+    settings.place.remove(settings.results_prefix(study))
+
+
+def test_what_a_short_run_needs_is_one_object(settings: Settings, catalogue: Catalogue) -> None:
+    patient = settings.model_copy(update={"progress_period": 600.0})
+    put: list[str] = []
+    place = settings.place
+    job = submit(catalogue, JOB | {"duration": 4.0})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(type(place), "replace", lambda *given: put.append(given[1]))
+        attempt(catalogue, patient, f"{job}-0")
+    assert put == []
+    assert [*place.list("")] == [settings.sealed_run(job, 1).key]
+    place.remove(settings.results_prefix(job))
+
+
+def test_what_a_late_attempt_left_is_found_and_removed(
+    settings: Settings, catalogue: Catalogue
+) -> None:
+    job = submit(catalogue, JOB | {"duration": 4.0})
+    attempt(catalogue, settings, f"{job}-0")
+    settings.running_files(job).put("a1/rows/history-0.zip", [b"late"])
+    settings.running_files("0" * 26).put("block0-a1", [b"of no job"])
+    left = {one.subject: one for one in left_after(settings, catalogue, 0.0)}
+    named = f"running/{job[-2:]}/{job}"
+    assert left.keys() == {named, f"running/00/{'0' * 26}"}
+    mend = left[named].mend
+    assert mend is not None
+    mend()
+    settings.running_files("0" * 26).clear()
+    assert [*settings.place.list("")] == [settings.sealed_run(job, 1).key]
+    settings.place.remove(settings.results_prefix(job))

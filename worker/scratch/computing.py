@@ -1,0 +1,74 @@
+"""Computing a claimed block where the files of running jobs are: here, or elsewhere."""
+
+import logging
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from jointplay.records.log_lines import about
+from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Fenced
+from jointplay.storage.catalogue.records import Claim
+from jointplay.storage.settings import Settings
+from jointplay.worker.block_run import BlockRun
+from jointplay.worker.passing import PASSING, waits_for
+from jointplay.worker.removal import withdraw
+from jointplay.worker.scratch.attempt import SentAttempt
+from jointplay.worker.scratch.files import Scratch
+
+_log = logging.getLogger(__name__)
+
+
+def compute(
+    catalogue: Catalogue, settings: Settings, claim: Claim, draining: threading.Event
+) -> None:
+    """Compute a block, and tell the catalogue how it ended; see `BlockRun`."""
+    if settings.sends:
+        with tempfile.TemporaryDirectory(prefix="jointplay-") as folder:
+            _compute_in(Path(folder), catalogue, settings, claim, draining)
+    else:
+        BlockRun(catalogue, settings, claim, draining).run()
+
+
+def _compute_in(
+    folder: Path,
+    catalogue: Catalogue,
+    settings: Settings,
+    claim: Claim,
+    draining: threading.Event,
+) -> None:
+    block = claim.block
+    here = settings.model_copy(update={"data": folder, "running": "data"})
+    scratch = Scratch(AttemptFiles(settings, block), here, block)
+    next_beat = time.monotonic() + settings.heartbeat
+
+    def beat() -> None:
+        nonlocal next_beat
+        if time.monotonic() > next_beat:
+            catalogue.heartbeat(block.id, block.attempt, settings.lease)
+            next_beat = time.monotonic() + settings.heartbeat
+
+    with about(job=block.job, block=block.id, attempt=block.attempt):
+        try:
+            scratch.fetch(beat)
+        except Fenced as fenced:
+            _log.warning("%s; leaving it", fenced)
+            return
+        except PASSING as fault:
+            _log.warning("block %s is put off: %s", block.id, fault)
+            _put_off(catalogue, claim, waits_for(fault))
+            return
+        with scratch.sending_rows():
+            BlockRun(SentAttempt(catalogue, scratch), here, claim, draining).run()
+        if scratch.used:
+            withdraw(catalogue, settings, block)
+
+
+def _put_off(catalogue: Catalogue, claim: Claim, activity: str) -> None:
+    """Give a block back that was not begun; if that cannot be, its lease will end."""
+    try:
+        catalogue.put_off(claim.block.id, claim.block.attempt, activity)
+    except PASSING as fault:
+        _log.warning("block %s is not given back: %s", claim.block.id, fault)

@@ -1,0 +1,197 @@
+"""Files of one attempt on this machine, and those elsewhere that they are copies of."""
+
+import os
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Final, Protocol
+
+from jointplay.storage.attempt_files import AttemptFiles
+from jointplay.storage.catalogue.errors import CatalogueError
+from jointplay.storage.catalogue.records import Block
+from jointplay.storage.packed.running import DOCUMENTS, PARTS, ROWS
+from jointplay.storage.places.folder import Folder
+from jointplay.storage.settings import Settings
+
+STUDY: Final = "study"
+"""Folder of a study, whose blocks leave files that are not sealed yet."""
+_PIECE: Final = 2**20
+_LOOK: Final = 0.1
+"""Seconds after which it is looked for rows that are whole."""
+_LARGE: Final = 2**20
+"""Bytes of rows that are sent at once; of fewer a run may be over before they are needed."""
+_Version = tuple[int, int, int]
+"""Inode, bytes and time of a file as it was sent."""
+
+
+class Elsewhere(Protocol):
+    """Files of the attempt where others find them; names are those of `AttemptFiles`."""
+
+    def needed(self) -> Iterable[tuple[str, int]]:
+        """Give name and bytes of what the attempt builds on."""
+        ...
+
+    def read(self, name: str) -> Iterator[bytes]:
+        """Give a file in pieces; FileNotFoundError if it is gone."""
+        ...
+
+    def put(self, name: str, pieces: Iterable[bytes]) -> None:
+        """Store a file whole."""
+        ...
+
+    def append(self, name: str, offset: int, pieces: Iterable[bytes]) -> None:
+        """Go on with a file from an offset."""
+        ...
+
+    def adopt(self, name: str, source: str) -> bool:
+        """Give a file a second name; whether that can be done."""
+        ...
+
+    def remove(self, name: str) -> None:
+        """Remove a file."""
+        ...
+
+
+class Scratch:
+    """Brings the files of an attempt here, and what changes in them to where others find them.
+
+    Parameters
+    ----------
+    settings
+        With a data folder of its own, which is empty.
+    """
+
+    def __init__(self, elsewhere: Elsewhere, settings: Settings, block: Block) -> None:
+        self._elsewhere = elsewhere
+        self._files = AttemptFiles(settings, block)
+        self._folder = settings.running_folder(block.job)
+        self._sent: dict[str, _Version] = {}
+        self._sending = threading.Lock()
+
+    def fetch(self, beat: Callable[[], None]) -> None:
+        """Get what the attempt builds on; `beat` is called now and then."""
+        for name, _ in self._elsewhere.needed():
+            sealed = self._files.sealed(name)
+            if sealed is not None and sealed.exists():
+                continue
+            try:
+                self._files.put(name, self._beating(name, beat))
+            except FileNotFoundError:  # replaced by the last one of its block, or removed
+                continue
+            if sealed is None:
+                self._sent[name] = _version(self._folder / name)
+
+    def _beating(self, name: str, beat: Callable[[], None]) -> Iterator[bytes]:
+        for piece in self._elsewhere.read(name):
+            beat()
+            yield piece
+
+    @property
+    def used(self) -> bool:
+        """Whether there is anything elsewhere."""
+        return bool(self._sent)
+
+    def send(self, folder: str = "") -> None:
+        """Have others see all files, or those in a folder, as they are now.
+
+        Those last that build on others.
+        """
+        with self._sending:
+            there = {*self._files.running.names(folder)}
+            for name in sorted(there, key=_turn):
+                self._send(name)
+            for name in [one for one in self._sent if one.startswith(folder) and one not in there]:
+                self._elsewhere.remove(name)
+                del self._sent[name]
+
+    @contextmanager
+    def sending_rows(self) -> Iterator[None]:
+        """Send many rows as soon as they are whole, so that restart points need not wait."""
+        ended = threading.Event()
+
+        def look() -> None:
+            while not ended.wait(_LOOK):
+                for name in [*self._files.running.names()]:
+                    if _is_rows(name) and not ended.is_set():
+                        with self._sending, suppress(OSError, CatalogueError):  # `send` tries again
+                            if self._files.running.size(name) >= _LARGE:
+                                self._send(name)
+
+        thread = threading.Thread(target=look, name="rows", daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            thread.join()
+
+    def send_sealed(self) -> None:
+        """Send the sealed results of this attempt, if there are any and they are here."""
+        for name in self._files.own_sealed():
+            sealed = self._files.sealed(name)
+            if sealed is not None and isinstance(sealed.place, Folder):
+                path = Path(sealed.place.root) / sealed.key
+                self._elsewhere.put(name, _Pieces(path, 0, path.stat().st_size))
+
+    def _send(self, name: str) -> None:
+        """Send a file that is not as it was sent: of one that is appended to, what is new."""
+        path = self._folder / name
+        version, sent = _version(path), self._sent.get(name)
+        if version == sent:
+            return
+        if (
+            _is_journal(name)
+            and sent is not None
+            and sent[0] == version[0]
+            and sent[1] < version[1]
+        ):
+            self._elsewhere.append(name, sent[1], _Pieces(path, sent[1], version[1]))
+        elif not self._adopted(name, version):
+            self._elsewhere.put(name, _Pieces(path, 0, version[1]))
+        self._sent[name] = version
+
+    def _adopted(self, name: str, version: _Version) -> bool:
+        """Have rows of an earlier attempt, which were linked to a name of this one, stay there."""
+        if not _is_rows(name):
+            return False
+        linked = (one for one, sent in self._sent.items() if sent == version and _is_rows(one))
+        source = next(linked, None)
+        return source is not None and self._elsewhere.adopt(name, source)
+
+
+class _Pieces:
+    """Bytes [start, stop) of a file, which can be gone through more than once."""
+
+    def __init__(self, path: Path, start: int, stop: int) -> None:
+        self._path, self._start, self._stop = path, start, stop
+
+    def __iter__(self) -> Iterator[bytes]:
+        with self._path.open("rb") as file:
+            file.seek(self._start)
+            left = self._stop - self._start
+            while left and (piece := file.read(min(left, _PIECE))):
+                left -= len(piece)
+                yield piece
+
+
+def _version(path: Path) -> _Version:
+    found = os.stat(path)
+    return found.st_ino, found.st_size, found.st_mtime_ns
+
+
+def _is_rows(name: str) -> bool:
+    return name.rpartition("/")[0].endswith(f"/{ROWS}")
+
+
+def _is_journal(name: str) -> bool:
+    """Whether a file is only ever appended to: that of the rows of a run that wait."""
+    attempt, _, rest = name.partition("/")
+    return attempt.startswith("a") and rest.startswith(f"{PARTS}/")
+
+
+def _turn(name: str) -> tuple[int, str]:
+    """Sort rows before the documents that announce them, and restart points last."""
+    folder, _, file = name.rpartition("/")
+    order = (_is_rows(name), file == DOCUMENTS, folder.endswith(PARTS), True)
+    return order.index(True), name
