@@ -11,12 +11,13 @@ const VIEWS = {
   jobs: ["Jobs", () => import("./views/jobs.js")],
   job: ["Job", () => import("./views/job.js")],
   compare: ["Compared jobs", () => import("./views/compare.js")],
+  batches: ["Batches", () => import("./views/batches.js")],
   batch: ["Batch", () => import("./views/batch.js")],
   workers: ["Workers", () => import("./views/workers.js")],
   editor: ["Your own mechanism", () => import("./views/editor.js")],
 };
 const UNFETCHED = /dynamically imported module|Importing a module script failed/;
-const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs" };
+const BELONGS = { new: "start", job: "jobs", compare: "jobs", batch: "jobs", batches: "jobs" };
 
 const content = document.getElementById("content");
 const connection = document.getElementById("connection");

@@ -44,6 +44,11 @@ export function jobAsText(document) {
   return { element: element("div", { class: "stacked" }, row, text), refresh };
 }
 
+/** What a job of each kind has found, as the client calls it; of others the extremes. */
+const FOUND = {
+  bifurcation: "points", sweep: "points", ensemble: "points", poincare: "poincare", "accuracy-study": "accuracy",
+  calibration: "calibration",
+};
 const FORMS = {
   Python: python,
   "Command line": commandLine,
@@ -59,7 +64,7 @@ function python(job) {
 with jointplay.Client("${location.origin}") as client:
     job = client.submit(${literal(job, 4)})
     job.wait(progress=True)
-    print(job.peaks)`;
+    print(job.${FOUND[job.kind] ?? "peaks"})`;
 }
 
 function literal(value, indent) {

@@ -3,7 +3,7 @@
 import { element, fill } from "./element.js";
 import { ago, span } from "./numbers.js";
 import { address } from "./place.js";
-import { parameterWords, progressWords, sceneName, stateMark } from "./state.js";
+import { progressWords, sceneName, stateMark } from "./state.js";
 import { TERMINAL } from "../requests/following.js";
 import { get, post, remove } from "../requests/service.js";
 
@@ -80,5 +80,5 @@ export class JobRow {
 
 function parameters(job) {
   if (job.error) return job.error.detail;
-  return parameterWords(job.job);
+  return job.words;
 }

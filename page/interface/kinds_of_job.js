@@ -1,5 +1,8 @@
 /** Kinds of jobs as the page offers them: fields, and the document that they make. */
 
+import { CalibrationFields } from "./calibration_fields.js";
+import { linesOf } from "./measured_table.js";
+import { ParameterFields } from "./parameter_fields.js";
 import { bounds } from "../mechanism/bounds.js";
 import { withParameters } from "../mechanism/parameters.js";
 import { startingPose, turn } from "../mechanism/sketch.js";
@@ -32,8 +35,9 @@ export function firstJob(document) {
 }
 
 /**
- * The kinds by name: what they are, their fields (as declared parameters are described), and the
- * fields of the job's document that they make of the values.
+ * The kinds by name: what they are, their fields (as declared parameters are described), the parts
+ * of the job's document that are `made` of the values, and the values that are `given` by a job's
+ * document.
  */
 export const KINDS = {
   simulate: {
@@ -57,6 +61,7 @@ export const KINDS = {
     made: ({ duration, accuracy, output_step: step, settle }) => ({
       duration, settle, ...accurate(accuracy), ...(step === null ? {} : { output_step: step }),
     }),
+    given: ({ duration, accuracy }) => ({ duration, accuracy }),
   },
   bifurcation: {
     title: "Bifurcation diagram",
@@ -84,6 +89,10 @@ export const KINDS = {
     made: ({ parameter, from, to, count, settle, record, continuation, verdicts, accuracy }) => ({
       parameter, values: { from, to, count }, settle, record, continuation,
       ...(verdicts === "yes" ? { indicators: "all" } : {}), ...accurate(accuracy),
+    }),
+    given: ({ parameter, values, settle, record, continuation, indicators, accuracy }) => ({
+      parameter, ...ends(values), settle, record, continuation,
+      verdicts: indicators?.length ? "yes" : "no", accuracy,
     }),
   },
   sweep: {
@@ -116,6 +125,14 @@ export const KINDS = {
       duration: given.duration,
       ...accurate(given.accuracy),
     }),
+    given: ({ grid, duration, accuracy }) => {
+      const [first, second] = Object.entries(grid ?? {});
+      const other = second && Object.entries(ends(second[1])).map(([name, value]) => [`second_${name}`, value]);
+      return {
+        ...(first ? { first: first[0], ...ends(first[1]) } : {}),
+        ...(second ? { second: second[0], ...Object.fromEntries(other) } : {}), duration, accuracy,
+      };
+    },
   },
   "accuracy-study": {
     title: "What accuracy costs",
@@ -127,8 +144,25 @@ export const KINDS = {
       },
     }),
     made: ({ duration }) => ({ duration }),
+    given: ({ duration }) => ({ duration }),
+  },
+  calibration: {
+    title: "Calibration",
+    help: "Parameters that give numbers that were measured.",
+    made: (all) => all,
+    given: ({ parameters, cases, search }) => ({
+      find: Object.entries(parameters).map(([name, { minimum, maximum, spacing }]) =>
+        `${name}=${minimum}:${maximum}${spacing === "log" ? ":log" : ""}`).join(";"),
+      measured: linesOf(cases), generations: search?.generations,
+    }),
   },
 };
+
+/** Returns the fields of a kind; `given` are values by name, as an address keeps them. */
+export function fieldsOf(kind, document, given, onchange) {
+  if (kind === "calibration") return new CalibrationFields(document, given, onchange);
+  return new ParameterFields(KINDS[kind].fields(document), given, onchange, "");
+}
 
 function varied(document, name, title, count = 48) {
   const choices = choice(document);
@@ -142,6 +176,12 @@ function varied(document, name, title, count = 48) {
     to: { title: "To", help: "", unit: "1", required: true, default: rounded(middle * 1.5) },
     count: { title: "Values", help: "", unit: "1", minimum: 1, maximum: 100000, default: count },
   };
+}
+
+/** Returns from, to and count of values that are given so, or one by one. */
+function ends(values) {
+  if (!Array.isArray(values)) return { from: values.from, to: values.to, count: values.count };
+  return { from: values[0], to: values.at(-1), count: values.length };
 }
 
 function choice(document, before = []) {

@@ -1,15 +1,14 @@
 /** A job as a list keeps it: ten thousand of them are some megabytes. */
 
-const MOST_PARAMETERS = 6;
+import { declaredFor, jobWords } from "./job_words.js";
 
 /** Returns what a row shows of a job, without its document. */
-export function listed(job) {
+export async function listed(job) {
   const { scene, duration } = job.job;
-  const parameters = Object.fromEntries(Object.entries(scene?.parameters ?? {})
-    .filter(([, value]) => typeof value === "number").slice(0, MOST_PARAMETERS));
+  const words = jobWords(job.job, await declaredFor(job.job));
   const { id, kind, label, state, activity, progress, created, started, finished, error } = job;
   return {
-    id, kind, label, state, activity, progress, created, started, finished, error,
-    job: { kind, duration, scene: { preset: scene?.preset, name: scene?.name, parameters } },
+    id, kind, label, state, activity, progress, created, started, finished, error, words,
+    job: { kind, duration, scene: { preset: scene?.preset, name: scene?.name } },
   };
 }

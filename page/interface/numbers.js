@@ -16,7 +16,7 @@ export function short(value, digits = 4) {
     size >= 1e6 || size < 1e-4
       ? value.toExponential(digits - 1)
       : String(Number(value.toPrecision(digits))); // toPrecision alone makes 2.6e+2 of 260
-  return text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "").replace("-", "−");
+  return text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "").replaceAll("-", "−");
 }
 
 /** Returns a unit with its exponents raised: m/s². */

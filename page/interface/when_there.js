@@ -10,8 +10,15 @@ const LEAST = 1000; // ms between two questions
  * Shows what a GET answers; again whenever the job has gone on, until it is finished.
  *
  * @param draw called with the answer
+ * @param ends states of a job that has ended in which there is something, if there is nothing before
  */
-export async function whenThere(room, { job, signal, onChange }, path, query, draw) {
+export async function whenThere(room, { job, signal, onChange }, path, query, draw, ends = null) {
+  const begun = ({ state, progress }) =>
+    ends ? ends.includes(state) : TERMINAL.has(state) || progress.fraction > 0;
+  const wait = ({ state }) => fill(room, nothing(
+    !ends ? "The first results are shown here as soon as they are stored."
+      : TERMINAL.has(state) ? `The job is ${state}: there will be nothing here.`
+      : "This is known, and shown here, when the job has ended."));
   let asked = 0;
   let complete = false;
   const ask = async () => {
@@ -26,13 +33,17 @@ export async function whenThere(room, { job, signal, onChange }, path, query, dr
       fill(room, nothing(error.message));
     }
   };
-  onChange(({ state, progress }) => {
-    if (complete || (!TERMINAL.has(state) && !progress.fraction)) return;
-    if (asked && !TERMINAL.has(state) && performance.now() - asked < LEAST) return;
+  onChange((now) => {
+    if (complete) return;
+    if (!begun(now)) {
+      if (ends && TERMINAL.has(now.state)) wait(now);
+      return;
+    }
+    if (asked && !TERMINAL.has(now.state) && performance.now() - asked < LEAST) return;
     ask().catch(() => {});
   });
-  if (TERMINAL.has(job.state) || job.progress.fraction) await ask();
-  else fill(room, nothing("The first results are shown here as soon as they are stored."));
+  if (begun(job)) await ask();
+  else wait(job);
 }
 
 function nothing(sentence) {

@@ -39,7 +39,7 @@ export function atWork(alive, job) {
       element("td", { class: "small" }, processor),
       element("td", {}, String(block)),
       element("td", {}, String(attempt)),
-      element("td", {}, new Date(since).toLocaleTimeString()))));
+      element("td", {}, new Date(since).toLocaleTimeString([], { hour12: false })))));
   return rows.length ? element("table", {},
     element("thead", {}, element("tr", {}, ["Worker", "Processor", "Block", "Attempt", "Since"]
       .map((title) => element("th", { scope: "col" }, title)))),

@@ -2,7 +2,15 @@
 
 import { short, unitText } from "../interface/numbers.js";
 
-const FONT = "12px system-ui, sans-serif";
+/** Returns how much larger letters are than on a page of usual size: they grow on large screens. */
+export function letters() {
+  return parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+}
+
+/** Returns the font of numbers and labels beside axes. */
+export function axisFont() {
+  return `${12 * letters()}px system-ui, sans-serif`;
+}
 
 /** Returns the way from values to pixels of a rectangle `[left, top, width, height]`. */
 export function scales([left, top, width, height], [x0, x1], [y0, y1]) {
@@ -28,7 +36,7 @@ export function extent(lists, room = 0.04) {
     }
   }
   if (low > high) return [0, 1];
-  const margin = (high - low || Math.abs(high) || 1) * room;
+  const margin = high > low ? (high - low) * room : Math.abs(high) / 2 || 1;
   return [low - margin, high + margin];
 }
 
@@ -46,28 +54,29 @@ export function ticks([low, high], wanted) {
 export function drawAxes(context, to, { xLabel = "", yLabel = "", numbersX = true }, colours) {
   const [left, top, width, height] = to.room;
   const [x0, x1, y0, y1] = to.domain;
-  context.font = FONT;
+  const size = letters();
+  context.font = axisFont();
   context.lineWidth = 1;
   context.strokeStyle = colours.faint;
   context.fillStyle = colours.quiet;
   context.strokeRect(left + 0.5, top + 0.5, width, height);
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const value of ticks([x0, x1], width / 90)) {
+  for (const value of ticks([x0, x1], width / (90 * size))) {
     const x = Math.round(to.x(value)) + 0.5;
     line(context, [x, top + height], [x, top + height + 5]);
     if (numbersX) context.fillText(short(value, 4), x, top + height + 7);
   }
-  if (numbersX) context.fillText(unitText(xLabel), left + width / 2, top + height + 23);
+  if (numbersX) context.fillText(unitText(xLabel), left + width / 2, top + height + 9 + 14 * size);
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const value of ticks([y0, y1], height / 45)) {
+  for (const value of ticks([y0, y1], height / (45 * size))) {
     const y = Math.round(to.y(value)) + 0.5;
     line(context, [left - 5, y], [left, y]);
     context.fillText(short(value, 4), left - 8, y);
   }
   context.save();
-  context.translate(14, top + height / 2);
+  context.translate(10 * size, top + height / 2);
   context.rotate(-Math.PI / 2);
   context.textAlign = "center";
   context.fillText(unitText(yLabel), 0, 0);

@@ -1,7 +1,7 @@
 /** A map: a value over two parameters, as colours with a scale beside it. */
 
 import { short, unitText } from "../interface/numbers.js";
-import { extent } from "./axes.js";
+import { axisFont, extent } from "./axes.js";
 
 // dark to light, evenly as the eye sees it (samples of matplotlib's viridis)
 const SHADES = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"];
@@ -25,7 +25,7 @@ export function drawMap(context, to, [x, y], values, colours, unit) {
     context.fillRect(bar, top + i, 14, 1.5);
   }
   context.fillStyle = colours.quiet;
-  context.font = "12px system-ui, sans-serif";
+  context.font = axisFont();
   context.textAlign = "left";
   context.textBaseline = "middle";
   for (const share of [0, 0.5, 1]) {

@@ -6,6 +6,7 @@ import { short, unitText, withUnit } from "../interface/numbers.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 import { pause } from "../requests/service.js";
 import { histories } from "./history_data.js";
+import { axisFont, letters } from "./axes.js";
 import { drawHorizon, drawImpacts } from "./marks.js";
 import { Panning } from "./panning.js";
 
@@ -143,12 +144,14 @@ export class HistoryPlots {
 
   options(channel, unit, value, last) {
     const colours = palette();
+    const size = letters();
     const axis = {
+      font: axisFont(), labelFont: axisFont(),
       stroke: colours.quiet, grid: { stroke: colours.faint, width: 0.3 }, ticks: { width: 0.5 },
     };
     return {
       width: this.room.clientWidth,
-      height: HEIGHT + (last ? 26 : 0),
+      height: size * (HEIGHT + (last ? 26 : 0)),
       legend: { show: false },
       scales: { x: { time: false }, y: { range: (_, low, high) => span(low, high) } },
       cursor: { sync: { key: this.key }, drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
@@ -159,9 +162,9 @@ export class HistoryPlots {
         })),
       ],
       axes: [
-        { ...axis, show: true, size: last ? 44 : 18, label: last ? "time [s]" : null, labelSize: 20,
+        { ...axis, show: true, size: size * (last ? 44 : 18), label: last ? "time [s]" : null, labelSize: 20 * size,
           values: (_, ticks) => ticks.map((one) => (last ? short(one, 6) : "")) },
-        { ...axis, size: 74, label: unit === "1" ? "" : unitText(unit), labelSize: 18,
+        { ...axis, size: 74 * size, label: unit === "1" ? "" : unitText(unit), labelSize: 18 * size,
           values: (_, ticks) => ticks.map((one) => short(one, 4)) },
       ],
       hooks: {

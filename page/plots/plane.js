@@ -3,7 +3,7 @@
 import { element } from "../interface/element.js";
 import { prepared } from "../mechanism/canvas.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
-import { drawAxes, extent, scales } from "./axes.js";
+import { drawAxes, extent, letters, scales } from "./axes.js";
 import { drawCloud } from "./cloud.js";
 
 export class Plane {
@@ -42,7 +42,8 @@ export class Plane {
     const colours = palette();
     const context = prepared(this.canvas);
     const { clientWidth, clientHeight } = this.canvas;
-    const to = scales([78, 10, clientWidth - 92, clientHeight - 56], extent([x]), extent([y]));
+    const size = letters();
+    const to = scales([88 * size, 10, clientWidth - 88 * size - 14, clientHeight - 12 - 44 * size], extent([x]), extent([y]));
     drawCloud(context, to, [{ x, y, colour: colours["curve-0"] }]);
     const [xLabel, yLabel] = this.chosen.map((name, i) => `${name} [${units[i]}]`);
     drawAxes(context, to, { xLabel, yLabel }, colours);

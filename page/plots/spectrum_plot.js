@@ -3,9 +3,10 @@
 import uPlot from "../vendor/uplot/uPlot.esm.min.js";
 import { element, fill } from "../interface/element.js";
 import { short, unitText, withUnit } from "../interface/numbers.js";
+import { axisFont, letters } from "./axes.js";
 import { onNewColours, palette } from "../mechanism/palette.js";
 
-const HEIGHT = 320; // px
+const HEIGHT = 0.6; // of the window
 const DECADES = 12; // below the strongest power; what lies deeper is rounding
 
 export class SpectrumPlot {
@@ -14,7 +15,7 @@ export class SpectrumPlot {
     this.value = element("p", { class: "quiet small" }, "\u00a0");
     this.element = element("div", { role: "img", "aria-label": "Power over frequency" }, this.room, this.value);
     onNewColours(() => this.draw(), signal);
-    new ResizeObserver(() => this.plot?.setSize({ width: this.room.clientWidth, height: HEIGHT }))
+    new ResizeObserver(() => this.plot?.setSize({ width: this.room.clientWidth, height: this.height }))
       .observe(this.room);
   }
 
@@ -37,15 +38,23 @@ export class SpectrumPlot {
       withUnit(limit, "Hz", 3)}`);
   }
 
+  /** Returns what a plane of points beside it has, px. */
+  get height() {
+    const rem = 16 * letters();
+    return Math.min(Math.max(18 * rem, HEIGHT * innerHeight), 60 * rem);
+  }
+
   options(unit, range, limit) {
+    const size = letters();
     const colours = palette();
     const axis = {
-      stroke: colours.quiet, grid: { show: false }, ticks: { width: 0.5 },
+      font: axisFont(), labelFont: axisFont(), stroke: colours.quiet,
+      grid: { stroke: colours.faint, width: 0.15 }, ticks: { width: 0.5 },
       values: (_, ticks) => ticks.map((one) => (one === null ? "" : short(one, 3))),
     };
     return {
       width: this.room.clientWidth,
-      height: HEIGHT,
+      height: this.height,
       legend: { show: false },
       scales: {
         x: { time: false, distr: 3, range: [this.density.frequency[0], limit] },
@@ -54,8 +63,8 @@ export class SpectrumPlot {
       cursor: { drag: { x: false, y: false } },
       series: [{}, { stroke: colours["curve-0"], width: 1, points: { show: false } }],
       axes: [
-        { ...axis, size: 44, label: "frequency [Hz]", labelSize: 20 },
-        { ...axis, size: 74, label: unitText(unit), labelSize: 18 },
+        { ...axis, size: 44 * size, label: "frequency [Hz]", labelSize: 20 * size },
+        { ...axis, size: 74 * size, label: unitText(unit), labelSize: 18 * size },
       ],
       hooks: { setCursor: [(plot) => this.read(plot, unit)] },
     };

@@ -1,22 +1,24 @@
 /** What the points of a diagram were judged to be: a band of verdicts, and exponents. */
 
-export const VERDICTS = {
-  periodic: "curve-0", "quasi-periodic": "curve-2", chaotic: "curve-1", undecided: "faint",
-};
+/** Verdicts, each of which has a colour of its own in the style sheet. */
+export const VERDICTS = ["periodic", "quasi-periodic", "chaotic", "undecided"];
 
-/** Draws a band in the colours of the verdicts. */
+/** Draws a band in the colours of the verdicts; of two directions forward is the upper half. */
 export function drawVerdicts(context, to, points, colours) {
   const values = points.map(({ value }) => value);
   const [left, top, width, height] = to.room;
   const wide = Math.max(1.5, (width / new Set(values).size) * 0.98);
-  for (const { value, verdict } of points) {
+  const half = new Set(points.map(({ backward }) => backward)).size > 1 ? height / 2 : height;
+  for (const { value, verdict, backward } of points) {
     if (!verdict) continue;
-    context.fillStyle = colours[VERDICTS[verdict]] ?? colours.faint;
-    context.fillRect(Math.max(left, to.x(value) - wide / 2), top, wide, height);
+    const [from, until] = [-wide, wide].map((one) =>
+      Math.min(Math.max(to.x(value) + one / 2, left), left + width));
+    context.fillStyle = colours[verdict] ?? colours.faint;
+    context.fillRect(from, backward && half < height ? top + half : top, until - from, half);
   }
 }
 
-/** Draws largest exponents, and where they are zero. */
+/** Draws largest exponents in the colours of their directions, and where they are zero. */
 export function drawExponents(context, to, points, colours) {
   const [left, , width] = to.room;
   context.strokeStyle = colours.faint;
@@ -26,9 +28,9 @@ export function drawExponents(context, to, points, colours) {
   context.lineTo(left + width, to.y(0));
   context.stroke();
   context.setLineDash([]);
-  for (const { value, exponent } of points) {
+  for (const { value, exponent, backward } of points) {
     if (exponent === null) continue;
-    context.fillStyle = exponent > 0 ? colours["curve-1"] : colours["curve-0"];
+    context.fillStyle = colours[backward ? "backward" : "curve-0"];
     context.fillRect(to.x(value) - 1.5, to.y(exponent) - 1.5, 3, 3);
   }
 }

@@ -1,9 +1,12 @@
 /** A batch: how many of its jobs are in each state, and the jobs in the order of the request. */
 
 import { element, fill } from "../interface/element.js";
+import { declaredFor, differing } from "../interface/job_words.js";
+import { span } from "../interface/numbers.js";
 import { address } from "../interface/place.js";
 import { sceneName, stateMark } from "../interface/state.js";
 import { Unreachable, get, pause, post } from "../requests/service.js";
+import { counts } from "./batches.js";
 
 const SHOWN = 200;
 
@@ -13,8 +16,9 @@ export async function show(room, { parts, signal }) {
     try {
       const batch = await get(path, {}, signal);
       const { jobs } = await get(`${path}/jobs`, { page_size: SHOWN }, signal);
-      draw(room, batch, jobs, path);
-      if (jobs.every(({ finished }) => finished)) return;
+      const declared = jobs.length ? await declaredFor(jobs[0].job) : {};
+      draw(room, batch, jobs, differing(jobs, declared), path);
+      if (batch.finished) return;
     } catch (error) {
       if (!(error instanceof Unreachable) || !room.childElementCount) throw error;
     }
@@ -22,23 +26,36 @@ export async function show(room, { parts, signal }) {
   }
 }
 
-function draw(room, batch, jobs, path) {
-  const moving = jobs.some(({ finished }) => !finished);
+function draw(room, batch, jobs, words, path) {
   fill(
     room,
     element("div", { class: "head" }, element("h1", {}, batch.label || "Batch"),
-      moving && element("div", { class: "buttons" },
-        element("button", { type: "button", onclick: () => post(`${path}/cancel`) }, "Cancel all"))),
-    element("p", {}, Object.entries(batch.states ?? {}).filter(([, count]) => count)
-      .map(([state, count]) => [stateMark(state), ` ${count}  `])),
-    element("section", { class: "panel" }, element("table", {},
-      element("thead", {}, element("tr", {}, ["Job", "State", "Progress"].map((title) =>
-        element("th", { scope: "col" }, title)))),
-      element("tbody", {}, jobs.map((job) => element("tr", {},
-        element("td", {}, element("a", { href: address(["job", job.id]) }, job.label || sceneName(job.job))),
-        element("td", {}, stateMark(job.state)),
-        element("td", {}, element("progress", {
-          max: 1, value: job.progress.fraction, "aria-label": "Progress",
-        }))))))),
+      element("div", { class: "buttons" },
+        !batch.finished &&
+          element("button", { type: "button", onclick: () => post(`${path}/cancel`) }, "Cancel all"),
+        element("a", { class: "button", href: "#/batches" }, "All batches"))),
+    element("p", {}, counts(batch.states ?? {})),
+    !batch.finished && element("progress", {
+      max: 1, value: batch.progress.fraction, "aria-label": "Progress of the batch",
+    }),
+    element("section", { class: "panel" },
+      element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Jobs" },
+        element("table", { class: "roomy" },
+          element("thead", {}, element("tr", {}, ["Job", "State", "Progress", "In what they differ"].map((title) =>
+            element("th", { scope: "col" }, title)))),
+          element("tbody", {}, jobs.map((job, i) => row(job, words[i]))))),
+      batch.jobs > jobs.length &&
+        element("p", { class: "quiet small" }, `The first ${jobs.length} of ${batch.jobs} are shown.`)),
   );
+}
+
+function row(job, words) {
+  const took = job.started && job.finished && (Date.parse(job.finished) - Date.parse(job.started)) / 1000;
+  return element("tr", {},
+    element("td", {}, element("a", { href: address(["job", job.id]) }, job.label || sceneName(job.job))),
+    element("td", {}, stateMark(job.state)),
+    element("td", {}, job.finished ? (took ? `took ${span(took)}` : "–") : element("progress", {
+      max: 1, value: job.progress.fraction, "aria-label": "Progress",
+    })),
+    element("td", { class: "quiet" }, job.error ? job.error.detail : words || "–"));
 }

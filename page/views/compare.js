@@ -2,9 +2,10 @@
 
 import { ChannelChoice } from "../interface/channel_choice.js";
 import { element, fill } from "../interface/element.js";
+import { declaredFor, differing } from "../interface/job_words.js";
 import { address, go, note } from "../interface/place.js";
 import { sceneOf } from "../interface/scene_of_job.js";
-import { parameterWords, sceneName } from "../interface/state.js";
+import { sceneName } from "../interface/state.js";
 import { Clock } from "../mechanism/clock.js";
 import { Motion } from "../mechanism/motion.js";
 import { onNewColours } from "../mechanism/palette.js";
@@ -20,9 +21,10 @@ export async function show(room, { query, signal }) {
   const ids = (query.get("jobs") ?? "").split(",").filter(Boolean).slice(0, MOST);
   const jobs = await Promise.all(ids.map((id) => get(`/v1/jobs/${encodeURIComponent(id)}`, {}, signal)));
   const others = await candidates(ids, signal);
+  const words = jobs.length ? differing(jobs, await declaredFor(jobs[0].job)) : [];
   const head = [
     element("h1", {}, "Compared jobs"),
-    element("ul", { class: "legend" }, jobs.map((job, i) => entry(job, i, ids))),
+    element("ul", { class: "legend" }, jobs.map((job, i) => entry(job, i, ids, words[i]))),
     ids.length < MOST && adding(ids, others),
   ];
   if (!jobs.length) {
@@ -45,8 +47,8 @@ export async function show(room, { query, signal }) {
   fill(
     room,
     head,
-    element("div", { class: "split" },
-      element("section", { class: "panel", "aria-label": "Mechanisms" },
+    element("div", { class: "split even" },
+      element("section", { class: "panel stays", "aria-label": "Mechanisms" },
         element("div", { class: "stage" }, stage.canvas), player(clock)),
       element("section", { class: "panel" }, element("h2", {}, "History"), plots.element, choice.element)),
   );
@@ -59,11 +61,11 @@ export async function show(room, { query, signal }) {
   await plots.show(choice.names);
 }
 
-function entry(job, i, ids) {
+function entry(job, i, ids, words) {
   const rest = ids.filter((id) => id !== job.id);
-  const words = job.label || parameterWords(job.job).split(", ").slice(0, 3).join(", ");
   return element("li", {}, element("span", { class: `swatch swatch-${i}` }),
-    element("a", { href: address(["job", job.id]) }, `${sceneName(job.job)} ${words}`), " ",
+    element("a", { href: address(["job", job.id]) }, job.label || sceneName(job.job).replaceAll("-", " ")),
+    words && element("span", { class: "quiet" }, words), " ",
     element("a", { href: address(["compare"], { jobs: rest.join(",") }), "aria-label": `Leave out ${job.id}` }, "✕"));
 }
 

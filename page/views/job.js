@@ -2,9 +2,10 @@
 
 import { element, fill } from "../interface/element.js";
 import { ago, withUnit } from "../interface/numbers.js";
+import { declaredFor, jobWords } from "../interface/job_words.js";
+import { KINDS } from "../interface/kinds_of_job.js";
 import { address, go } from "../interface/place.js";
-import { preset } from "../interface/scene_of_job.js";
-import { parameterWords, progressWords, sceneName, stateMark } from "../interface/state.js";
+import { progressWords, sceneName, stateMark } from "../interface/state.js";
 import { whyQueued, workers } from "../interface/workers.js";
 import { TERMINAL, follow } from "../requests/following.js";
 import { get, pause, post, remove } from "../requests/service.js";
@@ -93,7 +94,12 @@ class Head {
   async watchQueue() {
     while (this.job.state === "queued") {
       await pause(PATIENCE, this.signal);
-      if (this.job.state === "queued") this.queued = whyQueued(await workers(this.signal));
+      if (this.job.state !== "queued") return;
+      try {
+        this.queued = whyQueued(await workers(this.signal));
+      } catch {
+        if (this.signal.aborted) return; // else it is asked again
+      }
       this.refresh();
     }
   }
@@ -110,7 +116,7 @@ class Head {
       fact("Duration", job.job.duration && withUnit(job.job.duration, "s")),
       parameters,
       fact("Submitted", ago(job.created)),
-      fact("Label", job.label),
+      job.label && fact("Mechanism", sceneName(job.job).replaceAll("-", " ")),
       job.batch && element("div", {}, element("dt", {}, "Batch"), element("dd", {},
         element("a", { href: address(["batch", job.batch]) }, job.batch))),
       element("div", {}, element("dt", {}, "Id"), element("dd", {}, element("code", {}, job.id))),
@@ -118,10 +124,9 @@ class Head {
   }
 
   async showParameters(place) {
-    const { preset: name } = this.job.job.scene ?? {};
-    const declared = name && (await preset(name).catch(() => ({}))).parameters;
-    const words = name ? parameterWords(this.job.job, declared) : "";
-    fill(place, element("dt", {}, "Set"), element("dd", {}, words));
+    const { duration, ...document } = this.job.job; // the duration is told beside
+    const words = jobWords(document, await declaredFor(document));
+    fill(place, element("dt", {}, "Values"), element("dd", {}, words));
     place.hidden = !words;
   }
 
@@ -199,13 +204,13 @@ class Head {
 
 /** A link to the form with this job's values, or to the editor with its scene. */
 function changed(job) {
-  const { scene, kind, duration, accuracy } = job.job;
+  const { scene, kind } = job.job;
   if (!scene.preset) {
     return element("a", { class: "button", href: address(["editor"], { job: job.id }) }, "Change");
   }
   const given = Object.fromEntries(
     Object.entries(scene.parameters ?? {}).filter(([, value]) => value !== null));
-  const query = { ...given, kind: kind === "simulate" ? null : kind, duration, accuracy };
+  const query = { ...given, kind: kind === "simulate" ? null : kind, ...KINDS[kind]?.given(job.job) };
   return element("a", { class: "button", href: address(["new", scene.preset], query) },
     "Run with changes");
 }

@@ -41,7 +41,8 @@ class JobList {
     this.compare = element("a", { class: "button", hidden: true }, "Compare");
     this.element = element("div", {},
       element("div", { class: "head" }, element("h1", {}, "Jobs"), this.said,
-        element("div", { class: "buttons" }, this.compare)),
+        element("div", { class: "buttons" }, this.compare,
+          element("a", { class: "button", href: "#/batches" }, "Batches"))),
       this.form(), this.notice, this.scroll, this.empty);
     new ResizeObserver(() => this.resized()).observe(this.scroll);
   }
@@ -86,7 +87,7 @@ class JobList {
   async page(token, size) {
     const query = { ...this.filters, page_size: size, page_token: token };
     const { jobs, next_page_token: next } = await get("/v1/jobs", query, this.signal);
-    return { jobs: jobs.map(listed), next };
+    return { jobs: await Promise.all(jobs.map(listed)), next };
   }
 
   /** Looks again, every second: new jobs, and those that are not finished. */
@@ -114,7 +115,7 @@ class JobList {
     const shown = this.jobs.slice(...this.range());
     const moving = shown.filter(({ id, state }) => !TERMINAL.has(state) && !seen.has(id));
     await Promise.all(moving.slice(0, MOST_ASKED).map(async (job) => {
-      Object.assign(job, listed(await get(`/v1/jobs/${job.id}`, {}, this.signal)));
+      Object.assign(job, await listed(await get(`/v1/jobs/${job.id}`, {}, this.signal)));
     }));
   }
 

@@ -3,7 +3,7 @@
 import { element, fill } from "../interface/element.js";
 import { Estimate } from "../interface/estimate.js";
 import { jobAsText } from "../interface/job_as_text.js";
-import { KINDS } from "../interface/kinds_of_job.js";
+import { KINDS, fieldsOf } from "../interface/kinds_of_job.js";
 import { ParameterFields } from "../interface/parameter_fields.js";
 import { go, note } from "../interface/place.js";
 import { fields as wrongFields } from "../interface/trouble.js";
@@ -82,9 +82,8 @@ class JobForm {
       this.parameters.element,
       element("div", { class: "field" }, element("label", { for: "label" }, "Label"), this.label,
         element("p", { class: "help" }, "A name of your own, to find the job by.")),
-      this.estimate.element,
-      this.wrong,
-      element("div", { class: "buttons" }, this.button),
+      element("div", { class: "acting" }, this.estimate.element, this.wrong,
+        element("div", { class: "buttons" }, this.button)),
     );
     this.text = { refresh() {} };
     this.choose(KINDS[kind] ? kind : "simulate", given);
@@ -94,8 +93,7 @@ class JobForm {
   choose(kind, given = {}) {
     this.kind.value = kind;
     this.kindHelp.textContent = KINDS[kind].help;
-    const fields = KINDS[kind].fields(this.scene);
-    this.own = new ParameterFields(fields, given, () => this.changed(), "");
+    this.own = fieldsOf(kind, this.scene, given, () => this.changed());
     fill(this.kindRoom, this.own.element);
     this.changed();
   }

@@ -28,6 +28,7 @@ def places(http, worker, finished_sweep):
         "figures": (f"/#/job/{run}/figures", "figure img[src]"),
         "document": (f"/#/job/{run}/document", "tbody tr"),
         "report": ("/report", "h1"),
+        "workers": ("/#/workers", ".panel p"),
         "reference": ("/docs", "#operations-jobs-submit_job_v1_jobs_post"),
     }, {
         "start": ("/", ".card canvas"),
@@ -45,9 +46,8 @@ def places(http, worker, finished_sweep):
 def wrong(browsing, url, places, width, dark, artifacts):
     """What is wrong in each of these places, of each of which a picture is kept."""
     found = {}
-    unready = ("409",)  # results that are not there yet
     look = f"{width}-dark" if dark else f"{width}"
-    with browsing.page(f"{url}/", width=width, dark=dark, still=True, expected=unready) as page:
+    with browsing.page(f"{url}/", width=width, dark=dark, still=True) as page:
         for name, (place, there) in places.items():
             page.goto("about:blank")  # or what is there of the view before would be looked at
             page.goto(f"{url}{place}")

@@ -2,23 +2,26 @@
 
 import { element, fill } from "../../interface/element.js";
 import { short, span, withUnit } from "../../interface/numbers.js";
+import { table } from "../../interface/table.js";
 import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
 export async function show(room, context) {
-  const { links } = context.job;
+  const { links, job } = context.job;
   if (links.accuracy) {
     await whenThere(room, context, links.accuracy, {}, (answer) =>
-      fill(room, study(answer, links.figures)));
+      fill(room, study(answer, links.figures, context.job.state === "succeeded")));
+  } else if (job.certificate === false) {
+    fill(room, element("p", { class: "panel" }, "This run was computed without a certificate."));
   } else {
     await whenThere(room, context, links.certificate, {}, (answer) =>
-      fill(room, certificate(answer, context.job.job.duration)));
+      fill(room, certificate(answer, job.duration)), ["succeeded", "failed"]);
   }
 }
 
 function certificate(found, duration) {
   const statements = words(found, duration);
-  return element("div", { class: "split" },
+  return element("div", { class: "split beside" },
     element("section", { class: "panel" },
       element("h2", {}, "What you can trust"),
       statements.map((sentence) => element("p", {}, sentence)),
@@ -77,39 +80,29 @@ function spreads(channels) {
 }
 
 function channels({ channels: found }) {
-  const rows = Object.entries(found).map(([name, { until, unit, extremes: e }]) => {
-    const between = (low, high) => {
-      if (low === null || high === null) return "–";
-      const [a, b] = [low, high].map((value) => withUnit(value, unit, 3));
-      return a === b ? a : `${a} … ${b}`;
-    };
-    return element("tr", {}, element("th", { scope: "row" }, name),
-      element("td", { class: "number" }, until === null ? "–" : withUnit(until, "s", 3)),
-      element("td", { class: "number" }, between(e.lowest_minimum, e.highest_minimum)),
-      element("td", { class: "number" }, between(e.lowest_maximum, e.highest_maximum)));
-  });
-  return element("table", { class: "small" },
-    element("thead", {}, element("tr", {},
-      element("th", { scope: "col" }, "Channel"),
-      ["Accurate until", "Smallest", "Largest"].map((title) =>
-        element("th", { scope: "col", class: "number" }, title)))),
-    element("tbody", {}, rows));
+  const between = (low, high, unit) => {
+    if (low === null || high === null) return "–";
+    const [a, b] = [low, high].map((value) => withUnit(value, unit, 3));
+    return a === b ? a : `${a} … ${b}`;
+  };
+  return table("Channels", ["Channel", "Accurate until", "Smallest", "Largest"],
+    Object.entries(found).map(([name, { until, unit, extremes: e }]) => [
+      name, until === null ? "–" : withUnit(until, "s", 3),
+      between(e.lowest_minimum, e.highest_minimum, unit),
+      between(e.lowest_maximum, e.highest_maximum, unit),
+    ]), "small");
 }
 
-function study(found, figures) {
-  const rows = found.points.map((one) => element("tr", {},
-    element("th", { scope: "row" }, one.method),
-    [one.tolerance === null ? withUnit(one.step, "s", 2) : short(one.tolerance, 1),
-     one.failure ?? short(one.error, 2), short(one.steps, 4), span(one.seconds)].map((cell) =>
-      element("td", { class: "number" }, cell))));
+function study(found, figures, over) {
+  const rows = found.points.map((one) => [
+    one.method, one.tolerance === null ? withUnit(one.step, "s", 2) : short(one.tolerance, 1),
+    one.failure ?? short(one.error, 2), short(one.steps, 4), span(one.seconds),
+  ]);
   return element("div", { class: "split" },
     element("section", { class: "panel" }, element("h2", {}, "What accuracy costs"),
       element("p", {}, found.advice ?? "The advice comes when the study is complete."),
-      element("table", {}, element("thead", {}, element("tr", {},
-        ["Method", "Tolerance or step", "Error", "Steps", "Time"].map((title, i) =>
-          element("th", { scope: "col", class: i ? "number" : "" }, title)))),
-      element("tbody", {}, rows))),
-    element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"),
+      table("Costs", ["Method", "Tolerance or step", "Error", "Steps", "Time"], rows)),
+    over && element("section", { class: "panel" }, element("h2", {}, "Work-precision diagram"),
       diagram(`${figures}/work-precision.svg`)));
 }
 

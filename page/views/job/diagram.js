@@ -6,16 +6,17 @@ import { note } from "../../interface/place.js";
 import { offer } from "../../interface/point_of_study.js";
 import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
-import { drawAxes, extent, scales } from "../../plots/axes.js";
+import { drawAxes, extent, letters, scales } from "../../plots/axes.js";
 import { drawCloud } from "../../plots/cloud.js";
 import { VERDICTS, drawExponents, drawVerdicts } from "../../plots/verdicts.js";
 import { intoATurn } from "../../plots/turns.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
 
-const LEFT = 78;
+// px of a page whose letters have the usual size
+const LEFT = 84;
 const BELOW = 44;
-const EXPONENTS = 84; // height of the exponents, px
+const EXPONENTS = 84; // height of the exponents
 const BAND = 16;
 
 export async function show(room, context) {
@@ -46,7 +47,8 @@ class Diagram {
       element("div", { class: "filters" },
         element("div", { class: "field" }, element("label", { for: "observable" }, "Observable"), select),
         element("div", { class: "field" },
-          element("label", { for: "value" }, `${job.job.parameter} (or click the diagram)`), this.at)),
+          element("label", { for: "value" }, job.job.parameter), this.at),
+        element("p", { class: "quiet small" }, "Click the diagram, or give a value, to run that simulation.")),
       this.canvas, this.legend, this.chosen);
     onNewColours(() => this.draw(), signal);
     addEventListener("resize", () => this.draw(), { signal });
@@ -97,15 +99,16 @@ class Diagram {
     const colours = palette();
     const context = prepared(canvas);
     const judged = points.some(({ verdict }) => verdict);
-    const below = BELOW + (judged ? EXPONENTS + BAND + 22 : 0);
-    const room = [LEFT, 10, canvas.clientWidth - LEFT - 14, canvas.clientHeight - below - 10];
+    const size = letters();
+    const below = size * (BELOW + (judged ? EXPONENTS + BAND : 0)) + (judged ? 22 : 0);
+    const room = [size * LEFT, 10, canvas.clientWidth - size * LEFT - 14, canvas.clientHeight - below - 10];
     const across = extent([points.map(({ value }) => value)], 0.01);
     const layers = [false, true].map((backward) => {
       const some = points.filter((one) => one.backward === backward);
       return {
         x: some.flatMap(({ value, sections }) => sections.map(() => value)),
         y: some.flatMap(({ sections }) => sections),
-        colour: colours[backward ? "curve-1" : "curve-0"],
+        colour: colours[backward ? "backward" : "curve-0"],
       };
     }).filter(({ x }) => x.length);
     this.to = scales(room, across, extent(layers.map(({ y }) => y)));
@@ -115,9 +118,9 @@ class Diagram {
     drawAxes(context, this.to,
       { xLabel, yLabel: `${observable} [${sections.unit}]`, numbersX: !judged }, colours);
     if (judged) {
-      const band = [LEFT, room[1] + room[3] + 8, room[2], BAND];
+      const band = [room[0], room[1] + room[3] + 8, room[2], size * BAND];
       drawVerdicts(context, scales(band, across, [0, 1]), points, colours);
-      const lower = [LEFT, band[1] + BAND + 8, room[2], EXPONENTS];
+      const lower = [room[0], band[1] + band[3] + 8, room[2], size * EXPONENTS];
       const values = points.map(({ exponent }) => exponent).filter((one) => one !== null);
       const to = scales(lower, across, extent([values, [0]], 0.1));
       drawExponents(context, to, points, colours);
@@ -129,8 +132,9 @@ class Diagram {
   explain(judged, both) {
     const entry = (look, text) => element("li", {}, element("span", { class: `swatch ${look}` }), text);
     fill(this.legend,
-      both && [entry("swatch-0", "forward"), entry("swatch-1", "backward")],
-      judged && Object.entries(VERDICTS).map(([name]) => entry(`verdict-${name}`, name)));
+      both && [entry("swatch-0", "forward"), entry("swatch-backward", "backward")],
+      judged && element("li", { class: "quiet" }, both ? "Band, forward above:" : "Band:"),
+      judged && VERDICTS.map((name) => entry(`verdict-${name}`, name)));
   }
 
   click(event) {

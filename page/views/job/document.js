@@ -2,7 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { jobAsText } from "../../interface/job_as_text.js";
-import { atWork, workers } from "../../interface/workers.js";
+import { atWork, processOf, workers } from "../../interface/workers.js";
 import { TERMINAL, follow } from "../../requests/following.js";
 
 export async function show(room, { job, signal }) {
@@ -35,10 +35,18 @@ export async function show(room, { job, signal }) {
     signal,
     onProgress: (now) => tellWho(now).catch(() => (asking = false)),
     onEvent: ({ type, time, data }) => rows.append(element("tr", {},
-      element("td", {}, new Date(time).toLocaleTimeString()),
+      element("td", { class: "when", title: time }, new Date(time).toLocaleTimeString([], { hour12: false })),
       element("td", {}, type),
-      element("td", { class: "small" }, details(data)))),
+      element("td", { class: "small", title: details(data) }, details({ ...data, ...inShort(data) })))),
   });
+}
+
+/** Returns a block without its job's id, and a worker as its machine and process. */
+function inShort({ block, worker }) {
+  return {
+    ...(typeof block === "string" ? { block: block.split("-").at(-1) } : {}),
+    ...(worker ? { worker: processOf(worker) } : {}),
+  };
 }
 
 function details(data) {

@@ -2,6 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { short, withUnit } from "../../interface/numbers.js";
+import { table } from "../../interface/table.js";
 import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
 
@@ -10,9 +11,10 @@ export async function show(room, context) {
   await whenThere(room, context, links.calibration, {}, (found) =>
     fill(room, element("div", { class: "split" },
       element("section", { class: "panel" }, element("h2", {}, "What fits"),
-        element("p", {}, words(found)), parameters(found), targets(found)),
+        element("p", {}, words(found)), parameters(found),
+        element("h2", { class: "later" }, "What is met"), targets(found)),
       element("section", { class: "panel" }, element("h2", {}, "The search"),
-        figure(`${links.figures}/calibration.svg`)))));
+        figure(`${links.figures}/calibration.svg`)))), ["succeeded"]);
 }
 
 function words({ cost, equally_good_cost: limit, search }) {
@@ -23,31 +25,21 @@ function words({ cost, equally_good_cost: limit, search }) {
 }
 
 function parameters({ parameters: found }) {
-  return table(["Parameter", "Best", "5 % to 95 %", "No end at"], found.map((one) => [
+  return table("Parameters", ["Parameter", "Best", "5 % to 95 %", "No end at"], found.map((one) => [
     one.name, withUnit(one.best, one.unit, 4),
     `${short(one.quantiles["0.05"], 3)} … ${short(one.quantiles["0.95"], 3)}`,
     one.open_ends.join(", ") || "–",
-  ]));
+  ]), "small");
 }
 
 function targets({ targets: found }) {
-  return table(["Target", "Wanted", "Found", "Miss"], found.map((one) => [
-    [one.case, `${one.statistic.replaceAll("_", " ")} of ${one.channel}`].filter(Boolean).join(", "),
+  const several = new Set(found.map((one) => one.case)).size > 1;
+  return table("Targets", ["Target", "Wanted", "Found", "Miss"], found.map((one) => [
+    [several && one.case, `${one.statistic.replaceAll("_", " ")} of ${one.channel}`].filter(Boolean).join(", "),
     one.between ? one.between.map((end) => end ?? "").join(" … ") : withUnit(one.value, one.unit, 4),
     one.fitted === null ? "–" : withUnit(one.fitted, one.unit, 4),
     one.miss === null ? "–" : short(one.miss, 2),
-  ]));
-}
-
-function table(titles, rows) {
-  const label = titles[0];
-  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": label },
-    element("table", { class: "small" },
-      element("thead", {}, element("tr", {}, titles.map((title, i) =>
-        element("th", { scope: "col", class: i ? "number" : "" }, title)))),
-      element("tbody", {}, rows.map(([name, ...cells]) => element("tr", {},
-        element("th", { scope: "row" }, name),
-        cells.map((cell) => element("td", { class: "number" }, cell)))))));
+  ]), "small");
 }
 
 function figure(path) {

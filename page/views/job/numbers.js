@@ -2,6 +2,7 @@
 
 import { element, fill } from "../../interface/element.js";
 import { short, withUnit } from "../../interface/numbers.js";
+import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
 
@@ -23,14 +24,6 @@ export async function show(room, context) {
             element("h2", {}, `${impacts.impacts.length} contacts`), impactTable(impacts.impacts)))),
     );
   });
-}
-
-function table(name, titles, rows) {
-  return element("div", { class: "wide", role: "group", tabindex: "0", "aria-label": name }, element("table", {},
-    element("thead", {}, element("tr", {}, titles.map((title, i) =>
-      element("th", { scope: "col", class: i ? "number" : "" }, title)))),
-    element("tbody", {}, rows.map((row) => element("tr", {}, row.map((cell, i) =>
-      i ? element("td", { class: "number" }, cell) : element("th", { scope: "row" }, cell)))))));
 }
 
 function peakTable(peaks) {

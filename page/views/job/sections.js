@@ -22,7 +22,7 @@ export async function show(room, context) {
       const numbers = values.flat().map((value) => value ?? NaN);
       return unit === "rad" ? numbers.map(intoATurn(numbers)) : numbers;
     });
-    const words = `${x.length} sections`;
+    const words = x.length === 1 ? "1 section" : `${x.length} sections`;
     plane.show({ x, y, units: found.map(({ unit }) => unit), words, note: answer.note });
   };
   await whenThere(room, context, job.links.poincare, asked(plane.chosen), (answer) => {

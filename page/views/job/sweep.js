@@ -8,12 +8,14 @@ import { Quantities } from "../../interface/quantities.js";
 import { whenThere } from "../../interface/when_there.js";
 import { prepared } from "../../mechanism/canvas.js";
 import { onNewColours, palette } from "../../mechanism/palette.js";
-import { drawAxes, extent, scales } from "../../plots/axes.js";
+import { drawAxes, extent, letters, scales } from "../../plots/axes.js";
 import { drawCurves } from "../../plots/curves.js";
 import { cellsAbout, drawMap } from "../../plots/heat_map.js";
 import { get } from "../../requests/service.js";
 
-const LEFT = 86;
+// px of a page whose letters have the usual size
+const LEFT = 90;
+const SCALE = 100; // of the colours, beside a map
 const MOST_ROWS = 500; // of the table
 
 export async function show(room, context) {
@@ -65,15 +67,17 @@ class Sweep {
     const [first, second] = this.parameters;
     const title = `${name} [${unit}]`;
     const { clientWidth, clientHeight } = this.canvas;
-    const height = clientHeight - 72;
+    const size = letters();
+    const left = LEFT * size;
+    const height = clientHeight - 26 - 46 * size;
     if (this.parameters.length === 1) {
-      const inside = [LEFT, 24, clientWidth - LEFT - 14, height];
+      const inside = [left, 24, clientWidth - left - 14, height];
       const all = curves.flatMap(({ values, low, high }) => (low ? [low, high] : [values]));
       this.to = scales(inside, extent([first.values]), extent(all));
       drawCurves(context, this.to, first.values, curves);
       drawAxes(context, this.to, { xLabel: first.label, yLabel: title }, colours);
     } else {
-      const inside = [LEFT, 24, clientWidth - LEFT - 100, height];
+      const inside = [left, 24, clientWidth - left - SCALE * size, height];
       this.to = scales(inside, cellsAbout(first.values), cellsAbout(second.values));
       drawMap(context, this.to, [first.values, second.values], curves[0].values, colours, unit);
       drawAxes(context, this.to, { xLabel: first.label, yLabel: second.label }, colours);

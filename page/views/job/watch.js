@@ -2,6 +2,7 @@
 
 import { ChannelChoice } from "../../interface/channel_choice.js";
 import { element, fill } from "../../interface/element.js";
+import { withUnit } from "../../interface/numbers.js";
 import { saving } from "../../interface/saving.js";
 import { note } from "../../interface/place.js";
 import { sceneOf } from "../../interface/scene_of_job.js";
@@ -48,7 +49,7 @@ class Watch {
     this.looks = [PhasePortrait, Spectrum].map((Look) => new Look(job, query, signal));
     fill(this.room,
       element("div", { class: "stacked" },
-        element("div", { class: "split" }, this.drawing(scene), plotRoom),
+        element("div", { class: "split even" }, this.drawing(scene), plotRoom),
         element("div", { class: "looks" }, this.looks.map((look) => look.element))));
     onNewColours(() => this.draw(), signal);
     addEventListener("resize", () => this.draw(), { signal });
@@ -77,7 +78,7 @@ class Watch {
     } });
     return element(
       "section",
-      { class: "panel", "aria-label": "Mechanism" },
+      { class: "panel stays", "aria-label": "Mechanism" },
       element("div", { class: "stage" }, stage.canvas),
       player(clock, () => this.impacts),
       element("div", { class: "buttons" },
@@ -106,7 +107,8 @@ class Watch {
       note({ channels: names.join(",") });
       this.history.show(names).then(() => this.certify());
     });
-    room.append(this.history.element, choice.element);
+    this.marks = element("ul", { class: "legend" });
+    room.append(this.history.element, this.marks, choice.element);
     if (query.has("from") && query.has("to")) {
       this.history.window = [Number(query.get("from")), Number(query.get("to"))];
     }
@@ -128,17 +130,30 @@ class Watch {
     this.insets.peaks = peaks?.peaks ?? {};
     this.impacts = (impacts?.impacts ?? []).map(({ onset }) => onset).sort((a, b) => a - b);
     this.history?.mark({ onsets: this.impacts });
+    if (this.marks) this.explain(this.history.certificate);
     this.clock.tell();
   }
 
   /** Shows how far the curves hold that are shown, once that is known. */
   async certify() {
-    const { links, state } = this.job;
+    const { links, state, job } = this.job;
     const names = this.history.channels.join(",");
-    if (!links.certificate || !TERMINAL.has(state)) return;
+    if (!links.certificate || job.certificate === false || !TERMINAL.has(state)) return;
     const found = await get(links.certificate, { channels: names }, this.signal).catch(() => null);
     if (names !== this.history.channels.join(",")) return; // others are shown meanwhile
     this.history.mark({ certificate: found });
+    this.explain(found);
+  }
+
+  /** Says what the marks in the plots mean. */
+  explain(certificate) {
+    const { horizon } = certificate ?? {};
+    const beyond = horizon !== null && horizon !== undefined && horizon < this.clock.last;
+    const entry = (look, words) => element("li", {}, element("span", { class: `swatch ${look}` }), words);
+    fill(this.marks,
+      this.impacts.length > 0 && entry("swatch-impact", "a contact begins"),
+      beyond && entry("swatch-beyond", `after ${withUnit(horizon, "s", 3)} other tolerances take other paths`),
+      beyond && entry("swatch-spread", "where their extremes lie"));
   }
 
   /** Shows what a running job has computed meanwhile. */

@@ -1,0 +1,33 @@
+/** What a job computes, in a few words: what it sets otherwise than the scene, and what it varies. */
+
+import { withUnit } from "./numbers.js";
+import { preset } from "./scene_of_job.js";
+import { parameterWords } from "./state.js";
+
+/** Returns the declared parameters of the preset of a job's document; none of another scene. */
+export async function declaredFor({ scene }) {
+  return scene?.preset ? (await preset(scene.preset).catch(() => ({}))).parameters ?? {} : {};
+}
+
+/** Returns the words of a job's document. */
+export function jobWords(document, declared) {
+  const { kind, duration, parameter, values, grid, parameters } = document;
+  const over = (name, all) => {
+    const [from, to] = Array.isArray(all) ? [all[0], all.at(-1)] : [all.from, all.to];
+    return `${name} ${[from, to].map((one) => withUnit(one, declared[name]?.unit ?? "1")).join(" … ")}`;
+  };
+  const varied = kind === "bifurcation" ? [over(parameter, values)]
+    : kind === "sweep" ? Object.entries(grid ?? {}).map(([name, all]) => over(name, all))
+    : kind === "calibration" ? [`finds ${Object.keys(parameters).join(", ")}`] : [];
+  return [...varied, duration && withUnit(duration, "s"), parameterWords(document, declared)]
+    .filter(Boolean).join(", ");
+}
+
+/** Returns, for each of some jobs of one preset, the parameters in which they differ. */
+export function differing(jobs, declared) {
+  const all = jobs.map(({ job }) => job.scene?.parameters ?? {});
+  if (new Set(jobs.map(({ job }) => job.scene?.preset)).size > 1) return all.map(() => "");
+  const names = Object.keys(all[0] ?? {}).filter((name) => new Set(all.map((one) => one[name])).size > 1);
+  return all.map((one) => names.map((name) => typeof one[name] === "number"
+    ? `${name} ${withUnit(one[name], declared[name]?.unit ?? "1")}` : `${name} ${one[name]}`).join(", "));
+}

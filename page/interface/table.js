@@ -1,0 +1,21 @@
+/** Tables of numbers: a name for each row, and a scroll of their own where they are too wide. */
+
+import { element } from "./element.js";
+
+/**
+ * Returns a table whose first column names its rows.
+ *
+ * @param label what a screen reader calls it
+ * @param titles of the columns
+ * @param rows lists of cells, as long as `titles`
+ * @param look class of the table
+ */
+export function table(label, titles, rows, look = "") {
+  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": label },
+    element("table", { class: look },
+      element("thead", {}, element("tr", {}, titles.map((title, i) =>
+        element("th", { scope: "col", class: i ? "number" : "" }, title)))),
+      element("tbody", {}, rows.map(([name, ...cells]) => element("tr", {},
+        element("th", { scope: "row" }, name),
+        cells.map((cell) => element("td", { class: "number" }, cell)))))));
+}

@@ -1,0 +1,50 @@
+/** The batches of the service, the newest first: how many of their jobs are in each state. */
+
+import { element, fill } from "../interface/element.js";
+import { ago } from "../interface/numbers.js";
+import { address } from "../interface/place.js";
+import { stateMark } from "../interface/state.js";
+import { Unreachable, get, pause } from "../requests/service.js";
+
+const SHOWN = 100;
+
+export async function show(room, { signal }) {
+  const content = element("section", { class: "panel" });
+  fill(room, element("div", { class: "head" }, element("h1", {}, "Batches"),
+    element("div", { class: "buttons" }, element("a", { class: "button", href: "#/jobs" }, "All jobs"))),
+  content);
+  for (;;) {
+    try {
+      const { batches, next_page_token: more } = await get("/v1/batches", { page_size: SHOWN }, signal);
+      fill(content, batches.length ? table(batches) : element("p", {}, "No batches yet: a POST of"
+        + " /v1/batches, or client.submit_batch, submits many jobs together."),
+      more && element("p", { class: "quiet small" }, `The newest ${SHOWN} are shown.`));
+    } catch (error) {
+      if (!(error instanceof Unreachable) || !content.childElementCount) throw error;
+    }
+    await pause(2000, signal);
+  }
+}
+
+function table(batches) {
+  return element("div", { class: "wide", tabindex: "0", role: "group", "aria-label": "Batches" },
+    element("table", { class: "roomy" },
+      element("thead", {}, element("tr", {}, ["Batch", "Jobs", "States", "Progress", "Submitted"]
+        .map((title) => element("th", { scope: "col" }, title)))),
+      element("tbody", {}, batches.map(row))));
+}
+
+function row({ id, label, jobs, states, progress, created }) {
+  return element("tr", {},
+    element("th", { scope: "row" }, element("a", { href: address(["batch", id]) }, label || id)),
+    element("td", {}, String(jobs)),
+    element("td", {}, counts(states)),
+    element("td", {}, element("progress", { max: 1, value: progress.fraction, "aria-label": "Progress" })),
+    element("td", { title: created }, ago(created)));
+}
+
+/** Returns marks of the states that jobs are in, each with their number. */
+export function counts(states) {
+  return Object.entries(states).filter(([, count]) => count)
+    .map(([state, count]) => [stateMark(state), ` ${count}  `]);
+}
