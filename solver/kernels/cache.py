@@ -25,6 +25,7 @@ import numba
 from filelock import FileLock
 from numba.core.caching import UserProvidedCacheLocator
 
+from jointplay.solver.kernels.compiler import leave_order_to_processor
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.watched import compile_if_watched
 from jointplay.solver.version import source_digest
@@ -36,8 +37,9 @@ _PACKAGE = Path(__file__).parent
 def cache_folder() -> Path:
     """Return the folder of code compiled by these sources for a number of lanes, made on first use.
 
-    ``JOINTPLAY_CACHE`` chooses its parent; the default is the user's cache folder, or a private
-    temporary one where that cannot be written.
+    From then on Numba keeps its code there, and compiles as `compiler` says.
+    ``JOINTPLAY_CACHE`` chooses the folder's parent; the default is the user's cache folder, or a
+    private temporary one where that cannot be written.
     """
     chosen = os.environ.get("JOINTPLAY_CACHE") or os.path.join(
         os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache"),
@@ -52,6 +54,7 @@ def cache_folder() -> Path:
                 pass
         except OSError:
             continue
+        leave_order_to_processor()
         settings: Any = numba.config  # which Numba fills when it is imported
         settings.CACHE_DIR = str(folder)
         settings.CACHE_LOCATOR_CLASSES = f"{__name__}.OwnSources,UserProvidedCacheLocator"

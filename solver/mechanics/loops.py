@@ -53,8 +53,12 @@ class Loops:
         self.names = kinematics.tree.coordinates
         self.mass_matrix = mass_matrix
         self.rows = closing_rows(kinematics)
-        self.jacobian = [[row.partials.get(n, 0.0) for n in self.names] for row in self.rows]
-        self.responses = solve_symmetric(mass_matrix, self.jacobian)
+        jacobian = [[row.partials.get(n, 0.0) for n in self.names] for row in self.rows]
+        self.entries = [
+            [(k, entry) for k, entry in enumerate(row) if not is_zero(entry)] for row in jacobian
+        ]
+        """J, of each row its columns and entries that are not 0."""
+        self.responses = solve_symmetric(mass_matrix, jacobian)
         """M⁻¹ Jᵀ, a list a row: the accelerations that its unit multiplier gives."""
         self.matrix = {
             (i, j): self._along(i, self.responses[j])
@@ -133,9 +137,9 @@ class Loops:
     def _along(self, i: int, vector: Sequence[Scalar]) -> Scalar:
         """Return the product of row i of J and a vector."""
         total: Scalar = 0.0
-        for entry, value in zip(self.jacobian[i], vector, strict=True):
-            if not (is_zero(entry) or is_zero(value)):
-                total = total + entry * value
+        for k, entry in self.entries[i]:
+            if not is_zero(vector[k]):
+                total = total + entry * vector[k]
         return total
 
     def _moved(self, vector: Sequence[Scalar], multipliers: Sequence[Scalar]) -> list[Scalar]:

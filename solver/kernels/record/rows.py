@@ -4,12 +4,16 @@ A constant, a function of time alone (a driven crank) or a multiple of another c
 of the watch: its extremes follow afterwards. What is watched costs memory traffic at every step.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from jointplay.solver.kernels.record.equations import Equations
 from jointplay.solver.kernels.record.reachable import reachable
 from jointplay.solver.kernels.record.recorder import Expression
 from jointplay.solver.scene.document import Scene
+
+IN_TIME = ("stage_time", "phase")
+"""First words of variables that follow from time alone."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,9 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
     rest: list[str] = []
     multiples: dict[str, tuple[str, float, float]] = {}
     linear = {o.name: (o.channel, o.factor, o.offset) for o in scene.outputs}
+    moving = _moving(equations.channels.values())
     for name, expression in equations.channels.items():
-        if name == "stored" or _known_in_time(expression):
+        if name == "stored" or expression not in moving:
             rest.append(name)
         elif expression.index in watched:
             rest.append(name)
@@ -61,9 +66,11 @@ def arrange(scene: Scene, equations: Equations) -> Rows:
     return Rows(tuple(watched.values()), contacts, tuple(rest), multiples)
 
 
-def _known_in_time(expression: Expression) -> bool:
-    return all(
-        str(node.data) == "stage_time" or str(node.data).startswith("phase")
-        for node in reachable([expression])
-        if node.operation == "variable"
-    )
+def _moving(expressions: Iterable[Expression]) -> set[Expression]:
+    """Return the nodes of expressions that depend on more than time."""
+    moving: set[Expression] = set()
+    for node in reachable(expressions):
+        own = node.operation == "variable" and not str(node.data).startswith(IN_TIME)
+        if own or any(argument in moving for argument in node.arguments):
+            moving.add(node)
+    return moving
