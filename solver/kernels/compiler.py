@@ -10,4 +10,4 @@ def leave_order_to_processor() -> None:
     n^2 time, two thirds of compilation at n = 5000, and processors that execute out of order do as
     well without: kernels of the press are as fast. No result depends on the order.
     """
-    binding.set_option("jointplay", "-disable-post-ra")  # type: ignore[no-untyped-call]
+    binding.set_option("jointplay", "-disable-post-ra")
