@@ -57,7 +57,8 @@ export class CalibrationFields {
 
   likely() {
     const names = Object.keys(this.declared);
-    return ["stiffness", "restitution"].find((name) => names.includes(name)) ?? names[0];
+    const known = (name) => this.declared[name]?.default > 0; // a range about it can be proposed
+    return ["stiffness", "restitution"].find(known) ?? names.find(known) ?? names[0];
   }
 
   unused() {
@@ -103,8 +104,12 @@ export class CalibrationFields {
 
   get valid() {
     this.check();
-    if (!this.measured && !this.text.value.trim()) this.complain("Give at least one measured number.");
     return this.measured !== null && this.rows.every((row) => row.trouble() === "");
+  }
+
+  /** Returns what is still to be given, if nothing is wrong. */
+  get lacking() {
+    return this.text.value.trim() ? null : "Give at least one measured number.";
   }
 
   /** Returns what the address keeps. */

@@ -1,5 +1,7 @@
 /** Clouds of points on a canvas, a million of them: darker where there are more. */
 
+import { letters } from "./axes.js";
+
 const FEW = 30000; // points below which each is a visible dot
 const LEAST = 0.35; // opacity of a single point among more of them
 
@@ -13,8 +15,9 @@ export function drawCloud(context, to, layers) {
   const dots = window.devicePixelRatio || 1;
   const [left, top, width, height] = to.room.map((one) => Math.round(one * dots));
   if (width < 1 || height < 1) return;
+  const across = dots * letters();
   const total = layers.reduce((sum, { x }) => sum + x.length, 0);
-  const size = total < FEW ? Math.max(1, Math.round((total < FEW / 10 ? 1.2 : 0.8) * dots)) : 0;
+  const size = total < FEW ? Math.max(1, Math.round((total < FEW / 10 ? 1.2 : 0.8) * across)) : 0;
   const image = new ImageData(width, height);
   for (const { x, y, colour } of layers) {
     const counts = new Uint16Array(width * height);

@@ -113,7 +113,7 @@ class JobForm {
   /** Returns the job's document; throws where a field is wrong. */
   document() {
     const fine = [this.own.valid, this.parameters.valid].every(Boolean);
-    if (!fine) throw new Error("Correct the marked fields first.");
+    if (!fine) throw new Error(this.own.lacking ?? "Correct the marked fields first.");
     const parameters = this.parameters.values();
     const kind = this.kind.value;
     const scene = { preset: this.scene.name };
