@@ -3,6 +3,7 @@
 from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
 from jointplay.solver.laws.contact.law import ContactLaw
+from jointplay.solver.laws.contact.long_bearing_film import LongBearingFilm
 from jointplay.solver.laws.contact.short_bearing_film import ShortBearingFilm
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 
@@ -11,6 +12,7 @@ LAWS: dict[str, type[ContactLaw]] = {
     "stiffness-and-dissipation": StiffnessAndDissipation,
     "adams-impact": AdamsImpact,
     "short-bearing-film": ShortBearingFilm,
+    "long-bearing-film": LongBearingFilm,
 }
 
 __all__ = ["LAWS", "ContactLaw"]

@@ -33,3 +33,24 @@ def half_film_integrals(x: Scalar, y: Scalar) -> Pair:
     first = 3.0 * x * (inverse * inverse) + angle * (1.0 + 3.0 * (x * x) * inverse)
     bent = (2.0 + x * x / (square + x * x)) * inverse + 3.0 * angle * x
     return first, y * inverse * bent
+
+
+def around_film_integrals(x: Scalar, y: Scalar) -> Pair:
+    """Return ∫ (sin - k) sin / h³ and -∫ (sin - k) cos / h³, k = ∫ sin / h³ over ∫ 1 / h³.
+
+    φ and h as above. Besides half the second derivatives, ∫ sin / h³ and ∫ cos / h³ follow from the
+    first ones, ∫ sin / h² and ∫ cos / h², by 1 / h² = h / h³.
+    """
+    cos_cos, cos_sin = half_film_integrals(x, y)
+    beside = 1.0 - y * y
+    square = beside - x * x
+    inverse, inverse_beside = 1.0 / square, 1.0 / beside
+    root = sqrt(square)
+    angle = direction_angle(-x, root) * (inverse / root)
+    end = x * inverse_beside * inverse
+    bent = 3.0 * (y * y) * inverse
+    sin_sin = end * (1.0 + 2.0 * (y * y) * inverse_beside + bent) + angle * (1.0 + bent)
+    sin = 2.0 * y * (end + angle) + x * cos_sin + y * sin_sin
+    cos = 2.0 * (inverse + x * angle) + x * cos_cos + y * cos_sin
+    mean = sin / (cos_cos + sin_sin)
+    return sin_sin - mean * sin, mean * cos - cos_sin

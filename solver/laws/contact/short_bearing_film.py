@@ -1,37 +1,14 @@
 """A short bearing's film of oil, and dry contact where it ends."""
 
-import math
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import Field
-
-from jointplay.solver.laws.contact.film import Film, Pair, half_film_integrals
-from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
+from jointplay.solver.laws.contact.film import Pair, half_film_integrals
+from jointplay.solver.laws.contact.oil_film import OilFilm
 from jointplay.solver.laws.fit import Fit
-from jointplay.solver.quantities.scalars import SLIGHT, clamp_to_unit, minimum, sqrt
-from jointplay.solver.quantities.units import Rule
-
-BEARING = (
-    Rule(
-        "bearing_width",
-        lambda clearance: clearance.bearing_width is None,
-        lambda clearance: (
-            f"The law '{clearance.contact.law}' needs the bearing's width; give a bearing_width in"
-            " m."
-        ),
-    ),
-    Rule(
-        "contact",
-        lambda clearance: clearance.contact.boundary_layer >= clearance.radial_clearance,
-        lambda clearance: (
-            f"A boundary layer of {clearance.contact.boundary_layer:g} m leaves no film in a"
-            f" radial clearance of {clearance.radial_clearance:g} m; it must be smaller."
-        ),
-    ),
-)
+from jointplay.solver.quantities.scalars import Scalar
 
 
-class ShortBearingFilm(StiffnessAndDissipation):
+class ShortBearingFilm(OilFilm):
     """F = -μ L³ R / c³ V ∫ cos φ (s cos φ + q sin φ) / H³ dφ, φ from -π/2 to π/2.
 
     V s is the journal's velocity in axes that turn with the mean of both spins (V its magnitude, q
@@ -52,60 +29,11 @@ class ShortBearingFilm(StiffnessAndDissipation):
     """
 
     law: Literal["short-bearing-film"] = "short-bearing-film"  # type: ignore[assignment]
-    viscosity: Annotated[
-        float, Field(gt=0.0, le=1e6, description="μ", json_schema_extra={"unit": "Pa s"})
-    ]
-    boundary_layer: Annotated[
-        float,
-        Field(
-            gt=0.0,
-            le=1.0,
-            description="thickness from which the film fades, as of rough surfaces",
-            json_schema_extra={"unit": "m"},
-        ),
-    ]
 
-    def film(self, fit: Fit, eccentricity: Pair, rate: Pair, spins: Pair) -> Film:
-        """Return the film's force and moments; the pressure's moments are shared by both bodies."""
-        (ex, ey), (bearing, journal) = eccentricity, spins
-        clearance, radius, width = fit.radial_clearance, fit.bearing_radius, fit.bearing_width
-        mean = 0.5 * (bearing + journal)
-        vx, vy = rate[0] + mean * ey, rate[1] - mean * ex
-        square = vx * vx + vy * vy
-        speed = sqrt(square)
-        inverse = speed / (square + SLIGHT)
-        sx, sy = vx * inverse, vy * inverse
-        distance = sqrt(ex * ex + ey * ey)
-        kept = minimum(1.0, (clearance - self.boundary_layer) / (distance + SLIGHT)) / clearance
-        x, y = kept * (ex * sx + ey * sy), kept * (ey * sx - ex * sy)
-        along, across = half_film_integrals(x, y)
-        u = clamp_to_unit((clearance - distance) / self.boundary_layer)
-        share = u * u * (3.0 - 2.0 * u)
-        drag = share * self.viscosity * radius * width
-        push = -(drag * (width * width) * speed / (clearance * clearance * clearance))
-        fx, fy = push * (along * sx - across * sy), push * (along * sy + across * sx)
-        turning = journal - bearing
-        thin = clearance * sqrt(1.0 - x * x - y * y)
-        viscous = 2.0 * math.pi * drag * (radius * radius) * turning / thin
-        pressed = 0.5 * (ex * fy - ey * fx)
-        return Film(
-            (fx, fy),
-            -viscous - pressed,
-            viscous - pressed,
-            viscous * turning - push * along * speed,
-        )
+    def pressed_area(self, fit: Fit) -> Scalar:
+        """Return L²: oil leaves at the bearing's ends."""
+        return fit.bearing_width * fit.bearing_width
 
-    @property
-    def clearance_rules(self) -> tuple[Rule, ...]:
-        """Rules of the film and of the stiffness."""
-        return (*BEARING, *self.stiffness.fit_rules)
-
-    @property
-    def needs_radii(self) -> bool:
-        """True: oil is held by a bearing."""
-        return True
-
-    @property
-    def title(self) -> str:
-        """The film's name."""
-        return self.law
+    def pressure_integrals(self, x: Scalar, y: Scalar) -> Pair:
+        """Return ∫ cos² / H³ and ∫ cos sin / H³."""
+        return half_film_integrals(x, y)

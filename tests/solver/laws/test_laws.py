@@ -11,6 +11,7 @@ from scipy.integrate import quad
 from jointplay.solver.laws.contact import LAWS as CONTACT_LAWS
 from jointplay.solver.laws.contact.adams_impact import AdamsImpact
 from jointplay.solver.laws.contact.lankarani_nikravesh import LankaraniNikravesh
+from jointplay.solver.laws.contact.long_bearing_film import LongBearingFilm
 from jointplay.solver.laws.contact.short_bearing_film import ShortBearingFilm
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 from jointplay.solver.laws.friction import LAWS as FRICTION_LAWS
@@ -71,6 +72,17 @@ class TestShortBearingFilm(ContactSpecification):
     laws = st.just(
         ShortBearingFilm.model_validate(
             oil | {"stiffness": PAIRS[0][0], "dissipation": PAIRS[0][1]}
+        )
+    )
+
+
+class TestLongBearingFilm(TestShortBearingFilm):
+    """The same dry contact under oil that flows around the journal."""
+
+    model = LongBearingFilm
+    laws = st.just(
+        LongBearingFilm.model_validate(
+            TestShortBearingFilm.oil | {"stiffness": PAIRS[0][0], "dissipation": PAIRS[0][1]}
         )
     )
 
@@ -141,6 +153,7 @@ def test_every_law_in_a_roster_is_specified_and_is_the_law_it_is_listed_as() -> 
         TestStiffnessAndDissipation.model,
         TestAdamsImpact.model,
         TestShortBearingFilm.model,
+        TestLongBearingFilm.model,
         TestModifiedCoulomb.model,
         TestThrelfall.model,
         TestBengisuAkay.model,
