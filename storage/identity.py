@@ -52,11 +52,11 @@ def growing_study(settings: Settings, catalogue: Catalogue, job: str) -> StudyRe
     CorruptStore
         Files are not what was stored, or hold less than the catalogue knows of.
     """
-    ended = {
+    begun = {
         block.index: block.count if block.state is BlockState.done else block.watermark
         for block in catalogue.blocks(job)
-        if block.count
+        if block.count and (block.state is BlockState.done or block.checkpoint or block.watermark)
     }
     reader = StudyReader(settings.running_study(job))
-    reader.require({index: count for index, count in ended.items() if count})
+    reader.require(begun)
     return reader

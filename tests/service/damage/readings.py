@@ -30,6 +30,7 @@ _RESULTS: Final = (
     "bifurcation",
     "sweep",
     "accuracy",
+    "calibration",
 )
 
 
@@ -132,6 +133,8 @@ def _of_client(client: Client, job: str, links: dict[str, str]) -> Iterator[Read
         }
     elif "accuracy" in links:
         ways["accuracy"] = lambda job: job.accuracy
+    elif "calibration" in links:
+        ways["calibration"] = lambda job: job.calibration
     else:
         ways["points"] = lambda job: job.points.to_csv()
     for name, way in ways.items():

@@ -13,12 +13,15 @@ import numpy as np
 from jointplay.records.impact import IMPACT
 from jointplay.records.job import JobError
 from jointplay.records.run import CertificateRecord, LabelledArray
-from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import BlockState, Claim
 from jointplay.storage.results.layout import Partition, ResultLayout
 from jointplay.storage.results.writer import ResultWriter
 from jointplay.storage.settings import Settings
+from jointplay.worker.execute import Answer, Progress
+from jointplay.worker.study_block import run_block
+from tests.solver.calibration.calibrations import bounce
 from tests.worker_by_hand import ACCURACY_STUDY, BIFURCATION, SWEEP, Worker
 
 OTHER: Final = {"scene": {"preset": "seven-bar-press", "parameters": {"clearance": 3e-4}}}
@@ -89,6 +92,31 @@ class Subjects:
     def study(self, **fields: Any) -> str:
         """Compute a study, of whose points one failed."""
         return self._worker.finished_study(failing=(3,), **fields)
+
+    def calibration(self, **fields: Any) -> str:
+        """Compute a calibration; of other fields one with another seed."""
+        job = self._submitted_calibration(fields)
+        self._worker.work(job)
+        return job
+
+    def growing_calibration(self, **fields: Any) -> str:
+        """Begin a calibration: the costs of its first candidates are known."""
+        job = self._submitted_calibration(fields)
+        block, spec = self._worker.start(job).block, self._catalogue.get(job).spec
+        study = admit(spec)
+        assert isinstance(study, Study)
+
+        def report(progress: Progress) -> Answer:
+            name, ended = progress.keep()
+            self._catalogue.record_checkpoint(block.id, 1, watermark=ended, checkpoint=name)
+            return Answer.leave if progress.fraction > 0.0 else Answer.go_on
+
+        run_block(study, 0, self._settings.running_study(job).folder, report=report)
+        return job
+
+    def _submitted_calibration(self, fields: dict[str, Any]) -> str:
+        search = CALIBRATION["search"] | {"seed": len(fields)}
+        return self._worker.submit(**CALIBRATION | {"search": search})
 
     def growing_run(self, **fields: Any) -> str:
         """Begin a run: three full files of rows, and some that wait for the fourth."""
@@ -174,6 +202,10 @@ def _growing_study_of(fields: dict[str, Any]) -> Callable[..., str]:
     return lambda subjects, **more: subjects.growing_study(**fields, **more)
 
 
+CALIBRATION: Final[dict[str, Any]] = bounce(
+    search={"population": 4, "generations": 2}, spread={"generations": 2}
+)
+"""The shortest one: its results have all that those of longer ones have."""
 POINCARE: Final = {"kind": "poincare", "record": 40}
 ENSEMBLE: Final = {"kind": "ensemble", "members": 20, "record": 12}
 LONG: Final = {"record": 5000}
@@ -188,9 +220,11 @@ KINDS: Final[dict[str, tuple[Callable[..., str], Callable[[Settings, str], Path]
     "poincare": (_study_of(POINCARE), _sealed_study),
     "ensemble": (_study_of(ENSEMBLE), _sealed_study),
     "accuracy-study": (_study_of(ACCURACY_STUDY), _sealed_study),
+    "calibration": (Subjects.calibration, _sealed_study),
     "running simulate": (Subjects.growing_run, _running_run),
     "running bifurcation": (_growing_study_of(BIFURCATION | LONG), _running_study),
     "running sweep": (_growing_study_of(SWEEP | WIDE), _running_study),
+    "running calibration": (Subjects.growing_calibration, _running_study),
     "running ensemble": (_growing_study_of(ENSEMBLE), _running_study),
 }
 """How the job of each kind of store is made, and where its store is."""
