@@ -16,6 +16,7 @@ ALL = (
     "double_pendulum",
     "sweep",
     "joined",
+    "bucket",
     "restitution",
     "extremes",
     "lies",

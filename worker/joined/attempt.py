@@ -50,7 +50,7 @@ class JoinedAttempt:
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
     ) -> None:
         """Send what the restart point is made of, then name it."""
-        self._scratch.send()
+        self._scratch.send(self._scratch.take())
         told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint)
         self._connection.tell(self._claim.block, "checkpoint", told)
 
@@ -80,7 +80,7 @@ class JoinedAttempt:
         repeatable: bool = False,
     ) -> JobState:
         """Send what was computed, then end the block."""
-        self._scratch.send(STUDY)
+        self._scratch.send(self._scratch.take(STUDY))
         self._scratch.send_sealed()
         told = protocol.Finish(
             outcome=outcome,

@@ -60,8 +60,9 @@ def _compute_in(
             _log.warning("block %s is put off: %s", block.id, fault)
             _put_off(catalogue, claim, waits_for(fault))
             return
-        with scratch.sending_rows():
-            BlockRun(SentAttempt(catalogue, scratch), here, claim, draining).run()
+        attempt = SentAttempt(catalogue, scratch)
+        with scratch.sending_rows(), attempt.sending():
+            BlockRun(attempt, here, claim, draining).run()
         if scratch.used:
             withdraw(catalogue, settings, block)
 

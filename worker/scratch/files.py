@@ -3,9 +3,9 @@
 import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Final, Protocol
+from typing import Final, NamedTuple, Protocol, Self
 
 from jointplay.storage.attempt_files import AttemptFiles
 from jointplay.storage.catalogue.errors import CatalogueError
@@ -53,6 +53,14 @@ class Elsewhere(Protocol):
         ...
 
 
+class Taken(NamedTuple):
+    """Files as they were at one moment, open until they are sent or given up."""
+
+    files: tuple[tuple[str, "_File"], ...]  # in the order in which they are to be sent
+    gone: tuple[str, ...]
+    opened: ExitStack
+
+
 class Scratch:
     """Brings the files of an attempt here, and what changes in them to where others find them.
 
@@ -92,18 +100,29 @@ class Scratch:
         """Whether there is anything elsewhere."""
         return bool(self._sent)
 
-    def send(self, folder: str = "") -> None:
-        """Have others see all files, or those in a folder, as they are now.
+    def take(self, folder: str = "") -> Taken:
+        """Take all files, or those in a folder, that are not as they were sent.
 
         Those last that build on others.
         """
-        with self._sending:
-            there = {*self._files.running.names(folder)}
-            for name in sorted(there, key=_turn):
-                self._send(name)
-            for name in [one for one in self._sent if one.startswith(folder) and one not in there]:
+        there = {*self._files.running.names(folder)}
+        gone = (one for one in [*self._sent] if one.startswith(folder) and one not in there)
+        with ExitStack() as opened:
+            found = [
+                (name, opened.enter_context(_File(self._folder / name)))
+                for name in sorted(there, key=_turn)
+            ]
+            new = tuple(one for one in found if one[1].version != self._sent.get(one[0]))
+            return Taken(new, tuple(gone), opened.pop_all())
+
+    def send(self, taken: Taken) -> None:
+        """Have others see these files, and close them."""
+        with taken.opened, self._sending:
+            for name, file in taken.files:
+                self._send(name, file)
+            for name in taken.gone:
                 self._elsewhere.remove(name)
-                del self._sent[name]
+                self._sent.pop(name, None)
 
     @contextmanager
     def sending_rows(self) -> Iterator[None]:
@@ -114,9 +133,13 @@ class Scratch:
             while not ended.wait(_LOOK):
                 for name in [*self._files.running.names()]:
                     if _is_rows(name) and not ended.is_set():
-                        with self._sending, suppress(OSError, CatalogueError):  # `send` tries again
-                            if self._files.running.size(name) >= _LARGE:
-                                self._send(name)
+                        with (
+                            self._sending,
+                            suppress(OSError, CatalogueError),  # `send` tries again
+                            _File(self._folder / name) as file,
+                        ):
+                            if file.size >= _LARGE:
+                                self._send(name, file)
 
         thread = threading.Thread(target=look, name="rows", daemon=True)
         thread.start()
@@ -131,25 +154,24 @@ class Scratch:
         for name in self._files.own_sealed():
             sealed = self._files.sealed(name)
             if sealed is not None and isinstance(sealed.place, Folder):
-                path = Path(sealed.place.root) / sealed.key
-                self._elsewhere.put(name, _Pieces(path, 0, path.stat().st_size))
+                with _File(Path(sealed.place.root) / sealed.key) as file:
+                    self._elsewhere.put(name, _Pieces(file, 0, file.size))
 
-    def _send(self, name: str) -> None:
+    def _send(self, name: str, file: "_File") -> None:
         """Send a file that is not as it was sent: of one that is appended to, what is new."""
-        path = self._folder / name
-        version, sent = _version(path), self._sent.get(name)
-        if version == sent:
+        sent = self._sent.get(name)
+        if file.version == sent:
             return
         if (
             _is_journal(name)
             and sent is not None
-            and sent[0] == version[0]
-            and sent[1] < version[1]
+            and sent[0] == file.version[0]
+            and sent[1] < file.size
         ):
-            self._elsewhere.append(name, sent[1], _Pieces(path, sent[1], version[1]))
-        elif not self._adopted(name, version):
-            self._elsewhere.put(name, _Pieces(path, 0, version[1]))
-        self._sent[name] = version
+            self._elsewhere.append(name, sent[1], _Pieces(file, sent[1], file.size))
+        elif not self._adopted(name, file.version):
+            self._elsewhere.put(name, _Pieces(file, 0, file.size))
+        self._sent[name] = file.version
 
     def _adopted(self, name: str, version: _Version) -> bool:
         """Have rows of an earlier attempt, which were linked to a name of this one, stay there."""
@@ -160,23 +182,35 @@ class Scratch:
         return source is not None and self._elsewhere.adopt(name, source)
 
 
+class _File:
+    """A file as it is when it is opened: what replaces it, or is appended later, is not read."""
+
+    def __init__(self, path: Path) -> None:
+        self.descriptor = os.open(path, os.O_RDONLY)
+        self.version = _version(self.descriptor)
+        self.size = self.version[1]
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        os.close(self.descriptor)
+
+
 class _Pieces:
     """Bytes [start, stop) of a file, which can be gone through more than once."""
 
-    def __init__(self, path: Path, start: int, stop: int) -> None:
-        self._path, self._start, self._stop = path, start, stop
+    def __init__(self, file: _File, start: int, stop: int) -> None:
+        self._file, self._start, self._stop = file, start, stop
 
     def __iter__(self) -> Iterator[bytes]:
-        with self._path.open("rb") as file:
-            file.seek(self._start)
-            left = self._stop - self._start
-            while left and (piece := file.read(min(left, _PIECE))):
-                left -= len(piece)
-                yield piece
+        for start in range(self._start, self._stop, _PIECE):
+            length = min(_PIECE, self._stop - start)
+            yield os.pread(self._file.descriptor, length, start)
 
 
-def _version(path: Path) -> _Version:
-    found = os.stat(path)
+def _version(file: Path | int) -> _Version:
+    found = os.stat(file)
     return found.st_ino, found.st_size, found.st_mtime_ns
 
 

@@ -6,6 +6,7 @@ Each attempt's folder goes when it ends, as it would with its machine.
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from test_block_runs import SWEEP
 from jointplay.solver.kinds import Admission, Study, admit
 from jointplay.solver.version import SOLVER_VERSION
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.records import JobState, NewJob
+from jointplay.storage.catalogue.records import JobState, NewJob, Verdict
 from jointplay.storage.identity import growing_study
 from jointplay.storage.packed.reading import Packed
 from jointplay.storage.places import StoredObject
@@ -47,12 +48,18 @@ class MachineLost(BaseException):
 class ShortOfPower(Catalogue):
     """The catalogue as a machine sees it that is lost behind a restart point in mid-run."""
 
+    named = False
+
     def record_checkpoint(
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
     ) -> None:
         super().record_checkpoint(block_id, attempt, watermark=watermark, checkpoint=checkpoint)
-        if watermark:
+        self.named = watermark > 0
+
+    def record_progress(self, *given: Any, **named: Any) -> Verdict:
+        if self.named:
             raise MachineLost
+        return super().record_progress(*given, **named)
 
 
 @pytest.fixture(scope="module", params=["file", "s3"])

@@ -1,0 +1,207 @@
+"""Results in a bucket: objects, times and rates, and how far readers of a running job are behind.
+
+    python -m benchmarks bucket [--samples 10000000]
+
+SeaweedFS on loopback, the catalogue SQLite. A press job is one revolution. Its results are packed,
+which is the end of computing, and then published: sent, and told to the catalogue. Many of them
+have no certificates. The long job is a pendulum, at which another process looks while it runs:
+what is not in the last restart point is not seen, and is lost with the machine, so that readers are
+as far behind as restart points are apart.
+"""
+
+import argparse
+import multiprocessing
+import os
+import resource
+import statistics
+import tempfile
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from benchmarks.latency import JOB
+from jointplay.client import Client
+from jointplay.service.processes import running_service
+from jointplay.solver.kinds import Admission, admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import NewJob
+from jointplay.storage.places.s3 import Bucket
+from jointplay.storage.results.reader import ResultReader
+from jointplay.storage.settings import Settings
+from jointplay.worker.scratch.computing import compute
+from tests.seaweedfs_server import BUCKET, running_store
+
+REPEATS, JOBS, WORKERS = 15, 100, 2
+LOOK = 0.1  # s
+LONG: dict[str, Any] = {
+    "kind": "simulate",
+    "scene": {"preset": "pendulum"},
+    "output_step": 1e-4,
+    "channels": ["rod.theta", "rod.omega", "pivot.force_x"],
+    "certificate": False,
+}
+
+
+class Puts(Counter[str]):
+    """How often each key was put, how many bytes, and when sealed results were packed."""
+
+    size = 0
+    packing, packed = 0.0, 0.0
+
+    @contextmanager
+    def counted(self) -> Iterator["Puts"]:
+        """Count while it lasts."""
+        put, replace = Bucket.put, Bucket.replace
+
+        def measured(pieces: Iterable[bytes]) -> Iterator[bytes]:
+            for piece in pieces:
+                self.size += len(piece)
+                yield piece
+
+        def packing(pieces: Iterator[bytes]) -> Iterator[bytes]:
+            yield from pieces
+            self.packed = time.perf_counter()
+
+        def counting_put(place: Bucket, key: str, pieces: Iterable[bytes]) -> None:
+            self[key] += 1
+            self.packing = time.perf_counter()
+            put(place, key, packing(measured(pieces)))
+
+        def counting_replace(place: Bucket, key: str, pieces: Iterable[bytes]) -> None:
+            self[key] += 1
+            replace(place, key, measured(pieces))
+
+        Bucket.put, Bucket.replace = counting_put, counting_replace  # type: ignore[method-assign]
+        try:
+            yield self
+        finally:
+            Bucket.put, Bucket.replace = put, replace  # type: ignore[method-assign]
+
+
+def submitted(catalogue: Catalogue, document: dict[str, Any]) -> str:
+    """Queue a job and return its id."""
+    admission = admit(document)
+    assert isinstance(admission, Admission)
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    return catalogue.submit(new).job.id
+
+
+def computed(settings: Settings, job: str) -> tuple[Puts, float]:
+    """Compute a job here; return what was put, and the seconds until it was published."""
+    catalogue = Catalogue(settings.catalogue_url)
+    claim = catalogue.claim_block(f"{job}-0", "benchmark", settings.lease)
+    assert claim is not None
+    with Puts().counted() as puts:
+        compute(catalogue, settings, claim, threading.Event())
+    ended = time.perf_counter()
+    assert catalogue.get(job).state == "succeeded"
+    catalogue.close()
+    return puts, ended - puts.packed
+
+
+def press_jobs(settings: Settings, catalogue: Catalogue) -> None:
+    """Print objects and times of single jobs."""
+    document = {name: value for name, value in JOB.items() if name != "cache"}
+    found = [computed(settings, submitted(catalogue, document)) for _ in range(REPEATS + 1)][1:]
+    objects = max(len(puts) for puts, _ in found)
+    size = statistics.median(puts.size for puts, _ in found) / 1e3
+    packed = 1e3 * statistics.median(puts.packed - puts.packing for puts, _ in found)
+    published = 1e3 * statistics.median(seconds for _, seconds in found)
+    print(
+        f"press job: {objects} objects, {size:.0f} kB, packed in {packed:.0f} ms and published in"
+        f" {published:.0f} ms"
+    )
+
+
+def many_jobs(folder: Path, address: str) -> float:
+    """Return the jobs a second of a service."""
+    with (
+        running_service(folder, WORKERS, {"JOINTPLAY_RESULTS_URL": address}) as url,
+        Client(url) as client,
+    ):
+        for job in [client.submit(JOB) for _ in range(2 * WORKERS)]:
+            job.wait()  # loads kernels
+        begun = time.perf_counter()
+        batch = client.submit_batch([JOB | {"certificate": False}] * JOBS)
+        batch.wait()
+        return JOBS / (time.perf_counter() - begun)
+
+
+def compute_long(settings: Settings, job: str, results: Any) -> None:
+    """Compute in a process of its own, whose memory is then known."""
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    begun = time.perf_counter()
+    puts, published = computed(settings, job)
+    ended = time.perf_counter()
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    packed = puts.packed - puts.packing
+    results.put((len(puts), puts.size, ended - begun, packed, published, memory))
+
+
+def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
+    """Print what a job of many samples takes, as it is seen by others meanwhile."""
+    job = submitted(catalogue, LONG | {"duration": LONG["output_step"] * (samples - 1)})
+    context = multiprocessing.get_context("spawn")
+    results = context.Queue()
+    process = context.Process(target=compute_long, args=(settings, job, results))
+    process.start()
+    moments, reading = list[tuple[float, int]](), list[float]()
+    objects = 0
+    while process.is_alive() and not catalogue.get(job).state.terminal:
+        (block,) = catalogue.blocks(job)
+        if block.watermark and (not moments or moments[-1][1] != block.watermark):
+            begun = time.perf_counter()
+            moments.append((begun, block.watermark))
+            reader = ResultReader(settings.running_run(job, 1), block.watermark)
+            window = reader.history(["rod.theta"], start=block.watermark - 1000)
+            assert len(window[0]) == 1000
+            reading.append(time.perf_counter() - begun)
+            objects = max(objects, sum(1 for _ in settings.place.list("running/")))
+        time.sleep(LOOK)
+    puts, size, seconds, packed, published, memory = results.get(timeout=60)
+    process.join()
+    apart = [later - before for (before, _), (later, _) in pairwise(moments)]
+    sealed = settings.sealed_run(job, 1).size()
+    print(
+        f"{samples} samples of {len(LONG['channels'])} channels: {seconds:.1f} s in all; at most"
+        f" {objects} objects at a time, {puts} keys put, {size / 1e6:.0f} MB sent;"
+        f" {sealed / 1e6:.0f} MB packed in {packed:.1f} s and published in {published:.1f} s,"
+        f" {sealed / 1e6 / published:.0f} MB/s;"
+        f" {memory / 1e3:.0f} MB of memory"
+    )
+    if apart:
+        print(
+            f"restart points are {statistics.median(apart):.1f} s apart, at most"
+            f" {max(apart):.1f} s; readers saw the last 1000 samples in"
+            f" {1e3 * statistics.median(reading):.0f} ms"
+        )
+
+
+def main() -> None:
+    """Print all of it."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks bucket")
+    parser.add_argument("--samples", type=int, default=10_000_000)
+    samples = parser.parse_args().samples
+    with tempfile.TemporaryDirectory() as name, running_store() as endpoint:
+        folder = Path(name)
+        alone, together = (f"s3://{BUCKET}/{one}?endpoint={endpoint}" for one in ("one", "many"))
+        settings = Settings(data=folder, results_url=alone)
+        catalogue = Catalogue(settings.catalogue_url)
+        catalogue.migrate()
+        press_jobs(settings, catalogue)
+        long_job(settings, catalogue, samples)
+        catalogue.close()
+        for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
+            rate = many_jobs(folder / where, place)
+            print(f"{JOBS} press jobs, {WORKERS} workers, {where}: {rate:.0f} jobs/s")
+        print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+
+
+if __name__ == "__main__":
+    main()
