@@ -80,8 +80,8 @@ class AttemptFiles:
             lost = self.sealed(f"{_SEALED}{attempt}")
             if lost is not None and lost.exists():
                 yield f"{_SEALED}{attempt}", lost.size()
-        if block.attempt == 1 and block.index == block.count == 0:
-            return  # a run that begins
+        if (block.attempt, block.index, block.count) == (1, 0, 1):
+            return  # a run that begins, or a study of one point
         for name in self.running.names():
             with suppress(FileNotFoundError):  # replaced, or removed meanwhile
                 if self._is_needed(name):

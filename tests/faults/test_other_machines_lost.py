@@ -81,14 +81,15 @@ def test_another_machine_goes_on_without_the_files_of_a_lost_one(tmp_path: Path)
             catalogue = Catalogue(settings.catalogue_url)
             with machine(tmp_path / "first", shared) as lost:
                 job = submit(catalogue, admission)
+                until(lambda: catalogue.blocks(job)[0].watermark > 0)
                 in_mid_block(catalogue, job)
                 os.killpg(lost.pid, signal.SIGKILL)
                 lost.wait()
                 shutil.rmtree(tmp_path / "first")
-            reached = catalogue.blocks(job)[0].progress_fraction
+            reached = catalogue.blocks(job)[0].watermark
             with machine(tmp_path / "second", shared):
-                until(lambda: catalogue.blocks(job)[0].progress_fraction != reached)
-                assert catalogue.blocks(job)[0].progress_fraction > reached
+                until(lambda: catalogue.blocks(job)[0].watermark != reached)
+                assert catalogue.blocks(job)[0].watermark > reached
                 finished = ended(catalogue, job)
                 assert (finished.state, finished.attempt) == (JobState.succeeded, 2)
                 sealed = settings.sealed_run(job, 2)
