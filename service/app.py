@@ -28,7 +28,7 @@ import jointplay.service.workers.files
 import jointplay.service.workers.present
 import jointplay.service.zarr.endpoints
 from jointplay.service import estimates, events, health, laws, metrics, problems, schemas
-from jointplay.service.access import links, needs
+from jointplay.service.access import links, needs, quotas
 from jointplay.service.access.door import Door
 from jointplay.service.access.signed import SignedLinks
 from jointplay.service.batches.admission import BatchDocument
@@ -76,6 +76,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.zarr.endpoints, _RESULTS),
     (links, _RESULTS),
     (metrics, needs("metrics")),
+    (quotas, needs("jobs:read")),
     (jointplay.service.workers.present, needs("jobs:read")),
     (jointplay.service.workers.claims, _WORKERS),
     (jointplay.service.workers.files, _WORKERS),

@@ -76,6 +76,15 @@ class Settings(BaseSettings):
     most_live: int = Field(
         0, ge=0, le=10**9, description="Jobs of one owner that have not ended; 0: any number."
     )
+    most_stored: int = Field(
+        0, ge=0, le=2**60, description="Bytes of results of one owner; 0: any number."
+    )
+    most_computed: float = Field(
+        0.0,
+        ge=0,
+        le=1e12,
+        description="Core seconds of one owner in the last 24 hours; 0: any number.",
+    )
     log_format: LogFormat = Field(
         "text", description="Lines of the logs: text, or json, an object each."
     )

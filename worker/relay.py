@@ -18,6 +18,7 @@ from jointplay.storage.catalogue.errors import Unavailable
 from jointplay.storage.catalogue.records import QUEUES
 from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
+from jointplay.worker.measuring import measure_results
 from jointplay.worker.presence import has_ended, own_name
 from jointplay.worker.removal import remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
@@ -27,7 +28,7 @@ _LEAD_SECONDS = 5.0
 _LONGEST_TURN = 5.0  # s; between two turns of a process that was not stopped
 _UNDERWAY = 2.0  # s; a message is in a queue, or its block is claimed, after less than that
 _SOLVERS_PERIOD = 10.0  # s
-_REMOVAL_PATIENCE = 2.0  # s; the next leader goes on with it
+_RESULTS_PATIENCE = 2.0  # s; the next leader goes on with it
 _log = logging.getLogger(__name__)
 
 
@@ -43,7 +44,7 @@ class Relay:
         self._reap_next = self._look_for_solvers_next = 0.0
         self._last_turn = time.time()
         self._queues_empty_since: float | None = None
-        self._removing: threading.Thread | None = None
+        self._results: threading.Thread | None = None
         self._lead_until = 0.0
 
     def turn(self) -> None:
@@ -67,7 +68,7 @@ class Relay:
             for job in reaped.ended:
                 with about(job=job):
                     _log.error("job %s lost too many workers", job)
-            self._remove_expired()
+            self._look_after_results()
         if now >= self._look_for_solvers_next:
             self._look_for_solvers_next = now + _SOLVERS_PERIOD
             ended = [name for name in self._catalogue.workers() if has_ended(name)]
@@ -82,16 +83,17 @@ class Relay:
             self._catalogue.release_lead(_TASK, leader)
         return self._catalogue.take_lead(_TASK, self._name, _LEAD_SECONDS)
 
-    def _remove_expired(self) -> None:
-        """Begin with it beside the relay's other work, which must not wait for disks."""
-        if self._removing is None or not self._removing.is_alive():
-            if not self._catalogue.removable(1):
+    def _look_after_results(self) -> None:
+        """Measure and remove results in a thread: other work must not wait for disks."""
+        if self._results is None or not self._results.is_alive():
+            if not (self._catalogue.removable(1) or self._catalogue.unmeasured(1)):
                 return
-            arguments = self._catalogue, self._settings
-            self._removing = threading.Thread(
-                target=remove_expired, args=arguments, name="removal", daemon=True
-            )
-            self._removing.start()
+            self._results = threading.Thread(target=self._tidy, name="results", daemon=True)
+            self._results.start()
+
+    def _tidy(self) -> None:
+        measure_results(self._catalogue, self._settings)
+        remove_expired(self._catalogue, self._settings)
 
     def _give_the_sleeping_time(self, now: float) -> None:
         """Take no block back yet where the machine slept, or the clock was set.
@@ -143,8 +145,8 @@ class Relay:
 
     def release_lead(self) -> None:
         """Let another relay take over at once."""
-        if self._removing is not None:
-            self._removing.join(_REMOVAL_PATIENCE)
+        if self._results is not None:
+            self._results.join(_RESULTS_PATIENCE)
         self._app.close()
         self._redis.close()
         self._catalogue.release_lead(_TASK, self._name)

@@ -1,4 +1,4 @@
-"""Limits of one owner: requests a second, and jobs that have not ended."""
+"""Limit of one owner's requests a second."""
 
 import logging
 import math
@@ -11,9 +11,7 @@ from limits.storage import MemoryStorage, RedisStorage
 from limits.strategies import FixedWindowRateLimiter
 from redis.exceptions import RedisError
 
-from jointplay.service.access import Caller
 from jointplay.service.problems import RequestRefused, kinds
-from jointplay.storage.settings import Settings
 
 _WINDOW: Final = 10
 """Seconds in which requests are counted together: who was silent may send some at once."""
@@ -74,8 +72,3 @@ def _count(limiter: FixedWindowRateLimiter, most: RateLimitItem, owner: str) -> 
             f"{owner} sent more than {most.amount} requests in {_WINDOW} s.",
             headers={"Retry-After": str(seconds)},
         )
-
-
-def most_live(caller: Caller, settings: Settings) -> int:
-    """Return how many jobs that have not ended a caller may have; 0: any number."""
-    return settings.most_live if caller.owner and not caller.sees_all else 0

@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 
 from jointplay.records.job import is_job_id
 from jointplay.service.access import CallerDependency
-from jointplay.service.access.rates import most_live
+from jointplay.service.access.quotas import quota_of
 from jointplay.service.body import BatchBody
 from jointplay.service.checking import check_batch
 from jointplay.service.dependencies import (
@@ -116,8 +116,8 @@ def submit_batch(
         key, owner = repeatable.key_for(found.fingerprint), caller.owner
         jobs = [replace(job, owner=owner) for job in found.jobs] if owner else found.jobs
         label = found.label or None
-        most = most_live(caller, settings)
-        submitted = catalogue.submit_batch(jobs, label=label, key=key, owner=owner, most_live=most)
+        quota = quota_of(caller, settings)
+        submitted = catalogue.submit_batch(jobs, label=label, key=key, owner=owner, quota=quota)
     wake_relay(settings.redis_url)
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
 from jointplay.service.access import Caller, CallerDependency
-from jointplay.service.access.rates import most_live
+from jointplay.service.access.quotas import quota_of
 from jointplay.service.body import JobBody
 from jointplay.service.checking import Checker, check_job
 from jointplay.service.dependencies import (
@@ -87,8 +87,8 @@ def _submit(
         (new,) = found.jobs
         key = repeatable.key_for(found.fingerprint)
         own = replace(new, owner=caller.owner)
-        most = most_live(caller, settings)
-        submitted = catalogue.submit(own, key, reuse=found.reuse, most_live=most)
+        quota = quota_of(caller, settings)
+        submitted = catalogue.submit(own, key, reuse=found.reuse, quota=quota)
     if submitted.created:
         wake_relay(settings.redis_url)
     return submitted

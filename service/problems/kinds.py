@@ -82,8 +82,9 @@ TOO_MANY_REQUESTS = _kind(
 QUOTA_EXCEEDED = _kind(
     "quota-exceeded",
     403,
-    "These would be too many jobs at a time",
-    "Wait until some jobs have ended, or cancel some; the number is in the problem's `detail`.",
+    "That is more than the key's owner may have",
+    "Wait until some jobs have ended, cancel or delete some, or come back later: the problem's "
+    "`detail` names what there is too much of, and GET /v1/usage shows all of it.",
 )
 FOREIGN_HOST = _kind(
     "foreign-host",

@@ -10,7 +10,7 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import BatchNotFound
-from jointplay.storage.catalogue.quotas import LiveJobs
+from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     TERMINAL,
     Batch,
@@ -42,7 +42,7 @@ def submit_batch(
     label: str | None,
     key: SubmissionKey | None,
     owner: str,
-    most_live: int,
+    quota: Quota,
 ) -> SubmittedBatch:
     """Store a batch and all its jobs, or find the one an earlier request made."""
     if key is not None:
@@ -52,7 +52,7 @@ def submit_batch(
             found = select(_job.c.id).where(_job.c.batch == earlier.batch).order_by(_job.c.id)
             known = tuple(unit.execute(found).scalars())
             return SubmittedBatch(find_batch(unit, earlier.batch), known, created=False)
-    LiveJobs(unit, [owner] if most_live else []).add(owner, len(jobs), most_live)
+    Uses(unit, {owner: quota}).add(owner, len(jobs))
     new_batch = {"id": batch_id, "label": label, "created": unit.now, "count": len(jobs)}
     unit.execute(insert(tables.batch).values(new_batch | {"owner": owner}))
     members = zip(job_ids, jobs, strict=True)

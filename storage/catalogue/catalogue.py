@@ -21,6 +21,7 @@ from jointplay.storage.catalogue import (
     rows,
     schema,
     solvers,
+    stored,
     submission,
     upkeep,
 )
@@ -28,6 +29,7 @@ from jointplay.storage.catalogue.connections import Connections, Unit
 from jointplay.storage.catalogue.errors import CatalogueError, Interrupted, Unavailable
 from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
+from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota, use_of
 from jointplay.storage.catalogue.records import (
     Claim,
     Job,
@@ -123,7 +125,7 @@ class Catalogue:
         key: SubmissionKey | None = None,
         *,
         reuse: bool = False,
-        most_live: int = 0,
+        quota: Quota = NO_QUOTA,
     ) -> Submitted:
         """Accept a job; it survives a power cut once this returns.
 
@@ -136,9 +138,9 @@ class Catalogue:
         KeyReused
             The key was used before with another fingerprint.
         QuotaExceeded
-            Its owner would have more than `most_live` jobs that have not ended (0: any number).
+            Its owner has as much as he may have.
         """
-        answer = self._submissions.done(submission.Request(new, key, reuse, most_live))
+        answer = self._submissions.done(submission.Request(new, key, reuse, quota))
         if isinstance(answer, CatalogueError):
             raise answer
         return answer
@@ -161,7 +163,7 @@ class Catalogue:
         label: str | None = None,
         key: SubmissionKey | None = None,
         owner: str = "",
-        most_live: int = 0,
+        quota: Quota = NO_QUOTA,
     ) -> SubmittedBatch:
         """Accept many jobs or none; they survive a power cut once this returns.
 
@@ -174,6 +176,8 @@ class Catalogue:
             There is no job, or there are more than 10 000.
         KeyReused
             The key was used before with another fingerprint.
+        QuotaExceeded
+            Its owner would have more than he may have.
         """
         if not 1 <= len(jobs) <= batches.LARGEST_BATCH:
             raise ValueError(f"a batch has 1 to {batches.LARGEST_BATCH} jobs, not {len(jobs)}")
@@ -184,7 +188,7 @@ class Catalogue:
             with self.connections.writing(durable=True) as connection:
                 unit = Unit(connection, now)
                 return batches.submit_batch(
-                    unit, identifier, members, jobs, label, key, owner, most_live
+                    unit, identifier, members, jobs, label, key, owner, quota
                 )
 
         return self.connections.repeated(submit)
@@ -202,6 +206,7 @@ class Catalogue:
     cancel_batch = durably(batches.cancel_batch)
     delete = durably(upkeep.expire)
     mark_damaged = writing(upkeep.mark_damaged)
+    use_of = reading(use_of)
 
     def every_job(self) -> Iterator[Job]:
         """Yield all jobs that have not expired, newest first."""
@@ -261,6 +266,8 @@ class Catalogue:
     reap = durably(upkeep.reap)
     removable = reading(upkeep.removable)
     mark_removed = writing(upkeep.mark_removed)
+    unmeasured = reading(stored.unmeasured)
+    note_stored = writing(stored.note_stored)
     mend_after_setting_back = writing(upkeep.mend_after_setting_back)
     announce_again = writing(upkeep.announce_again)
     contradicting = reading(disagreements.find)

@@ -8,7 +8,7 @@ from typing import Any, Final
 from sqlalchemy import func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
@@ -66,7 +66,7 @@ def finish(
         raise ValueError("a failed block, and no other, has an error")
     if outcome is BlockState.cancelled and job.state is JobState.running:
         raise ValueError(f"job {job.id} was not asked to be cancelled")
-    _end_attempt(unit, block_id, attempt, outcome.value)
+    _end_attempt(unit, job, block_id, attempt, outcome.value)
     sum_progress(unit, job.id)
     return settle(unit, job.id, error)
 
@@ -181,7 +181,7 @@ def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes:
     free = {"state": BlockState.queued, "lease_until": None, "worker": None}
     job = lock_held(unit, block_id, attempt)
     change_held(unit, block_id, attempt, **free, **changes)
-    _end_attempt(unit, block_id, attempt, outcome)
+    _end_attempt(unit, job, block_id, attempt, outcome)
     sum_progress(unit, job.id)
     record_event(unit, job.id, outcome, {"block": block_id, "attempt": attempt})
     return job
@@ -197,10 +197,11 @@ def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
     )
 
 
-def _end_attempt(unit: Unit, block_id: str, attempt: int, outcome: str) -> None:
+def _end_attempt(unit: Unit, job: Job, block_id: str, attempt: int, outcome: str) -> None:
     table = tables.attempt
-    unit.execute(
-        update(table)
-        .where(table.c.block == block_id, table.c.number == attempt)
-        .values(ended=unit.now, outcome=outcome)
-    )
+    ended = update(table).where(table.c.block == block_id, table.c.number == attempt)
+    row = unit.execute(
+        ended.values(ended=unit.now, outcome=outcome).returning(table.c.worker, table.c.started)
+    ).one()
+    if job.owner:
+        usage.add(unit, job.owner, row.worker, max(unit.now - row.started, 0.0))

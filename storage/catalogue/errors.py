@@ -62,13 +62,7 @@ class KeyReused(CatalogueError):
 
 
 class QuotaExceeded(CatalogueError):
-    """An owner would have more jobs that have not ended than he may have."""
-
-    def __init__(self, owner: str, live: int, most: int, more: int) -> None:
-        super().__init__(
-            f"{owner} has {live} jobs that have not ended, and may have {most};"
-            f" this would be {more} more"
-        )
+    """An owner would have more than he may have of what the sentence names."""
 
 
 class Fenced(CatalogueError):

@@ -1,39 +1,86 @@
-"""Quotas: most jobs of one owner that have not ended, counted in the unit that adds to them."""
+"""Quotas of owners: jobs that have not ended, bytes of results, processor time of a day.
 
-from collections.abc import Collection
+What an owner has is counted in the unit that would add to it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass
 
 from sqlalchemy import func, select
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import stored, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import QuotaExceeded
-from jointplay.storage.catalogue.records import JobState, number_of
-
-_LIVE = [state for state in JobState if not state.terminal]
+from jointplay.storage.catalogue.records import LIVE, number_of
 
 
-class LiveJobs:
-    """Numbers of jobs that have not ended, of owners that may have so many.
+@dataclass(frozen=True)
+class Quota:
+    """Limits of one owner; 0: none."""
 
-    Made before a unit adds any; units that add to the jobs of one owner take turns.
+    live: int = 0
+    """Jobs that have not ended."""
+    stored: int = 0
+    """Bytes of results."""
+    computed: float = 0.0
+    """Core seconds, in the last 24 hours."""
+
+    def __bool__(self) -> bool:
+        """Whether anything is limited."""
+        return any(astuple(self))
+
+
+NO_QUOTA = Quota()
+
+
+@dataclass
+class Use:
+    """What an owner has of everything that may be limited, in the units of `Quota`."""
+
+    live: int
+    stored: int
+    computed: float
+
+
+def use_of(unit: Unit, owner: str) -> Use:
+    """Count what an owner has."""
+    columns = tables.job.c
+    of_owner = columns.state.in_(LIVE) & (columns.owner == owner)
+    live = unit.execute(select(func.count()).select_from(tables.job).where(of_owner)).scalar_one()
+    return Use(live, stored.bytes_of(unit, owner), usage.core_seconds_of(unit, owner))
+
+
+class Uses:
+    """What owners with quotas have.
+
+    Made before a unit adds any jobs; units that add to the jobs of one owner take turns.
     """
 
-    def __init__(self, unit: Unit, owners: Collection[str]) -> None:
-        self._counts = dict.fromkeys(owners, 0)
-        if not owners:
-            return
-        take_turns(unit.connection, *(number_of("live", owner) for owner in owners))
-        columns = tables.job.c
-        of_owners = columns.state.in_(_LIVE) & columns.owner.in_(owners)
-        counted = select(columns.owner, func.count()).where(of_owners).group_by(columns.owner)
-        self._counts |= dict(unit.execute(counted).all())
+    def __init__(self, unit: Unit, quotas: Mapping[str, Quota]) -> None:
+        self._quotas = {owner: quota for owner, quota in quotas.items() if quota}
+        if self._quotas:
+            take_turns(unit.connection, *(number_of("live", owner) for owner in self._quotas))
+        self._uses = {owner: use_of(unit, owner) for owner in self._quotas}
 
-    def add(self, owner: str, more: int, most: int) -> None:
-        """Count further jobs; QuotaExceeded if they would be more than `most` (0: any number)."""
-        if owner not in self._counts:
+    def add(self, owner: str, more: int) -> None:
+        """Count further jobs; QuotaExceeded if they are more than the owner may have."""
+        if owner not in self._quotas:
             return
-        live = self._counts[owner]
-        if most and live + more > most:
-            raise QuotaExceeded(owner, live, most, more)
-        self._counts[owner] = live + more
+        use, quota = self._uses[owner], self._quotas[owner]
+        if quota.live and use.live + more > quota.live:
+            raise QuotaExceeded(
+                f"{owner} has {use.live} jobs that have not ended, and may have {quota.live};"
+                f" this would be {more} more"
+            )
+        if quota.stored and use.stored >= quota.stored:
+            raise QuotaExceeded(
+                f"{owner} has {use.stored} bytes of results, and may have {quota.stored};"
+                " delete jobs that are not needed any more"
+            )
+        if quota.computed and use.computed >= quota.computed:
+            raise QuotaExceeded(
+                f"{owner} has computed {use.computed:.0f} core seconds in the last 24 hours, and"
+                f" may compute {quota.computed:g}; ask again in an hour"
+            )
+        use.live += more

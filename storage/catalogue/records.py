@@ -155,6 +155,7 @@ class Job(JobRequest):
     removed: float | None = None  # when its results were removed
     damaged: str | None = None  # which file of its results is not what was stored
     processor: str | None = None  # class of the processors that compute it, from its first claim on
+    stored: int | None = None  # bytes of its results, if it has ended and is some owner's
 
     def expired(self, now: float) -> bool:
         """Whether it and its results can be read no more; what is still live never expires."""

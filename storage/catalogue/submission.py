@@ -19,7 +19,7 @@ from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
-from jointplay.storage.catalogue.quotas import LiveJobs
+from jointplay.storage.catalogue.quotas import Quota, Uses
 from jointplay.storage.catalogue.records import (
     FRESH_QUEUE,
     INTERACTIVE_QUEUE,
@@ -53,8 +53,8 @@ class Request:
     new: NewJob
     key: SubmissionKey | None
     reuse: bool
-    most_live: int
-    """Jobs that its owner may have that have not ended; 0: any number."""
+    quota: Quota
+    """Limits of its owner."""
 
     def names(self) -> set[Hashable]:
         """Return what later requests may find its job by."""
@@ -72,7 +72,7 @@ def submit(
     looked_for = [one.new.number for one in requests if one.reuse]
     looked_for += [one.key.number for one in requests if one.key is not None]
     take_turns(unit.connection, *looked_for)
-    live = LiveJobs(unit, {one.new.owner for one in requests if one.most_live})
+    uses = Uses(unit, {one.new.owner: one.quota for one in requests})
     answers: list[Submitted | CatalogueError] = []
     fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()
@@ -84,7 +84,7 @@ def submit(
         try:
             answer = _earlier(unit, request)
             if answer is None:
-                live.add(request.new.owner, 1, request.most_live)
+                uses.add(request.new.owner, 1)
         except (KeyReused, QuotaExceeded) as error:
             answers.append(error)
             continue

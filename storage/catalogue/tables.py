@@ -4,7 +4,7 @@ Columns are named as the fields of `storage.catalogue.records` are, and give the
 """
 
 from dataclasses import asdict
-from typing import Any
+from typing import Any, Final
 
 from sqlalchemy import (
     JSON,
@@ -23,6 +23,7 @@ from sqlalchemy import (
     Text,
     TypeDecorator,
     UniqueConstraint,
+    literal_column,
 )
 
 from jointplay.records.job import JobError
@@ -80,6 +81,7 @@ job = Table(
     Column("damaged", Text),
     Column("owner", String(64), nullable=False, server_default=""),
     Column("processor", String(64)),
+    Column("stored", BigInteger),
     # each list filter with the paging key behind it
     Index("ix_job_state_id", "state", "id"),
     Index("ix_job_batch_id", "batch", "id"),
@@ -92,6 +94,20 @@ job = Table(
     Index("ix_job_owner_id", "owner", "id"),
     # whose results are to be removed, however many were
     Index("ix_job_removed_expires", "removed", "expires"),
+)
+
+_ended = job.c.finished.is_not(None)
+UNMEASURED: Final = job.c.stored.is_(None) & _ended & (job.c.owner != literal_column("''"))
+"""Jobs of owners that have ended, with results of nobody knows how many bytes yet."""
+MEASURED: Final = job.c.stored > literal_column("0")
+"""Jobs whose results take room."""
+Index("ix_job_unmeasured", job.c.id, sqlite_where=UNMEASURED, postgresql_where=UNMEASURED)
+Index(
+    "ix_job_owner_stored",
+    job.c.owner,
+    job.c.stored,
+    sqlite_where=MEASURED,
+    postgresql_where=MEASURED,
 )
 
 batch = Table(
@@ -188,6 +204,17 @@ api_key = Table(
     Column("expires", Float(53)),
     Column("revoked", Float(53)),
     Column("last_used", Float(53)),
+)
+
+# Processor time of owners; see `storage.catalogue.usage`.
+usage = Table(
+    "usage",
+    metadata,
+    Column("owner", String(64), nullable=False),
+    Column("hour", Integer, nullable=False),
+    Column("worker", String(200), nullable=False),
+    Column("seconds", Float(53), nullable=False),
+    PrimaryKeyConstraint("owner", "hour", "worker"),
 )
 
 # Processes that take blocks, with what each computes them, and when it was heard of last and first.

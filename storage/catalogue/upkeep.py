@@ -9,7 +9,7 @@ from operator import attrgetter
 
 from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
@@ -97,7 +97,7 @@ def holders(unit: Unit) -> tuple[str, ...]:
 def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
     """Take back the blocks whose lease ran out, or whose worker is one of those that have ended.
 
-    Idempotency keys past their time are forgotten.
+    Idempotency keys and processor times past their time are forgotten.
     """
     block = tables.block
     lost = (block.c.lease_until < unit.now) | block.c.worker.in_(ended)
@@ -120,6 +120,7 @@ def reap(unit: Unit, max_attempts: int, ended: Sequence[str] = ()) -> Reaped:
         else:
             ended.append(row.job)
     unit.execute(delete(tables.idempotency).where(tables.idempotency.c.expires <= unit.now))
+    usage.forget(unit)
     return Reaped(tuple(requeued), tuple(ended))
 
 
@@ -153,7 +154,7 @@ def removable(unit: Unit, limit: int) -> tuple[str, ...]:
 
 def mark_removed(unit: Unit, jobs: Sequence[str]) -> None:
     """Remember that the results of jobs are gone."""
-    unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now))
+    unit.execute(update(_job).where(_job.c.id.in_(jobs)).values(removed=unit.now, stored=0))
 
 
 def mark_damaged(unit: Unit, job: str, damage: str | None) -> None:

@@ -1,4 +1,4 @@
-"""Requests of one owner in a time, and jobs of one owner at a time."""
+"""Limits of one owner: requests in a time, jobs at a time, bytes of results, processor time."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -6,6 +6,8 @@ from pathlib import Path
 from jointplay.service.app import create_app
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.settings import Settings
+from jointplay.worker.measuring import measure_results
+from jointplay.worker.removal import remove_expired
 from tests.service.guarded import SWING, Guarded
 from tests.service_in_thread import serving
 
@@ -71,4 +73,32 @@ def test_twenty_jobs_at_once_do_not_exceed_the_limit(tmp_path: Path) -> None:
         there = SWING | {"duration": 1.0 + answers.index(202)}
         assert http.post("/v1/jobs", json=there).status_code == 200
         assert http.post("/v1/estimates", json=there).json()["cached"]
+    catalogue.close()
+
+
+def test_an_owner_has_so_many_bytes_of_results(tmp_path: Path) -> None:
+    settings = Settings(data=tmp_path, keys="required", most_stored=1000, most_computed=50.0)
+    catalogue = Catalogue(settings.catalogue_url)
+    catalogue.migrate()
+    with serving(create_app(settings)) as url:
+        guarded = Guarded(url, catalogue, "", "")
+        with guarded.as_("ada") as ada, guarded.as_("root", "admin") as root:
+            job = ada.post("/v1/jobs", json=SWING).json()["id"]
+            limits = {"most_live_jobs": 0, "most_stored_bytes": 1000, "most_core_seconds": 50.0}
+            nothing = {"stored_bytes": 0, "core_seconds": 0.0}
+            used = {"owner": "ada", "live_jobs": 1} | nothing | limits
+            assert ada.get("/v1/usage").json() == used
+            ada.post(f"/v1/jobs/{job}/cancel")
+            settings.sealed_run(job, 1).put([bytes(700), bytes(300)])
+            measure_results(catalogue, settings)
+            assert ada.get("/v1/usage").json() == used | {"live_jobs": 0, "stored_bytes": 1000}
+            refused = ada.post("/v1/jobs", json=SWING)
+            assert refused.status_code == 403
+            assert refused.json()["type"] == "/problems/quota-exceeded"
+            assert "has 1000 bytes of results, and may have 1000" in refused.json()["detail"]
+            assert root.post("/v1/jobs", json=SWING).status_code == 202
+            assert root.get("/v1/usage").json()["most_stored_bytes"] == 0
+            ada.delete(f"/v1/jobs/{job}")
+            remove_expired(catalogue, settings)
+            assert ada.post("/v1/jobs", json=SWING).status_code == 202
     catalogue.close()

@@ -15,12 +15,16 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
+    "DROP INDEX ix_job_unmeasured",
+    "DROP INDEX ix_job_owner_stored",
     "DROP INDEX ix_job_owner_id",
     "ALTER TABLE job DROP COLUMN owner",
     "ALTER TABLE batch DROP COLUMN owner",
     "DROP TABLE api_key",
     "ALTER TABLE job DROP COLUMN processor",
     "DROP TABLE worker",
+    "ALTER TABLE job DROP COLUMN stored",
+    "DROP TABLE usage",
     "UPDATE alembic_version SET version_num = '0001'",
 )
 """Takes away what came after the first revision."""

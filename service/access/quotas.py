@@ -1,0 +1,47 @@
+"""``/v1/usage``: what the owner of a key has, and what he may have."""
+
+from fastapi import APIRouter
+from pydantic import BaseModel, Field
+
+from jointplay.service.access import Caller, CallerDependency
+from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
+from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota
+from jointplay.storage.settings import Settings
+
+router = APIRouter(prefix="/v1/usage", tags=["service"])
+
+
+class Usage(BaseModel):
+    """Use and limits of one owner; a limit of 0 is none."""
+
+    owner: str = Field(description="Empty where the service asks for no keys.")
+    live_jobs: int = Field(description="Jobs that have not ended.")
+    most_live_jobs: int
+    stored_bytes: int = Field(description="Bytes of results, of jobs that have ended.")
+    most_stored_bytes: int
+    core_seconds: float = Field(description="Processor time in the last 24 hours, s.")
+    most_core_seconds: float
+
+
+def quota_of(caller: Caller, settings: Settings) -> Quota:
+    """Return the limits of a caller; none of an administrator's, and where no keys are asked."""
+    if not caller.owner or caller.sees_all:
+        return NO_QUOTA
+    return Quota(settings.most_live, settings.most_stored, settings.most_computed)
+
+
+@router.get("")
+def show_usage(
+    caller: CallerDependency, catalogue: CatalogueDependency, settings: SettingsDependency
+) -> Usage:
+    """Show what your jobs use, and what they may; results are counted soon after jobs end."""
+    use, quota = catalogue.use_of(caller.owner), quota_of(caller, settings)
+    return Usage(
+        owner=caller.owner,
+        live_jobs=use.live,
+        most_live_jobs=quota.live,
+        stored_bytes=use.stored,
+        most_stored_bytes=quota.stored,
+        core_seconds=use.computed,
+        most_core_seconds=quota.computed,
+    )

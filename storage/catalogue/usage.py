@@ -1,0 +1,46 @@
+"""Processor time that owners have used: core seconds of each hour, kept for a day.
+
+They are counted when an attempt at a block ends, however it does, by owner and worker: so no two
+units wait for each other. What runs is added when it is asked for.
+"""
+
+from typing import Final
+
+from sqlalchemy import and_, delete, func, insert, select, update
+
+from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue.connections import Unit
+from jointplay.storage.catalogue.records import BlockState
+
+_HOUR: Final = 3600.0  # s
+_DAY: Final = 24  # hours
+_usage = tables.usage
+
+
+def add(unit: Unit, owner: str, worker: str, seconds: float) -> None:
+    """Count core seconds that an attempt of this worker took."""
+    row = {"owner": owner, "worker": worker, "hour": int(unit.now // _HOUR)}
+    same = and_(*(_usage.c[name] == value for name, value in row.items()))
+    more = update(_usage).where(same).values(seconds=_usage.c.seconds + seconds)
+    if not unit.execute(more).rowcount:
+        unit.execute(insert(_usage).values(**row, seconds=seconds))
+
+
+def core_seconds_of(unit: Unit, owner: str) -> float:
+    """Return the core seconds of an owner's attempts in the last 24 hours, by the hour."""
+    lately = _usage.c.hour > unit.now // _HOUR - _DAY
+    ended = select(func.sum(_usage.c.seconds)).where(_usage.c.owner == owner, lately)
+    block, attempt, job = tables.block, tables.attempt, tables.job
+    runs = (
+        select(func.sum(unit.now - attempt.c.started))
+        .select_from(block)
+        .join(attempt, and_(attempt.c.block == block.c.id, attempt.c.number == block.c.attempt))
+        .join(job, job.c.id == block.c.job)
+        .where(block.c.state == BlockState.running, job.c.owner == owner)
+    )
+    return sum(float(unit.execute(part).scalar_one() or 0.0) for part in (ended, runs))
+
+
+def forget(unit: Unit) -> None:
+    """Forget the hours that count no longer."""
+    unit.execute(delete(_usage).where(_usage.c.hour <= unit.now // _HOUR - _DAY))
