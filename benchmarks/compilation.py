@@ -31,7 +31,7 @@ SCENES = {"chain": chain, "free": free, "four-bars": four_bars}
 COUNTS = {
     "chain": (4, 8, 12, 14, 16, 20, 32, 64),
     "free": (4, 8, 12, 14, 16, 20, 32, 64),
-    "four-bars": (1, 2, 4, 8, 12, 16, 20, 31, 40),
+    "four-bars": (1, 5, 10, 20, 40),
 }
 FORMULATIONS = ("reduced", "lagrange")
 PATIENCE = 900.0  # s a scene
