@@ -3,7 +3,6 @@
 from typing import Any
 
 import numpy as np
-import pytest
 from scipy.integrate import solve_ivp
 
 from jointplay.solver.scene.document import Scene
