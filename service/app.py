@@ -27,6 +27,7 @@ import jointplay.service.workers.claims
 import jointplay.service.workers.files
 import jointplay.service.workers.present
 import jointplay.service.zarr.endpoints
+import jointplay.service.zarr.whole
 from jointplay.service import estimates, events, health, laws, metrics, problems, schemas
 from jointplay.service.access import links, needs, quotas
 from jointplay.service.access.door import Door
@@ -74,6 +75,7 @@ _BEHIND_THE_DOOR = (
     (jointplay.service.results.figures, _RESULTS),
     (jointplay.service.results.spectra, _RESULTS),
     (jointplay.service.zarr.endpoints, _RESULTS),
+    (jointplay.service.zarr.whole, _RESULTS),
     (links, _RESULTS),
     (metrics, needs("metrics")),
     (quotas, needs("jobs:read")),

@@ -1,5 +1,6 @@
 """Settings all processes of the service share, read from ``JOINTPLAY_*`` in the environment."""
 
+import re
 import shutil
 from pathlib import Path
 from typing import Annotated, Final, Literal, Self
@@ -50,6 +51,12 @@ class Settings(BaseSettings):
         description="Where jobs are that run: in the data folder, which all machines then share, or"
         " in the place for results, to which each worker sends what it computes in a folder of its"
         " own; empty: there if it is S3.",
+    )
+    results_redirect: str = Field(
+        "",
+        max_length=2048,
+        description="Address at which clients reach the store of a bucket, such as"
+        " https://s3.example.org: whole stores are then sent from there; empty: by the API.",
     )
     redis_url: str | None = Field(
         None,
@@ -153,6 +160,13 @@ class Settings(BaseSettings):
     def _names_a_place(cls, url: str) -> str:
         place_at(url)
         return url
+
+    @field_validator("results_redirect")
+    @classmethod
+    def _names_a_server(cls, url: str) -> str:
+        if url and not re.fullmatch(r"https?://[^/?#\s]+/?", url):
+            raise ValueError(f"{url!r} is not an address such as https://s3.example.org")
+        return url.rstrip("/")
 
     @field_validator("redis_url")
     @classmethod

@@ -19,6 +19,8 @@ from jointplay.records.job import is_job_id
 from jointplay.storage.catalogue.keys import ID, Key
 
 PREFIX: Final = "/v1/shared/"
+WHOLE: Final = "zarr.zip"
+"""Of the addresses behind a token, that of the store in one file; all others are of its keys."""
 SIGNED: Final = "jointplay.signed"
 """Where the scope of a request has its `Link`."""
 _SIGNED: Final = struct.Struct(">26sQ8s")  # job, end as epoch seconds, id of the key
@@ -65,7 +67,7 @@ class Link:
 
 
 class SignedLinks:
-    """Leads ``/v1/shared/TOKEN/zarr/...`` to the stored arrays of the job that a token names."""
+    """Leads ``/v1/shared/TOKEN/zarr...`` to the stored arrays of the job that a token names."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -75,7 +77,7 @@ class SignedLinks:
         if scope["type"] == "http" and scope["path"].startswith(PREFIX):
             token, slash, behind = scope["path"][len(PREFIX) :].partition("/")
             link = Link.of(token)
-            if link is not None and (behind + slash).startswith("zarr/"):
+            if link is not None and (behind == WHOLE or (behind + slash).startswith("zarr/")):
                 path = f"/v1/jobs/{link.job}/{behind}"
                 scope = {**scope, "path": path, "raw_path": path.encode(), SIGNED: link}
         await self._app(scope, receive, send)

@@ -95,7 +95,7 @@ def show_stored(
                 raise
             return _answer(request, key, former)
     except ranges.Unsatisfiable:
-        raise _not_satisfiable(request, key, content.size) from None
+        raise ranges.refused(request, key, content.size) from None
 
 
 def _answer(request: Request, key: str, content: Content) -> Response:
@@ -126,15 +126,6 @@ def _answer(request: Request, key: str, content: Content) -> Response:
     headers["Content-Length"] = str(stop - start)
     body = b"" if request.method == "HEAD" else content.read(start, stop)
     return Response(body, 206 if part else 200, headers, media_type)
-
-
-def _not_satisfiable(request: Request, key: str, size: int) -> RequestRefused:
-    asked = clipped(request.headers.get("range", ""))
-    return RequestRefused(
-        kinds.RANGE_NOT_SATISFIABLE,
-        f"{key} has {size} bytes, and none of them is in the range {asked!r}.",
-        headers={"Content-Range": f"bytes */{size}", "Accept-Ranges": "bytes"},
-    )
 
 
 def _nothing_at(job: Job, key: str) -> RequestRefused:

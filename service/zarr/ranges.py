@@ -3,6 +3,10 @@
 import re
 from typing import Final
 
+from fastapi import Request
+
+from jointplay.service.problems import RequestRefused, clipped, kinds
+
 _SINGLE: Final = re.compile(r"bytes=(?:(\d{1,19})-(\d{0,19})|-(\d{1,19}))", re.ASCII)
 
 
@@ -44,6 +48,16 @@ def window(header: str | None, size: int) -> tuple[int, int] | None:
     if start >= stop:
         raise Unsatisfiable
     return start, stop
+
+
+def refused(request: Request, name: str, size: int) -> RequestRefused:
+    """Return the refusal of a range that has no byte of what is named."""
+    asked = clipped(request.headers.get("range", ""))
+    return RequestRefused(
+        kinds.RANGE_NOT_SATISFIABLE,
+        f"{name} has {size} bytes, and none of them is in the range {asked!r}.",
+        headers={"Content-Range": f"bytes */{size}", "Accept-Ranges": "bytes"},
+    )
 
 
 def names(header: str | None, tag: str) -> bool:

@@ -79,6 +79,13 @@ class Place(Protocol):
         """
         ...
 
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+        """Sign an address below `endpoint` at which anyone may GET an object, for some time.
+
+        None: the place answers no requests.
+        """
+        ...
+
 
 PLACES: Final[dict[str, Callable[[str], Place]]] = {"file": Folder, "s3": Bucket}
 """By the scheme of a place's address; called with what follows it."""

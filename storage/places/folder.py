@@ -96,6 +96,10 @@ class Folder:
         durable.sync(path.parent)
         return True
 
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+        """Return nothing: no server answers for a folder."""
+        return None
+
     def _files(self, prefix: str) -> Iterator[str]:
         folder, _, begin = prefix.rpartition("/")
         for path in sorted((Path(self.root) / folder).glob(f"{escape(begin)}*")):

@@ -47,6 +47,9 @@ class OneDatabase:
         except sqlite3.IntegrityError as error:
             raise FileExistsError(key) from error
 
+    def link(self, key: str, endpoint: str, seconds: float) -> str | None:
+        return None
+
     def replace(self, key: str, pieces: Iterable[bytes]) -> None:
         self.ask("INSERT OR REPLACE INTO objects VALUES (?, ?)", key, b"".join(pieces))
 
