@@ -61,7 +61,7 @@ def scale(unit: str, *values: Floats) -> Scale:
         if measured == unit:
             return Scale(factor, _pretty(name.replace("u", "µ", 1) if name[0] == "u" else name))
     pretty = _pretty(unit)
-    largest = max((_largest(array) for array in values), default=0.0)
+    largest = max((largest_of(array) for array in values), default=0.0)
     if _SMALLEST_PLAIN <= largest < _LARGEST_PLAIN or largest == 0.0:
         return Scale(1.0, pretty)
     if largest >= _LARGEST_PLAIN and _NEVER_LARGER.fullmatch(unit):
@@ -130,6 +130,7 @@ def _pretty(unit: str) -> str:
     return raised.replace(" ", "·")
 
 
-def _largest(values: Floats) -> float:
+def largest_of(values: Floats) -> float:
+    """Return the largest size of finite values; 0 where there are none."""
     finite = values[np.isfinite(values)]
     return float(np.abs(finite).max()) if finite.size else 0.0

@@ -9,7 +9,7 @@ import numpy as np
 from jointplay.figures import colours, page, study_facts
 from jointplay.figures.kind import NotDrawable, Selection, StudyFigure, at_most
 from jointplay.figures.parameter_axis import ParameterAxis
-from jointplay.figures.quantity import Scale, scale
+from jointplay.figures.quantity import Scale, largest_of, scale
 from jointplay.records.arrays import Floats
 from jointplay.records.channel import by_name
 from jointplay.records.point import PointStatus
@@ -33,6 +33,8 @@ _MOST_LETTERS = 14
 """Letters of its numbers in all that stand apart."""
 _CONSTANT = 1e-9
 """Cells that differ by less of their value are the same."""
+_SHARP = 1e-7
+"""Share of a channel's size to which its extremes are known: those that differ by less are one."""
 _MOST_NUMBERS = 60
 """Marks are drawn at the values of a curve if there are no more."""
 
@@ -124,9 +126,20 @@ class _Row:
             owner, _, statistic = name.rpartition(".")
             return cls({"": values}, shown, f"{owner}\n{shown.label(statistic)}")
         peaks = source.peaks(name)
-        panels = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
+        extremes = {"largest": peaks.maximum[points], "smallest": peaks.minimum[points]}
+        size = max(largest_of(values) for values in extremes.values())
+        panels = {which: _known(values, size) for which, values in extremes.items()}
         shown = scale(by_name(source.channels)[name].unit, *panels.values())
         return cls(panels, shown, shown.label(name))
+
+
+def _known(values: Floats, size: float) -> Floats:
+    """Return extremes of a channel of a size, as one number if no more than rounding differs."""
+    middle = float(np.nanmedian(values)) if np.isfinite(values).any() else 0.0
+    if largest_of(values - middle) > _SHARP * size:
+        return values
+    same = 0.0 if abs(middle) <= _SHARP * size else middle
+    return np.where(np.isfinite(values), same, np.nan)
 
 
 def _curve(axes: page.Axes, values: Floats, parameter: ParameterAxis) -> None:

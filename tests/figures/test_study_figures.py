@@ -343,3 +343,15 @@ def test_every_colour_bar_has_three_numbers_or_says_that_all_are_the_same():
             if low <= place <= high
         ]
         assert len(shown) >= 3 or shown == ["0 everywhere"]
+
+
+def test_what_rounding_leaves_of_an_extreme_is_no_map():
+    source = sweep((4, 3))
+    peaks = source.extremes["left.normal_force"]
+    noise = -1e-9 * peaks.maximum * np.arange(12)  # forces that no step makes exactly zero
+    extremes = {"left.normal_force": peaks._replace(minimum=noise)}
+    figure = drawn_with(replace(source, extremes=extremes), "left.normal_force", None)
+    maps = [axes for axes in figure.axes if axes.get_gid() != page.WITHOUT_SCALE]
+    shown = [axes.collections[0].get_array().compressed() for axes in maps]
+    assert len(np.unique(shown[0])) > 1
+    assert not shown[1].any()
