@@ -1,5 +1,7 @@
 /** The JSON Schema of a scene: what stands at a place, what may stand there, and what it means. */
 
+import { short } from "../interface/numbers.js";
+
 export class SceneSchema {
   /** @param schema as the service gives it */
   constructor(schema) {
@@ -91,15 +93,16 @@ export class SceneSchema {
   }
 }
 
-function rangeWords(schema) {
+/** Returns type, range, unit and default of a number, or of what has one; else nothing. */
+export function rangeWords(schema) {
   const parts = [];
   if (schema.type) parts.push([schema.type].flat().join(" or "));
   const unit = schema.unit && schema.unit !== "1" ? ` ${schema.unit}` : "";
   const { minimum, maximum, exclusiveMinimum: above, exclusiveMaximum: below } = schema;
-  if (above !== undefined) parts.push(`above ${above}${unit}`);
-  if (minimum !== undefined) parts.push(`at least ${minimum}${unit}`);
-  if (maximum !== undefined) parts.push(`at most ${maximum}${unit}`);
-  if (below !== undefined) parts.push(`below ${below}${unit}`);
+  if (above !== undefined) parts.push(`above ${short(above)}${unit}`);
+  if (minimum !== undefined) parts.push(`at least ${short(minimum)}${unit}`);
+  if (maximum !== undefined) parts.push(`at most ${short(maximum)}${unit}`);
+  if (below !== undefined) parts.push(`below ${short(below)}${unit}`);
   if (parts.length < 2 && unit) parts.push(`in${unit}`);
   if (schema.default !== undefined && typeof schema.default !== "object") {
     parts.push(`default ${schema.default}`);

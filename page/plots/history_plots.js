@@ -158,7 +158,7 @@ export class HistoryPlots {
       series: [
         {},
         ...this.jobs.map((_, i) => ({
-          stroke: colours[`curve-${i % 4}`], width: 1.2, spanGaps: true, points: { show: false },
+          stroke: colours[`curve-${i % 4}`], width: 1.2 * size, spanGaps: true, points: { show: false },
         })),
       ],
       axes: [

@@ -61,7 +61,7 @@ export class SpectrumPlot {
         y: { distr: 3, range },
       },
       cursor: { drag: { x: false, y: false } },
-      series: [{}, { stroke: colours["curve-0"], width: 1, points: { show: false } }],
+      series: [{}, { stroke: colours["curve-0"], width: size, points: { show: false } }],
       axes: [
         { ...axis, size: 44 * size, label: "frequency [Hz]", labelSize: 20 * size },
         { ...axis, size: 74 * size, label: unitText(unit), labelSize: 18 * size },

@@ -1,6 +1,7 @@
 /** A mechanism of one's own: its document, its drawing as it is typed, what is wrong, and a run. */
 
 import { help } from "../editor/help.js";
+import { fieldList } from "../editor/field_list.js";
 import { FreeMotion } from "../editor/free_motion.js";
 import { SceneSchema } from "../editor/schema.js";
 import { FIRST_SCENE } from "../editor/first_scene.js";
@@ -71,6 +72,7 @@ class Editing {
               element("div", { class: "entry" }, this.duration, element("span", { class: "unit" }, "s"))),
             this.estimate.element,
             element("div", { class: "buttons" }, this.button)))),
+      fieldList(schema.schema),
     );
     this.duration.addEventListener("input", () => this.estimate.later());
     onNewColours(() => this.motion.draw(), signal);

@@ -58,3 +58,7 @@ def test_the_editor_proposes_and_explains_what_the_schema_says(browsing, service
         page.wait_for_function("() => sessionStorage.getItem('jointplay-scene').includes('-9.81')")
         page.get_by_text('"ground"').first.hover()
         page.get_by_text("The frame: named points in world coordinates.").wait_for()
+        page.get_by_text("Every field of a scene").click()
+        page.get_by_label("Find a field").fill("effective_mass")
+        page.get_by_role("heading", name="Tsuji").wait_for()
+        assert barriers(page) == []
