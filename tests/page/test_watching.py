@@ -100,6 +100,6 @@ def test_phase_portrait_and_spectrum_follow_the_window_shown(browsing, url, pres
 def test_sections_of_a_run_are_points_of_a_plane(browsing, url, press):
     with browsing.page(f"{url}/#/job/{press}/sections") as page:
         page.get_by_label("Up").select_option("acceleration")
-        page.get_by_role("img", name="sections: acceleration over displacement").wait_for()
+        page.get_by_role("img", name="1 section: acceleration over displacement").wait_for()
         expect(page).to_have_url(re.compile("y=acceleration"))
         assert barriers(page) == []
