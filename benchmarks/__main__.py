@@ -7,6 +7,7 @@ ALL = (
     "dense",
     "digests",
     "press",
+    "loop_share",
     "certificate",
     "peers",
     "accuracy",

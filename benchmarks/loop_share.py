@@ -1,0 +1,74 @@
+"""Share of a run that its attempts at a step take, where ideal joints close loops.
+
+    python -m benchmarks loop_share
+
+Slopes, projection and judging are all in the attempt: a closed form of the loops cannot save more.
+Eight lanes of a preset run to the same end at tolerance 1e-8, with extremes; best of several runs.
+"""
+
+import re
+import time
+from collections.abc import Callable
+
+from jointplay.solver.kernels.emit.kernel import Kernel
+from jointplay.solver.kernels.kernel_cache import ready_kernel
+from jointplay.solver.kernels.lanes import LANES
+from jointplay.solver.kernels.loop.bundle import Bundle
+from jointplay.solver.kernels.loop.problem import LaneProblem
+from jointplay.solver.scene import presets
+from jointplay.solver.scene.document import Scene
+
+SHOWN = ("slopes", "right_hand_side", "project", "judge")
+PRESETS = {"andrews-squeezer": 0.03, "jansen-leg": 0.3, "quick-return": 0.3}
+"""Closed loops, and how long each runs, s."""
+REPEATS, CALLS = 40, 2000
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Return the processor time of a call, s."""
+    begun = time.process_time()
+    work()
+    return time.process_time() - begun
+
+
+def lines(kernel: Kernel) -> dict[str, int]:
+    """Return how many lines each function of a kernel has."""
+    with open(str(kernel.module.__file__)) as source:
+        tapes = re.finditer(r'^(\w+)_tape = .*?^"""', source.read(), re.S | re.M)
+        return {tape[1]: tape[0].count("\n") - 1 for tape in tapes}
+
+
+def attempt_often(bundle: Bundle) -> None:
+    """Attempt a bundle's next step again and again."""
+    attempt, work = bundle.kernel.module.attempt, bundle.groups[0].work
+    for _ in range(CALLS):
+        attempt(work)
+
+
+def main() -> None:
+    """Print lines of functions, and microseconds of a step of eight lanes."""
+    print(
+        "preset            " + "".join(f"{name:>16}" for name in SHOWN) + "  attempt   step  share"
+    )
+    for name, duration in PRESETS.items():
+        scene = Scene.model_validate(presets.document(name))
+        kernel = ready_kernel(scene, "reduced", "tsitouras")
+        problems = [LaneProblem(scene, duration, 1e-8, duration, 0, 0, 0.0)] * LANES
+        bundle = Bundle(kernel, problems)
+        bundle.advance(20)
+        attempts, steps = [], []
+        for _ in range(REPEATS):
+            attempts.append(seconds(lambda bundle=bundle: attempt_often(bundle)) / CALLS)
+            whole = Bundle(kernel, problems)
+            steps.append(seconds(lambda: whole.advance(10**8)) / whole.lane(0).attempts)
+        attempt, step = min(attempts), min(steps)
+        count = lines(kernel)
+        print(
+            f"{name:<18}"
+            + "".join(f"{count[shown]:16d}" for shown in SHOWN)
+            + f"{1e6 * attempt:9.2f}{1e6 * step:7.2f}{attempt / step:7.0%}"
+        )
+
+
+if __name__ == "__main__":
+    main()
