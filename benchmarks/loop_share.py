@@ -8,7 +8,6 @@ Eight lanes of a preset run to the same end at tolerance 1e-8, with extremes; be
 
 import re
 import time
-from collections.abc import Callable
 
 from jointplay.solver.kernels.emit.kernel import Kernel
 from jointplay.solver.kernels.kernel_cache import ready_kernel
@@ -24,25 +23,27 @@ PRESETS = {"andrews-squeezer": 0.03, "jansen-leg": 0.3, "quick-return": 0.3}
 REPEATS, CALLS = 40, 2000
 
 
-def seconds(work: Callable[[], object]) -> float:
-    """Return the processor time of a call, s."""
-    begun = time.process_time()
-    work()
-    return time.process_time() - begun
-
-
 def lines(kernel: Kernel) -> dict[str, int]:
     """Return how many lines each function of a kernel has."""
     with open(str(kernel.module.__file__)) as source:
-        tapes = re.finditer(r'^(\w+)_tape = .*?^"""', source.read(), re.S | re.M)
+        tapes = re.finditer(r'^(\w+)_tape = .*?^"""', source.read(), re.DOTALL | re.MULTILINE)
         return {tape[1]: tape[0].count("\n") - 1 for tape in tapes}
 
 
-def attempt_often(bundle: Bundle) -> None:
-    """Attempt a bundle's next step again and again."""
+def attempt_seconds(bundle: Bundle) -> float:
+    """Return the processor time of attempting a bundle's next step, s."""
     attempt, work = bundle.kernel.module.attempt, bundle.groups[0].work
+    begun = time.process_time()
     for _ in range(CALLS):
         attempt(work)
+    return (time.process_time() - begun) / CALLS
+
+
+def step_seconds(bundle: Bundle) -> float:
+    """Return the processor time of a step, of a bundle's whole run, s."""
+    begun = time.process_time()
+    bundle.advance(10**8)
+    return (time.process_time() - begun) / bundle.lane(0).attempts
 
 
 def main() -> None:
@@ -56,12 +57,8 @@ def main() -> None:
         problems = [LaneProblem(scene, duration, 1e-8, duration, 0, 0, 0.0)] * LANES
         bundle = Bundle(kernel, problems)
         bundle.advance(20)
-        attempts, steps = [], []
-        for _ in range(REPEATS):
-            attempts.append(seconds(lambda bundle=bundle: attempt_often(bundle)) / CALLS)
-            whole = Bundle(kernel, problems)
-            steps.append(seconds(lambda: whole.advance(10**8)) / whole.lane(0).attempts)
-        attempt, step = min(attempts), min(steps)
+        attempt = min(attempt_seconds(bundle) for _ in range(REPEATS))
+        step = min(step_seconds(Bundle(kernel, problems)) for _ in range(REPEATS))
         count = lines(kernel)
         print(
             f"{name:<18}"
