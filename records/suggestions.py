@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-MOST_LISTED = 12
+MOST_LISTED = 20
 NEAR = 0.75
 """Share of letters in common, as difflib counts it, from which a name may have been meant."""
 LONGEST = 100

@@ -162,6 +162,12 @@ def test_a_misspelt_parameter_is_told_together_with_a_missing_field(http: httpx.
     assert "did you mean 'clearance'?" in told["/scene/parameters/clearence"]
 
 
+def test_where_no_field_is_near_all_that_there_are_are_listed(http: httpx.Client) -> None:
+    problem = refused(http, json.dumps(diagram(duration=2.0)).encode(), 422)
+    (told,) = [one["detail"] for one in problem["errors"] if one["pointer"] == "/duration"]
+    assert told.endswith("scene, section, settle, step, tolerance, values.")
+
+
 MALFORMED = {
     "NaN": (b'{"kind": "simulate", "duration": NaN}', "/duration"),
     "infinity": (b'{"kind": "simulate", "duration": -Infinity}', "/duration"),
