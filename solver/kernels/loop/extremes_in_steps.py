@@ -5,7 +5,7 @@ from numba import float64, int64, void
 
 from jointplay.solver.kernels.emit.functions import ADDRESSES, WORK, functions_at
 from jointplay.solver.kernels.emit.places import PLACES, Places
-from jointplay.solver.kernels.jit import LaneFunction, deferred, inner_kernel
+from jointplay.solver.kernels.jit import deferred, inner_kernel
 from jointplay.solver.kernels.lanes import LANES
 from jointplay.solver.kernels.layout import INSTANTS
 from jointplay.solver.kernels.loop.accepted_steps import read_steps
@@ -18,15 +18,17 @@ from jointplay.solver.kernels.loop.book import (
     close_bin,
     write_bin,
 )
-from jointplay.solver.kernels.loop.inner_peaks import WIDTHS, place_evenly
-from jointplay.solver.kernels.loop.passages import NARROWEST, closest_approach, passes
-from jointplay.solver.kernels.loop.peaks import look_where_foretold
-from jointplay.solver.kernels.loop.runs import RUNS, Run
-from jointplay.solver.kernels.loop.seeking_in_turn import seek_in_turn
+from jointplay.solver.kernels.loop.inner_peaks import place_evenly
+from jointplay.solver.kernels.loop.looks_into_steps import (
+    find_cornered,
+    look_about_passages,
+    look_at_suspects,
+    look_beside_ends,
+)
+from jointplay.solver.kernels.loop.passages import passes
+from jointplay.solver.kernels.loop.runs import RUNS
 from jointplay.solver.kernels.loop.suspects import find_suspects
-from jointplay.solver.kernels.loop.tops import open_windows
 from jointplay.solver.kernels.loop.unowned_view import unowned
-from jointplay.solver.kernels.loop.windows import CLOSER
 
 MOTION = 6
 """Numbers of a journal's motion: place, rate, acceleration."""
@@ -88,69 +90,6 @@ def eights(rows: np.ndarray) -> np.ndarray:
     return found[:count]
 
 
-@inner_kernel()
-def look_at_suspects(
-    chosen: np.ndarray,
-    sharp: float,
-    low: float,
-    high: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-) -> None:
-    """Seek extremes of chosen rows that are known at even instants between two shares."""
-    waiting, spacing = 0, (high - low) / (INSTANTS - 1)
-    for r in chosen:
-        table[CLOSER : CLOSER + INSTANTS] = spare[at.channel + r]
-        waiting = open_windows(
-            r, 1, low, spacing, INSTANTS, sharp, waiting, lane, run, at, work, table
-        )
-    if look_where_foretold(waiting, lane, run, at, work, spare, table, channels_around) > 0:
-        seek_in_turn(waiting, lane, run, at, work, spare, table, channels_around)
-
-
-@inner_kernel()
-def look_about_passages(
-    every: np.ndarray,
-    sharp: float,
-    low: float,
-    high: float,
-    lane: int,
-    run: Run,
-    at: Places,
-    work: np.ndarray,
-    spare: np.ndarray,
-    table: np.ndarray,
-    channels_around: LaneFunction,
-    channels_within: LaneFunction,
-) -> None:
-    """Seek extremes where journals pass the centres of their bearings, between two shares."""
-    for j in range(at.pairs):
-        if passes(j, lane, at, work):
-            share, width = closest_approach(j, lane, at, work)
-            left, right = max(share - WIDTHS * width, low), min(share + WIDTHS * width, high)
-            if left < right - NARROWEST:
-                place_evenly(left, right, at, spare)
-                channels_within(work, spare, lane)
-                look_at_suspects(
-                    every,
-                    sharp,
-                    left,
-                    right,
-                    lane,
-                    run,
-                    at,
-                    work,
-                    spare,
-                    table,
-                    channels_around,
-                )
-
-
 @deferred(
     void(
         *(ADDRESSES, PLACES, WORK, WORK, RUNS, float64[::1], float64[:, ::1], int64[:, ::1]),
@@ -199,7 +138,7 @@ def extremes_in_steps(
     work, spare, runs, table = unowned(work), unowned(spare), unowned(runs), unowned(table)
     book, close = unowned(book), np.empty(spare.shape)
     every, suspects = rows[rows < at.rows], np.empty(book.shape[1], np.int64)
-    blocks = eights(rows)
+    blocks, cornered = eights(rows), np.empty_like(suspects)
     around, within = call.channels_around, call.channels_within
     p, present = 0, 0
     for first in range(0, len(steps), LANES):
@@ -240,12 +179,25 @@ def extremes_in_steps(
             chosen = every if passing else suspects[:behind]
             if len(chosen) > 0:
                 load_records(chosen, book, lane, at, work)
-                look_at_suspects(
-                    chosen, sharp, low, high, lane, run, at, work, spare, table, around
-                )
+                behind = find_cornered(chosen, at, spare, book, cornered)
+                look_at_suspects(chosen, low, high, lane, run, at, work, spare, table, around)
+                if behind > 0 and high > low:
+                    look_beside_ends(
+                        cornered[:behind],
+                        low,
+                        high,
+                        lane,
+                        run,
+                        at,
+                        work,
+                        spare,
+                        table,
+                        around,
+                        within,
+                    )
                 if passing:
                     look_about_passages(
-                        every, sharp, low, high, lane, run, at, work, spare, table, around, within
+                        every, low, high, lane, run, at, work, spare, table, around, within
                     )
                 store_records(chosen, book, lane, at, work)
             p += 1

@@ -18,8 +18,9 @@ COEFFICIENTS = np.ascontiguousarray(
 SEVENTH = (-1.0, 7.0, -21.0, 35.0)
 """Weights of the seventh difference, of a value less its mirror image."""
 MOST_ROUNDS = 8
-CLOSE = 1e-4
-"""Change of a place, in spacings, that ends the search: a value changes by its square."""
+CLOSE = 1e-2
+"""Change of a place, in spacings, that ends the search: the next one would be its square, and a
+value changes by the square of that."""
 
 
 @inner_kernel()
@@ -34,16 +35,13 @@ def count_if_polynomial(
 ) -> bool:
     """Let extremes of a row inside a part of a step count, if it is a polynomial; whether it is.
 
-    The seventh difference shows a corner by no less than this goes beyond the values. Without one
+    The seventh difference shows a corner by no less than this goes beyond the values. Without one,
     the polynomial through them is off by a hundredth of that difference.
 
     powers : (INSTANTS,) room for coefficients.
     """
-    values, seventh = spare[at.channel + r], 0.0
-    for i in range(len(SEVENTH)):
-        seventh += SEVENTH[i] * (values[i] - values[LAST - i])
-    wide = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])
-    if not abs(seventh) <= SHARP * wide:
+    values = spare[at.channel + r]
+    if has_corner(r, at, spare, book):
         return False
     known = False
     for i in range(INSTANTS):
@@ -59,12 +57,23 @@ def count_if_polynomial(
         if not known:
             fit(values, powers)
             known = True
-        place = turning_point(powers, i - MIDDLE)
+        slope = 0.5 * (values[m + 1] - values[m - 1])
+        place = turning_point(powers, i - MIDDLE, m - MIDDLE - slope / bend)
         value = powers[LAST]
         for k in range(LAST - 1, -1, -1):
             value = value * place + powers[k]
         count_value(book, r, value, begin + spacing * (place + MIDDLE))
     return True
+
+
+@inner_kernel()
+def has_corner(r: int, at: Places, spare: np.ndarray, book: np.ndarray) -> bool:
+    """Whether the seventh difference of a row is too large for a polynomial."""
+    values, seventh = spare[at.channel + r], 0.0
+    for i in range(len(SEVENTH)):
+        seventh += SEVENTH[i] * (values[i] - values[LAST - i])
+    wide = max(book[RANGE, r], book[HIGHEST, r] - book[LOWEST, r])
+    return not abs(seventh) <= SHARP * wide
 
 
 @inner_kernel()
@@ -77,10 +86,13 @@ def fit(values: np.ndarray, powers: np.ndarray) -> None:
 
 
 @inner_kernel()
-def turning_point(powers: np.ndarray, start: float) -> float:
-    """Return where a polynomial turns within one spacing of a place, or that end of it."""
-    low, high = max(start - 1.0, -MIDDLE), min(start + 1.0, MIDDLE)
-    place = start
+def turning_point(powers: np.ndarray, best: float, start: float) -> float:
+    """Return where a polynomial turns within one spacing of a place, or that end of it.
+
+    start : where it seems to turn.
+    """
+    low, high = max(best - 1.0, -MIDDLE), min(best + 1.0, MIDDLE)
+    place = min(max(start, low), high)
     for _ in range(MOST_ROUNDS):
         rate, bend = 0.0, 0.0
         for k in range(LAST, 0, -1):

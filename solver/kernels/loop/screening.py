@@ -119,27 +119,29 @@ def _answer(at, row, begin, end, sharp):
 
 
 def _hides_beside_ends(at, v, low, high, sharp):
-    """Return where an end within `sharp` of an extreme may have a greater one beside it, by more.
+    """Return where beside an end there may be a record, by more than `sharp`, that no value shows.
+
+    A corner shows in the seventh difference of eight values by no less than it goes beyond them.
+    Without one, a channel goes on from its end where it bends by less than it rises, or than is
+    worth a look; otherwise it goes beyond by a part of what it bends.
 
     The end of the step before is the same instant, but may differ in the last bit.
-
-    A corner shows in the seventh difference of eight values by no less than it goes beyond them;
-    without one, a channel goes on from its end where it bends by less than it rises, or than is
-    worth a look.
     """
     b, seventh = at.builder, at.number(0.0)
     for i, weight in enumerate((-1.0, 7.0, -21.0, 35.0)):
         apart = b.fsub(v[i], v[INSTANTS - 1 - i])
         seventh = b.fadd(seventh, b.fmul(at.number(weight), apart))
-    cornered = b.not_(b.fcmp_ordered("<=", at.size(seventh), sharp))
+    seventh = at.size(seventh)
+    cornered = b.not_(b.fcmp_ordered("<=", seventh, sharp))
     found = None
     for end, sense in ((0, 1), (INSTANTS - 1, -1)):
         rise = b.fsub(v[end + sense], v[end])
         bend = at.size(b.fsub(b.fsub(v[end + 2 * sense], v[end + sense]), rise))
         turns = b.and_(at.less(sharp, bend), b.not_(at.less(bend, at.size(rise))))
-        lowest = b.fcmp_ordered("<=", v[end], b.fadd(low, sharp))
-        best = b.or_(lowest, b.fcmp_ordered(">=", v[end], b.fsub(high, sharp)))
-        hides = b.and_(best, b.or_(cornered, turns))
+        reach = b.select(cornered, seventh, at.larger(sharp, b.fmul(at.number(CORNER), bend)))
+        below = b.fcmp_ordered("<=", b.fsub(v[end], reach), low)
+        beyond = b.or_(below, b.fcmp_ordered(">=", b.fadd(v[end], reach), high))
+        hides = b.and_(beyond, b.or_(cornered, turns))
         found = hides if found is None else b.or_(found, hides)
     return found
 

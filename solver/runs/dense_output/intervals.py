@@ -34,6 +34,8 @@ class IntervalExtremes:
         self._last = admission.samples - 1
         self._spacing, self._duration = float(job["output_step"]), float(job["duration"])
         self._sources, self._wanted = self._replay.sought(names)
+        self._columns = [self._wanted.index(name) for name, _, _ in self._sources]
+        self._factors, self._offsets = np.array([source[1:] for source in self._sources]).T
         self._rows, self._table = self._replay.rows(self._wanted), self._replay.table()
         self._present = NONE
         """Sample at the end of the interval that is not complete yet."""
@@ -96,7 +98,8 @@ class IntervalExtremes:
         """Return records (k, rows, 4) of intervals, up to before that of a sample, by channel."""
         rows = np.empty((len(found), 1 + 2 * len(self._sources)))
         rows[:, 0] = np.arange(behind - len(found), behind)
-        for c, (name, factor, offset) in enumerate(self._sources):
-            pairs = found[:, self._wanted.index(name)][:, [LOWEST, HIGHEST]]
-            rows[:, 1 + 2 * c : 3 + 2 * c] = np.sort(factor * pairs + offset, axis=1)
+        for column, line in ((1, LOWEST), (2, HIGHEST)):
+            rows[:, column::2] = self._factors * found[:, self._columns, line] + self._offsets
+        turned = 1 + 2 * np.flatnonzero(self._factors < 0.0)
+        rows[:, turned], rows[:, turned + 1] = rows[:, turned + 1], rows[:, turned]
         return rows

@@ -23,7 +23,9 @@ def cut(begins: Floats, lengths: Floats, edges: Floats) -> tuple[Indices, Floats
     if not low <= high:
         return np.empty((0, 2), np.int64), np.empty((0, 2))
     inside = begins[(begins > low) & (begins < high)]
-    cuts = np.unique(np.concatenate([[low, high], inside, edges[(edges > low) & (edges < high)]]))
+    cuts = np.concatenate([[low], inside, edges[(edges > low) & (edges < high)], [high]])
+    cuts.sort(kind="stable")  # of two ascending pieces: a merge
+    cuts = cuts[np.append(True, cuts[1:] > cuts[:-1])]
     if len(cuts) == 1:  # an instant
         cuts = np.repeat(cuts, 2)
     first, last = cuts[:-1], cuts[1:]
