@@ -23,6 +23,7 @@ TABLE = {
 FORCES: dict[str, dict[str, Any]] = {
     "smooth table": {"course": TABLE | {"between": "smooth"}},
     "monotone table": {"course": TABLE | {"between": "monotone"}},
+    "ramp": {"course": {"type": "ramp", "start": -2.0, "end": 2.0, "length": 0.1}},
     "only rising, in full from 1 m/s": {"only": "rising", "full_rate": 1.0},
     "only rising, in full from 1 mm/s": {"only": "rising", "full_rate": 1e-3},
 }
