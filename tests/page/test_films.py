@@ -34,6 +34,8 @@ PIXELS = """([label, colour]) => {
 """Number of pixels of a colour on a canvas, and their centre."""
 JOURNAL = "#9cc9e8"
 """Colour of journals, and of what slides or follows."""
+FORCE = "#b3123f"
+"""Colour of the arrows of forces."""
 DRAWN = f"""asked => {{
   const found = ({PIXELS})(asked);
   return found[0] > asked[2] && found;
@@ -76,12 +78,15 @@ def test_a_gif_shows_the_stretch_that_is_asked_with_the_magnified_joints(ready):
     path = saved(ready, "GIF")
     with Image.open(path) as film:
         assert (film.width, film.n_frames) == (640, 10)  # 5 ms until the end are 0.5 s of film
-        pictures, delays = [], []
+        pictures, delays, arrows = [], [], []
         for frame in range(film.n_frames):
             film.seek(frame)
             delays.append(film.info["duration"])
             pictures.append(near(film, JOURNAL))
+            arrows.append(near(film, FORCE).sum())
     assert sum(delays) == 500
+    assert arrows[0] == 0  # nothing touches yet
+    assert max(arrows) > 30  # then an arrow has its colour, though the first frame lacks it
     mechanism = ready.locator(".stage canvas").bounding_box()
     first_row = round(640 / mechanism["width"] * mechanism["height"])
     journals = [picture[first_row:] for picture in pictures]
