@@ -75,9 +75,12 @@ def near(picture, colour):
 
 
 def test_a_gif_shows_the_stretch_that_is_asked_with_the_magnified_joints(ready):
+    mechanism = ready.locator(".stage canvas").bounding_box()
     path = saved(ready, "GIF")
     with Image.open(path) as film:
-        assert (film.width, film.n_frames) == (640, 10)  # 5 ms until the end are 0.5 s of film
+        wide = min(mechanism["width"], 640.0)
+        assert film.width == pytest.approx(wide, abs=1.0)  # whole pixels
+        assert film.n_frames == 10  # 5 ms until the end are 0.5 s of film
         pictures, delays, arrows = [], [], []
         for frame in range(film.n_frames):
             film.seek(frame)
@@ -86,9 +89,8 @@ def test_a_gif_shows_the_stretch_that_is_asked_with_the_magnified_joints(ready):
             arrows.append(near(film, FORCE).sum())
     assert sum(delays) == 500
     assert arrows[0] == 0  # nothing touches yet
-    assert max(arrows) > 30  # then an arrow has its colour, though the first frame lacks it
-    mechanism = ready.locator(".stage canvas").bounding_box()
-    first_row = round(640 / mechanism["width"] * mechanism["height"])
+    assert any(arrows)  # then a short arrow has its colour, which the first frame lacks
+    first_row = round(wide / mechanism["width"] * mechanism["height"])
     journals = [picture[first_row:] for picture in pictures]
     assert journals[0].sum() > 5000  # two discs whose radius is a sixth of a cell of 300 pixels
     assert (journals[0] != journals[-1]).sum() > 200  # and they move
