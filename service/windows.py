@@ -6,7 +6,7 @@ from jointplay.storage.results.reader import ResultReader
 from jointplay.worker.windows.question import Answer, Question
 from jointplay.worker.windows.trajectory import Trajectory
 
-_PATIENCE = 60.0  # s; equations that were compiled elsewhere take some 20 of them
+_PATIENCE = 240.0  # s; what is not compiled yet takes some 20 of them, and 60 on a busy machine
 
 
 class WindowProcess:
