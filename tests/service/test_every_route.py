@@ -35,6 +35,7 @@ OPEN = {
 """Addresses that tell everybody the same."""
 SCOPE = {
     "/metrics": "metrics",
+    "/v1/usage": "jobs:read",
     "/v1/workers": "jobs:read",
     "/v1/estimates": "jobs:write",
     "/v1/scenes/check": "jobs:write",
