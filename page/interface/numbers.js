@@ -5,6 +5,7 @@ const PREFIXES = [
 ];
 const RAISED = Object.fromEntries([..."-0123456789n"].map((one, i) => [one, [..."⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ"][i]]));
 const PREFIXED = new Set(["m", "s", "N", "J", "W", "Pa", "N m", "N s", "Hz"]);
+const ROUNDING = 1e-14;
 
 /** Returns a number with few digits: 0.0005, 1569, 2.07e+11. */
 export function short(value, digits = 4) {
@@ -44,6 +45,11 @@ export function span(seconds) {
   if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
   if (whole < 172800) return `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
   return `${Math.round(whole / 86400)} days`;
+}
+
+/** Returns a value, or 0 where it is rounding beside another of the same channel: a crank at 90°. */
+export function notRounding(value, beside) {
+  return value !== null && Math.abs(value) <= ROUNDING * Math.abs(beside) ? 0 : value;
 }
 
 /** Returns a size in bytes for people: 820 kB, 1.2 GB. */

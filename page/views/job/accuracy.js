@@ -1,7 +1,7 @@
 /** How far results can be trusted, in words; and what accuracy costs, of an accuracy-study. */
 
 import { element, fill } from "../../interface/element.js";
-import { short, span, withUnit } from "../../interface/numbers.js";
+import { notRounding, short, span, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
 import { openAddress } from "../../requests/key.js";
 import { whenThere } from "../../interface/when_there.js";
@@ -80,16 +80,16 @@ function spreads(channels) {
 }
 
 function channels({ channels: found }) {
-  const between = (low, high, unit) => {
+  const between = (low, high, unit, beside) => {
     if (low === null || high === null) return "–";
-    const [a, b] = [low, high].map((value) => withUnit(value, unit, 3));
+    const [a, b] = [low, high].map((value) => withUnit(notRounding(value, beside), unit, 3));
     return a === b ? a : `${a} … ${b}`;
   };
   return table("Channels", ["Channel", "Accurate until", "Smallest", "Largest"],
     Object.entries(found).map(([name, { until, unit, extremes: e }]) => [
       name, until === null ? "–" : withUnit(until, "s", 3),
-      between(e.lowest_minimum, e.highest_minimum, unit),
-      between(e.lowest_maximum, e.highest_maximum, unit),
+      between(e.lowest_minimum, e.highest_minimum, unit, e.highest_maximum),
+      between(e.lowest_maximum, e.highest_maximum, unit, e.lowest_minimum),
     ]), "small");
 }
 

@@ -1,7 +1,7 @@
 /** Numbers of a run: extremes of every channel, contacts, the energy ledger. */
 
 import { element, fill } from "../../interface/element.js";
-import { short, withUnit } from "../../interface/numbers.js";
+import { notRounding, short, withUnit } from "../../interface/numbers.js";
 import { table } from "../../interface/table.js";
 import { whenThere } from "../../interface/when_there.js";
 import { get } from "../../requests/service.js";
@@ -28,8 +28,9 @@ export async function show(room, context) {
 
 function peakTable(peaks) {
   const rows = Object.entries(peaks).map(([name, peak]) => [
-    name, withUnit(peak.minimum, peak.unit), withUnit(peak.minimum_time, "s"),
-    withUnit(peak.maximum, peak.unit), withUnit(peak.maximum_time, "s"),
+    name,
+    withUnit(notRounding(peak.minimum, peak.maximum), peak.unit), withUnit(peak.minimum_time, "s"),
+    withUnit(notRounding(peak.maximum, peak.minimum), peak.unit), withUnit(peak.maximum_time, "s"),
   ]);
   return table("Extremes", ["Channel", "Smallest", "at", "Largest", "at"], rows);
 }
