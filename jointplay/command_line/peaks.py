@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from jointplay.records.run import Source
 
 Row = dict[str, Any]
+_ROUNDING = 1e-14
 
 
 def peak_rows(peaks: Mapping[str, "Peak"]) -> list[Row]:
@@ -65,14 +66,22 @@ def headline(source: "Source") -> list[str]:
 
 
 def peak_table(rows: Sequence[Row], *names: str) -> Iterator[str]:
-    """Yield one line for each row: its channel and what else names it, then its numbers."""
+    """Yield one line for each row: its channel and what else names it, then its numbers.
+
+    An extreme that is rounding beside the other one is 0: that of a crank to the side, at 90°.
+    """
     if not rows:
         return
     columns = ("channel", *names)
     numbers = f"{'minimum':>14}  at t [s]   {'maximum':>14}  at t [s]   unit"
     table = [[*columns, numbers]]
     for row in rows:
-        low = f"{row['minimum']:14.7g}  {row['minimum_time']:<9.6g}"
-        high = f"{row['maximum']:14.7g}  {row['maximum_time']:<9.6g}"
+        minimum, maximum = row["minimum"], row["maximum"]
+        low = f"{_not_rounding(minimum, maximum):14.7g}  {row['minimum_time']:<9.6g}"
+        high = f"{_not_rounding(maximum, minimum):14.7g}  {row['maximum_time']:<9.6g}"
         table.append([*(row[name] for name in columns), f"{low}  {high}  {row['unit']}"])
     yield from aligned(table)
+
+
+def _not_rounding(value: float, beside: float) -> float:
+    return 0.0 if abs(value) <= _ROUNDING * abs(beside) else value + 0.0  # nor -0.0
