@@ -52,7 +52,7 @@ def submit_batch(
             found = select(_job.c.id).where(_job.c.batch == earlier.batch).order_by(_job.c.id)
             known = tuple(unit.execute(found).scalars())
             return SubmittedBatch(find_batch(unit, earlier.batch), known, created=False)
-    Uses(unit, {owner: quota}).add(owner, len(jobs))
+    Uses(unit, [owner] if quota else []).add(owner, len(jobs), quota)
     new_batch = {"id": batch_id, "label": label, "created": unit.now, "count": len(jobs)}
     unit.execute(insert(tables.batch).values(new_batch | {"owner": owner}))
     members = zip(job_ids, jobs, strict=True)

@@ -3,7 +3,7 @@
 What an owner has is counted in the unit that would add to it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection
 from dataclasses import astuple, dataclass
 
 from sqlalchemy import func, select
@@ -52,22 +52,21 @@ def use_of(unit: Unit, owner: str) -> Use:
 
 
 class Uses:
-    """What owners with quotas have.
+    """What owners have who may not have more than their quotas.
 
     Made before a unit adds any jobs; units that add to the jobs of one owner take turns.
     """
 
-    def __init__(self, unit: Unit, quotas: Mapping[str, Quota]) -> None:
-        self._quotas = {owner: quota for owner, quota in quotas.items() if quota}
-        if self._quotas:
-            take_turns(unit.connection, *(number_of("live", owner) for owner in self._quotas))
-        self._uses = {owner: use_of(unit, owner) for owner in self._quotas}
+    def __init__(self, unit: Unit, owners: Collection[str]) -> None:
+        if owners:
+            take_turns(unit.connection, *(number_of("live", owner) for owner in owners))
+        self._uses = {owner: use_of(unit, owner) for owner in owners}
 
-    def add(self, owner: str, more: int) -> None:
-        """Count further jobs; QuotaExceeded if they are more than the owner may have."""
-        if owner not in self._quotas:
+    def add(self, owner: str, more: int, quota: Quota) -> None:
+        """Count further jobs; QuotaExceeded if they are more than their key's quota allows."""
+        use = self._uses.get(owner)
+        if use is None:
             return
-        use, quota = self._uses[owner], self._quotas[owner]
         if quota.live and use.live + more > quota.live:
             raise QuotaExceeded(
                 f"{owner} has {use.live} jobs that have not ended, and may have {quota.live};"

@@ -54,7 +54,7 @@ class Request:
     key: SubmissionKey | None
     reuse: bool
     quota: Quota
-    """Limits of its owner."""
+    """Limits of the key that asks for it: an administrator of the same owner has none."""
 
     def names(self) -> set[Hashable]:
         """Return what later requests may find its job by."""
@@ -72,7 +72,7 @@ def submit(
     looked_for = [one.new.number for one in requests if one.reuse]
     looked_for += [one.key.number for one in requests if one.key is not None]
     take_turns(unit.connection, *looked_for)
-    uses = Uses(unit, {one.new.owner: one.quota for one in requests})
+    uses = Uses(unit, {one.new.owner for one in requests if one.quota})
     answers: list[Submitted | CatalogueError] = []
     fresh: list[tuple[Row, Request]] = []
     pending: set[Hashable] = set()
@@ -84,7 +84,7 @@ def submit(
         try:
             answer = _earlier(unit, request)
             if answer is None:
-                uses.add(request.new.owner, 1)
+                uses.add(request.new.owner, 1, request.quota)
         except (KeyReused, QuotaExceeded) as error:
             answers.append(error)
             continue

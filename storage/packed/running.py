@@ -61,7 +61,7 @@ class Running:
 
     @property
     def name(self) -> str:
-        """Of the store among those of its job."""
+        """Name of the store among those of its job."""
         return self._source.name
 
     @property

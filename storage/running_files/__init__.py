@@ -15,7 +15,7 @@ class RunningFiles(Protocol):
 
     @property
     def name(self) -> str:
-        """Of the folder."""
+        """Name of the folder."""
         ...
 
     def below(self, name: str) -> Self:

@@ -21,7 +21,7 @@ class InFolder:
 
     @property
     def name(self) -> str:
-        """Of the folder."""
+        """Name of the folder."""
         return self.path.name
 
     def __str__(self) -> str:

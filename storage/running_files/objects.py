@@ -35,7 +35,7 @@ class InPlace:
 
     @property
     def name(self) -> str:
-        """Of the folder."""
+        """Name of the folder."""
         return self.prefix.rpartition("/")[2]
 
     def __str__(self) -> str:

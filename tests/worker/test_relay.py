@@ -3,6 +3,7 @@ import signal
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from redis import Redis
@@ -207,3 +208,16 @@ def test_the_results_of_deleted_jobs_are_removed(
     assert settings.running_folder(kept).exists()
     assert settings.sealed_run(kept, 1).exists()
     assert catalogue.removable(10) == ()
+
+
+def test_the_results_of_owners_jobs_are_measured_when_they_have_ended(
+    relay: Relay, catalogue: Catalogue, settings: Settings
+) -> None:
+    ended, running = (catalogue.submit(replace(NEW, owner="ada")).job.id for _ in range(2))
+    catalogue.request_cancel(ended)
+    for job in (ended, running):
+        settings.sealed_run(job, 1).put([b"results"])
+        settings.sealed_run(job, 2).put([b"again"])
+    until(lambda: catalogue.get(ended).stored is not None, act=relay.turn)
+    assert catalogue.get(ended).stored == len(b"resultsagain")
+    assert catalogue.get(running).stored is None

@@ -55,7 +55,7 @@ class Answer:
     whole_from: float | None = None
     """Time, s, from which extremes are of whole intervals between samples."""
     resolution: Resolution | None = None
-    """What the numbers were computed from."""
+    """Source of the numbers: steps, the motion, intervals or samples."""
 
     @property
     def note(self) -> str:

@@ -1,4 +1,4 @@
-"""What owners have of what is limited: bytes of results, processor time."""
+"""Use of what owners may have a limited amount of: bytes of results, processor time."""
 
 import sqlalchemy as sa
 from alembic import op

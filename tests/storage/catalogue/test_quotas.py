@@ -10,8 +10,9 @@ import pytest
 from sqlalchemy import select
 from stepped_clock import Clock
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import submission, tables
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import QuotaExceeded
 from jointplay.storage.catalogue.quotas import Quota, Use
 from jointplay.storage.catalogue.records import BlockState, NewJob, SubmissionKey
@@ -64,6 +65,21 @@ def test_what_makes_no_job_is_answered_at_the_limit(catalogue: Catalogue) -> Non
     for answer in made:
         catalogue.request_cancel(answer.job.id)
     assert catalogue.submit(NEW, quota=TWO).created
+
+
+def test_keys_of_one_owner_have_quotas_of_their_own(catalogue: Catalogue, clock: Clock) -> None:
+    limited, free = Quota(live=1), Quota()
+    asked = [
+        submission.Request(new, None, False, quota)
+        for new, quota in zip(jobs_of("ada"), (free, limited, free), strict=False)
+    ]
+    for requests in (asked, asked[::-1]):  # together, in one unit
+        ids = (f"{clock.now:.0f}{number:016}" for number in range(3))
+        with catalogue.connections.writing() as connection:
+            unit = Unit(connection, clock.now)
+            answers = submission.submit(unit, requests, ids.__next__)
+        assert [isinstance(answer, QuotaExceeded) for answer in answers] == [False, True, False]
+        clock.now += 1.0
 
 
 def test_bytes_of_results_count_from_the_end_of_a_job_until_they_are_removed(
