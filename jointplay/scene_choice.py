@@ -23,13 +23,16 @@ def scene_document(scene: Scene) -> Mapping[str, Any]:
     Raises
     ------
     NotAScene
-        The file holds something else.
+        There is no such file, or it holds something else.
     """
     if isinstance(scene, str) and not (scene.endswith(".json") or "/" in scene or os.sep in scene):
         return {"preset": scene}
     if isinstance(scene, Mapping):
         return scene
-    document = parse(Path(scene).read_bytes())
+    try:
+        document = parse(Path(scene).read_bytes())
+    except OSError as error:
+        raise NotAScene(f"{scene}: {error.strerror}.") from error
     if not isinstance(document, dict):
         raise NotAScene(f"{scene}: a scene is a JSON object.")
     return document

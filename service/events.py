@@ -1,13 +1,15 @@
 """``/v1/jobs/{id}/events``: what happens to a job, as server-sent events."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
+from functools import partial
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Header, Response
+from fastapi import APIRouter, Header, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, format_sse_event
 from pydantic import BaseModel, Field
 
+from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import NO_PARAMETERS, CatalogueDependency, JobOfThePath
 from jointplay.service.jobs.schemas import Progress, moment
 from jointplay.service.jobs.waiting import Watcher, WatcherDependency
@@ -66,6 +68,8 @@ class JobProgress(BaseModel):
     responses=STREAM | problems(*kinds.OF_A_JOB, kinds.INVALID_REQUEST),
 )
 async def show_events(
+    request: Request,
+    caller: CallerDependency,
     job: JobOfThePath,
     catalogue: CatalogueDependency,
     watcher: WatcherDependency,
@@ -83,23 +87,31 @@ async def show_events(
 
     Events carry their number as `id`; a client that sends it as Last-Event-ID misses nothing.
     Between them events of the type `progress`, without a number, say how far the job is.
+    A stream ends, too, when its key is revoked or expires.
     """
     if job.state.terminal:
         left = await run_in_threadpool(catalogue.events, job.id, after=last_event_id, limit=1)
         if last_event_id and not left:
             return Response(status_code=204)  # which tells a browser not to come back
+    is_open = partial(request.app.state.door.still_open_to, caller)
     return EventSourceResponse(
-        _stream(job, catalogue, watcher, last_event_id),
+        _stream(job, catalogue, watcher, last_event_id, is_open),
         headers={"Cache-Control": "no-store", "X-Accel-Buffering": "no"},
     )
 
 
 async def _stream(
-    job: Job, catalogue: Catalogue, watcher: Watcher, last: int
+    job: Job,
+    catalogue: Catalogue,
+    watcher: Watcher,
+    last: int,
+    is_open: Callable[[], Awaitable[bool]],
 ) -> AsyncIterator[bytes]:
     yield format_sse_event(retry=_COME_BACK)
     with watcher.watching(job.id) as watch:
         async for status in watch.changes(_QUIET):
+            if not await is_open():
+                return
             if status is None:
                 yield format_sse_event(comment="the job goes on")
                 continue

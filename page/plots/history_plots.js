@@ -28,6 +28,7 @@ export class HistoryPlots {
     this.room = element("div", {}, element("p", { class: "quiet" }, "Reading …"));
     this.element = element("div", { class: "plot-stack" }, this.controls(), this.room);
     this.key = `history-${Math.random()}`;
+    signal.addEventListener("abort", () => this.fetching.abort());
     clock.listen((time) => this.follow(time));
     onNewColours(() => this.rebuild(), signal);
     new ResizeObserver(() => this.resize()).observe(this.room);
@@ -87,7 +88,6 @@ export class HistoryPlots {
     this.fetching.abort();
     this.fetching = new AbortController();
     const { signal } = this.fetching;
-    this.signal.addEventListener("abort", () => this.fetching.abort(), { once: true });
     const points = Math.max(200, Math.min(this.room.clientWidth || 800, 4000));
     try {
       this.data = await histories(this.jobs, this.channels, this.window, points, signal);

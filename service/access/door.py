@@ -60,6 +60,13 @@ class Door:
         await self._rates.count(key.owner)
         return Caller(key.owner, key.scopes, key.id)
 
+    async def still_open_to(self, caller: Caller) -> bool:
+        """Tell whether the key of a request that is still answered is valid."""
+        if not caller.key:
+            return True
+        key = await self._key(caller.key)
+        return key is not None and key.lives(self._catalogue.clock())
+
     async def _of_link(self, link: Link) -> Caller:
         key = await self._key(link.key)
         now = self._catalogue.clock()

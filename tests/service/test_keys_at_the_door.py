@@ -8,6 +8,7 @@ import pytest
 import xarray
 
 from jointplay.client import Client, ClientError
+from jointplay.service import events
 from jointplay.service.access import door
 from tests.service.guarded import SWING, Guarded
 
@@ -113,6 +114,21 @@ def test_a_revoked_key_opens_nothing(guarded: Guarded, monkeypatch: pytest.Monke
         assert name in {key.id for key in used}
         guarded.catalogue.revoke_key(name)
         assert http.get("/v1/jobs").status_code == 401
+
+
+def test_a_stream_ends_when_its_key_is_revoked(
+    guarded: Guarded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(door, "_REMEMBERED", 0.0)
+    monkeypatch.setattr(events, "_QUIET", 0.1)
+    with guarded.as_("ada") as http:
+        waiting = http.post("/v1/jobs", json=SWING | {"duration": 3.0}).json()["id"]
+        with http.stream("GET", f"/v1/jobs/{waiting}/events", timeout=60) as stream:
+            lines = stream.iter_lines()
+            next(line for line in lines if "queued" in line)
+            guarded.catalogue.revoke_key(http.headers["Authorization"].split("_")[1])
+            assert all("running" not in line for line in lines)
+        assert guarded.catalogue.get(waiting).state == "queued"
 
 
 def test_clients_send_it(guarded: Guarded) -> None:
