@@ -4,20 +4,20 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.quantities.units import Name, Strict, quantity
 
 Statistic = Literal["maximum", "minimum", "range", "maximum_time", "minimum_time"]
-UNIT = {"unit": "the parameter's unit"}
-CHANNEL_UNIT = {"unit": "the channel's unit, or s of a time"}
+UNIT = "the parameter's unit"
+CHANNEL_UNIT = "the channel's unit, or s of a time"
 
 CHAINS = 64
 """Chains that spread over what fits equally well, in two halves: whole groups of lanes."""
 
-Bound = Annotated[float, Field(json_schema_extra=UNIT)]
-Value = Annotated[float | None, Field(json_schema_extra=CHANNEL_UNIT)]
-Seconds = Annotated[float, Field(json_schema_extra={"unit": "s"})]
-Ratio = Annotated[float, Field(json_schema_extra={"unit": "1"})]
-Count = Annotated[int, Field(json_schema_extra={"unit": "1"})]
+Bound = Annotated[float, quantity(UNIT)]
+Value = Annotated[float | None, quantity(CHANNEL_UNIT)]
+Seconds = Annotated[float, quantity("s")]
+Ratio = Annotated[float, quantity("1")]
+Count = Annotated[int, quantity("1")]
 
 
 class FreeParameter(Strict):
@@ -43,28 +43,28 @@ class CalibrationTarget(Strict):
     value: Value = None
     between: Annotated[
         list[float | None] | None,
-        Field(
+        quantity(
+            CHANNEL_UNIT,
             min_length=2,
             max_length=2,
             description="lowest and highest value that are as good as any; null: no limit there",
-            json_schema_extra=CHANNEL_UNIT,
         ),
     ] = None
     sampled: Annotated[
         float | None,
-        Field(
+        quantity(
+            "s",
             gt=0.0,
             description="the source read the channel only at multiples of this; so do we, then",
-            json_schema_extra={"unit": "s"},
         ),
     ] = None
     relative_tolerance: Annotated[
         float | None,
-        Field(
+        quantity(
+            "1",
             gt=0.0,
             le=10.0,
             description="what counts as a miss of one, as a share of the value; default 0.05",
-            json_schema_extra={"unit": "1"},
         ),
     ] = None
     absolute_tolerance: Annotated[Value, Field(gt=0.0, description="the same in its unit")] = None
@@ -79,9 +79,7 @@ class CalibrationCase(Strict):
     """One setting of the scene's parameters under which numbers are known."""
 
     name: Annotated[str, Field(max_length=80)] = ""
-    parameters: Annotated[
-        dict[Name, float | str | None], Field(max_length=64, json_schema_extra=UNIT)
-    ] = {}
+    parameters: Annotated[dict[Name, float | str | None], quantity(UNIT, max_length=64)] = {}
     targets: Annotated[list[CalibrationTarget], Field(min_length=1, max_length=256)]
 
 

@@ -16,6 +16,7 @@ from jointplay.solver.kinds.periods import Periods, periods
 from jointplay.solver.kinds.points import one_point
 from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.quantities.roster import NameIn
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.work_precision.plan import WITHOUT_PERIOD, WorkPrecisionStudy, runs_of
 
 TOLERANCES = (1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
@@ -27,11 +28,11 @@ class AccuracyStudyJob(MechanismJob):
     kind: Literal["accuracy-study"]
     duration: Annotated[
         float | None,
-        Field(
+        quantity(
+            "s",
             ge=1e-9,
             le=1e12,
             description="simulated time; default one period of the drivers, 1 s without drivers",
-            json_schema_extra={"unit": "s"},
         ),
     ] = None
     methods: Annotated[
@@ -45,7 +46,7 @@ class AccuracyStudyJob(MechanismJob):
         ),
     ]
     tolerances: Annotated[
-        list[Annotated[float, Field(ge=1e-12, le=1e-2, json_schema_extra={"unit": "1"})]],
+        list[Annotated[float, quantity("1", ge=1e-12, le=1e-2)]],
         Field(
             min_length=1,
             max_length=64,

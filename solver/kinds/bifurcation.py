@@ -8,7 +8,7 @@ from jointplay.solver.kinds.limits import check_count
 from jointplay.solver.kinds.points import Points, one_axis
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
 from jointplay.solver.kinds.values import Values, axis, count
-from jointplay.solver.quantities.units import Name
+from jointplay.solver.quantities.units import Name, quantity
 
 
 class BifurcationJob(SectionStudyJob):
@@ -30,14 +30,14 @@ class BifurcationJob(SectionStudyJob):
     ] = "none"
     chains: Annotated[
         int,
-        Field(
+        quantity(
+            "1",
             ge=1,
             le=1024,
             description=(
                 "contiguous segments that a continuation is cut into; the first value of each"
                 " starts by the start rule; 1 is the strict continuation"
             ),
-            json_schema_extra={"unit": "1"},
         ),
     ] = 8
 

@@ -2,12 +2,11 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.records.failure import InvalidInput
 from jointplay.solver.kinds.limits import check_count
 from jointplay.solver.kinds.points import Points, one_point
 from jointplay.solver.kinds.section_study import SectionStudy, SectionStudyJob
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 
 
@@ -15,28 +14,26 @@ class EnsembleJob(SectionStudyJob):
     """The sections of many runs that differ in their start alone; the first is unperturbed."""
 
     kind: Literal["ensemble"]
-    members: Annotated[
-        int, Field(ge=1, le=10**12, description="number of starts", json_schema_extra={"unit": "1"})
-    ]
+    members: Annotated[int, quantity("1", ge=1, le=10**12, description="number of starts")]
     spread: Annotated[
         float,
-        Field(
+        quantity(
+            "1",
             ge=0.0,
             le=1.0,
             description=(
                 "standard deviation of the start's perturbation: positions relative to the finest"
                 " clearance, velocities to that per period/2pi"
             ),
-            json_schema_extra={"unit": "1"},
         ),
     ] = 1e-3
     seed: Annotated[
         int,
-        Field(
+        quantity(
+            "1",
             ge=0,
             le=2**53 - 1,
             description="seed of the perturbations; the same gives the same",
-            json_schema_extra={"unit": "1"},
         ),
     ] = 0
 

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from jointplay.solver.integrators import AUTO, COARSE, METHODS, STIFF
 from jointplay.solver.quantities.roster import NameIn
-from jointplay.solver.quantities.units import Name, Strict
+from jointplay.solver.quantities.units import Name, Strict, quantity
 from jointplay.solver.runs.admission import STANDARD_TOLERANCE
 from jointplay.solver.scene.document import Scene
 from jointplay.solver.scene.unions import form, has, told_by
@@ -77,11 +77,11 @@ class Job(MechanismJob):
 
     tolerance: Annotated[
         float | None,
-        Field(
+        quantity(
+            "1",
             ge=1e-13,
             le=1e-2,
             description="local error per step, relative to the scene's own scales",
-            json_schema_extra={"unit": "1"},
         ),
     ] = None
     accuracy: Annotated[
@@ -100,10 +100,5 @@ class Job(MechanismJob):
     ] = "auto"
     step: Annotated[
         float | None,
-        Field(
-            ge=1e-12,
-            le=1e3,
-            description="of the method rk4, its fixed step",
-            json_schema_extra={"unit": "s"},
-        ),
+        quantity("s", ge=1e-12, le=1e3, description="of the method rk4, its fixed step"),
     ] = None

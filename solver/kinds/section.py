@@ -4,16 +4,14 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from jointplay.solver.quantities.units import Strict
+from jointplay.solver.quantities.units import Strict, quantity
 from jointplay.solver.scene.unions import form, has, told_by
 
 
 class CrankSection(Strict):
     """Once a period, when the first driver has turned that far past its start."""
 
-    crank_angle: Annotated[
-        float, Field(ge=0.0, lt=6.283185307179586, json_schema_extra={"unit": "rad"})
-    ] = 0.0
+    crank_angle: Annotated[float, quantity("rad", ge=0.0, lt=6.283185307179586)] = 0.0
 
 
 class OnsetSection(Strict):
@@ -32,7 +30,7 @@ class ChannelSection(Strict):
     """Each time that a channel crosses a value in one direction; an angle, once a turn."""
 
     channel: Annotated[str, Field(min_length=1, max_length=80)]
-    value: Annotated[float, Field(json_schema_extra={"unit": "the channel's unit"})]
+    value: Annotated[float, quantity("the channel's unit")]
     direction: Annotated[
         Literal["up", "down"], Field(description="up: the channel grows while it crosses")
     ] = "up"

@@ -18,14 +18,13 @@ from jointplay.solver.kinds.points import Points
 from jointplay.solver.kinds.section import ChannelSection, CrankSection, Section
 from jointplay.solver.kinds.section_checks import check_section
 from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.starts import Perturbation
 from jointplay.solver.runs.study.plan import Study
 from jointplay.solver.scene.unions import form, told_by
 
 Indicator = Literal["lyapunov", "zero_one", "recurrence", "rotation", "spectrum"]
 INDICATORS: tuple[Indicator, ...] = get_args(Indicator)
-
-PERIODS = {"unit": "periods"}
 
 
 def _form_of_settle(value: Any) -> str | None:
@@ -38,12 +37,12 @@ Settle = Annotated[
     Annotated[int, Field(ge=0, le=10**12), form("periods")]
     | Annotated[Literal["auto"], form("auto")],
     told_by(_form_of_settle, "'settle' must be a whole number of periods, or 'auto'"),
-    Field(
+    quantity(
+        "periods",
         description=(
             "periods before the first recorded section; auto: until the statistics of the sections"
             " have settled"
         ),
-        json_schema_extra=PERIODS,
     ),
 ]
 
@@ -71,8 +70,7 @@ class SectionStudyJob(Job):
 
     settle: Settle = 100
     record: Annotated[
-        int,
-        Field(ge=1, le=10**12, description="sections kept per point", json_schema_extra=PERIODS),
+        int, quantity("periods", ge=1, le=10**12, description="sections kept per point")
     ] = 50
     section: Section = CrankSection()
     observables: Annotated[

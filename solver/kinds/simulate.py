@@ -14,6 +14,7 @@ from jointplay.solver.kinds.mechanism import check, resolve, written
 from jointplay.solver.kinds.methods import chosen
 from jointplay.solver.kinds.section import CrankSection
 from jointplay.solver.mechanics.assembly import shortest_link
+from jointplay.solver.quantities.units import quantity
 from jointplay.solver.runs.admission import Admission
 from jointplay.solver.scene.channels import channels, select
 from jointplay.solver.scene.document import Scene
@@ -33,25 +34,18 @@ class SimulateJob(Job):
     """One trajectory from the scene's start."""
 
     kind: Literal["simulate"]
-    duration: Annotated[
-        float,
-        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
-    ]
+    duration: Annotated[float, quantity("s", ge=1e-9, le=1e12, description="simulated time")]
     output_step: Annotated[
         float | None,
-        Field(
-            ge=1e-15,
-            description="time between samples; default duration/2000",
-            json_schema_extra={"unit": "s"},
-        ),
+        quantity("s", ge=1e-15, description="time between samples; default duration/2000"),
     ] = None
     settle: Annotated[
         float,
-        Field(
+        quantity(
+            "s",
             ge=0.0,
             le=1e12,
             description="what comes before does not count in peaks; changes nothing else",
-            json_schema_extra={"unit": "s"},
         ),
     ] = 0.0
     channels: Annotated[
@@ -67,7 +61,8 @@ class SimulateJob(Job):
 
     steps_limit: Annotated[
         int,
-        Field(
+        quantity(
+            "B",
             ge=0,
             le=limits.MOST_BYTES,
             description=(
@@ -75,7 +70,6 @@ class SimulateJob(Job):
                 " is read exactly; beyond, smallest and largest values from sample to sample are"
                 " kept; 0: these only"
             ),
-            json_schema_extra={"unit": "B"},
         ),
     ] = limits.STEP_BYTES
 

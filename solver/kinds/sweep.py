@@ -24,11 +24,11 @@ from jointplay.solver.kinds.statistics import (
 )
 from jointplay.solver.kinds.studies import PlacedPoints, make_study, place_points
 from jointplay.solver.kinds.values import UNIT, Values, axis, count
-from jointplay.solver.quantities.units import Name
+from jointplay.solver.quantities.units import Name, quantity
 from jointplay.solver.runs.study.plan import Study
 
 PointValues = Annotated[
-    dict[Name, Annotated[float, Field(json_schema_extra=UNIT)]], Field(min_length=1, max_length=64)
+    dict[Name, Annotated[float, quantity(UNIT)]], Field(min_length=1, max_length=64)
 ]
 
 
@@ -49,28 +49,24 @@ class SweepJob(Job):
         Field(min_length=1, description="or one value of each parameter for every point"),
     ] = None
     duration: Annotated[
-        float | None,
-        Field(ge=1e-9, le=1e12, description="simulated time", json_schema_extra={"unit": "s"}),
+        float | None, quantity("s", ge=1e-9, le=1e12, description="simulated time")
     ] = None
     periods: Annotated[
         float | None,
-        Field(
-            gt=0.0,
-            le=1e12,
-            description="or simulated time in periods of each point",
-            json_schema_extra={"unit": "periods"},
+        quantity(
+            "periods", gt=0.0, le=1e12, description="or simulated time in periods of each point"
         ),
     ] = None
     settle: Annotated[
         float,
-        Field(
+        quantity(
+            "s or periods",
             ge=0.0,
             le=1e12,
             description=(
                 "what comes before does not count in peaks and statistics; in the unit of the"
                 " duration"
             ),
-            json_schema_extra={"unit": "s or periods"},
         ),
     ] = 0.0
     channels: Annotated[
@@ -96,7 +92,8 @@ class SweepJob(Job):
     ] = []
     samples_per_period: Annotated[
         int,
-        Field(
+        quantity(
+            "1",
             ge=16,
             le=4096,
             description=(
@@ -104,7 +101,6 @@ class SweepJob(Job):
                 " spaced, of the dense output, in the scene's own time scale if the drivers have"
                 " no period"
             ),
-            json_schema_extra={"unit": "1"},
         ),
     ] = 256
 

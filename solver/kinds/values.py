@@ -11,20 +11,18 @@ from pydantic import Field
 from jointplay.records.arrays import Floats
 from jointplay.records.failure import InvalidInput, Problem
 from jointplay.solver.kinds.points import Axis
-from jointplay.solver.quantities.units import Strict
+from jointplay.solver.quantities.units import Strict, quantity
 from jointplay.solver.scene.unions import form, told_by
 
-UNIT = {"unit": "the parameter's unit"}
+UNIT = "the parameter's unit"
 
 
 class Range(Strict):
     """`count` values from the first to the last, both included, in equal steps or equal ratios."""
 
-    start: Annotated[float, Field(alias="from", json_schema_extra=UNIT)]
-    stop: Annotated[float, Field(alias="to", json_schema_extra=UNIT)]
-    count: Annotated[
-        int, Field(ge=1, le=10**12, description="number of values", json_schema_extra={"unit": "1"})
-    ]
+    start: Annotated[float, quantity(UNIT, alias="from")]
+    stop: Annotated[float, quantity(UNIT, alias="to")]
+    count: Annotated[int, quantity("1", ge=1, le=10**12, description="number of values")]
     spacing: Annotated[
         Literal["linear", "log"],
         Field(description="linear: equal steps; log: equal ratios, for values of one sign"),
@@ -39,9 +37,7 @@ def _form_of_values(value: Any) -> str | None:
 
 Values = Annotated[
     Annotated[Range, form("range")]
-    | Annotated[
-        list[Annotated[float, Field(json_schema_extra=UNIT)]], Field(min_length=1), form("list")
-    ],
+    | Annotated[list[Annotated[float, quantity(UNIT)]], Field(min_length=1), form("list")],
     told_by(
         _form_of_values,
         "The values must be a list of numbers, or an object with 'from', 'to' and 'count'",

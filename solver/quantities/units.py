@@ -30,29 +30,29 @@ class Rule:
     sentence: Callable[[Any], str]
 
 
+def quantity(unit: str, *, structural: list[float] | None = None, **bounds: Any) -> Any:
+    """Return the `Field` of a number with a unit; `bounds` are what a field takes."""
+    extra: dict[str, Any] = {} if structural is None else {"structural": structural}
+    return Field(json_schema_extra={"unit": unit, **extra}, **bounds)
+
+
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}$")]
 PointReference = Annotated[
     str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,31}\.[A-Za-z][A-Za-z0-9_-]{0,31}$")
 ]
 
-Coordinate = Annotated[
-    float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m", "structural": [0.0]})
-]
+Coordinate = Annotated[float, quantity("m", ge=-1e6, le=1e6, structural=[0.0])]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Direction = Annotated[
-    list[
-        Annotated[
-            float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1", "structural": [0.0]})
-        ]
-    ],
+    list[Annotated[float, quantity("1", ge=-1e6, le=1e6, structural=[0.0])]],
     Field(min_length=2, max_length=2),
 ]
-Acceleration = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "m/s^2"})]
-Angle = Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad"})]
-AngularVelocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s"})]
-Length = Annotated[float, Field(ge=-1e3, le=1e3, json_schema_extra={"unit": "m"})]
-Velocity = Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "m/s"})]
-Mass = Annotated[float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "kg"})]
-Inertia = Annotated[float, Field(ge=1e-18, le=1e12, json_schema_extra={"unit": "kg m^2"})]
-RadialClearance = Annotated[float, Field(ge=0.0, le=1.0, json_schema_extra={"unit": "m"})]
-Radius = Annotated[float, Field(gt=0.0, le=1e3, json_schema_extra={"unit": "m"})]
+Acceleration = Annotated[float, quantity("m/s^2", ge=-1e6, le=1e6)]
+Angle = Annotated[float, quantity("rad", ge=-1e4, le=1e4)]
+AngularVelocity = Annotated[float, quantity("rad/s", ge=-1e5, le=1e5)]
+Length = Annotated[float, quantity("m", ge=-1e3, le=1e3)]
+Velocity = Annotated[float, quantity("m/s", ge=-1e5, le=1e5)]
+Mass = Annotated[float, quantity("kg", ge=1e-9, le=1e9)]
+Inertia = Annotated[float, quantity("kg m^2", ge=1e-18, le=1e12)]
+RadialClearance = Annotated[float, quantity("m", ge=0.0, le=1.0)]
+Radius = Annotated[float, quantity("m", gt=0.0, le=1e3)]

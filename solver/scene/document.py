@@ -22,6 +22,7 @@ from jointplay.solver.quantities.units import (
     PointReference,
     Strict,
     Velocity,
+    quantity,
 )
 from jointplay.solver.scene.drivers import AnyDriver
 from jointplay.solver.scene.joints import Gear, Joint
@@ -130,7 +131,7 @@ class Reported(Strict):
 
     where: Annotated[str, Field(max_length=120)]
     parameters: Annotated[dict[Name, float | str], Field(max_length=32)] = {}
-    duration: Annotated[float, Field(gt=0.0, json_schema_extra={"unit": "s"})]
+    duration: Annotated[float, quantity("s", gt=0.0)]
     channel: Annotated[str, Field(max_length=64)]
     statistic: Literal["maximum", "minimum"]
     value: float
@@ -151,11 +152,11 @@ class Scene(Strict):
     gravity: Annotated[list[Acceleration], Field(min_length=2, max_length=2)] = [0.0, 0.0]
     period: Annotated[
         float | None,
-        Field(
+        quantity(
+            "s",
             gt=0.0,
             le=1e6,
             description="time between sections where what drives the scene does not repeat",
-            json_schema_extra={"unit": "s"},
         ),
     ] = None
     ground: Ground = Ground()

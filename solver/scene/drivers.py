@@ -3,14 +3,13 @@
 from abc import abstractmethod
 from typing import Annotated, Any
 
-from pydantic import Field
-
 from jointplay.solver.laws.function import FUNCTIONS, Derivatives, Function
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.scalars import Scalar
 from jointplay.solver.quantities.units import (
     Name,
     Strict,
+    quantity,
 )
 from jointplay.solver.scene.unions import form, has, told_by
 
@@ -28,7 +27,7 @@ class Driver(Strict):
 
     joint: Name | None = None
     body: Name | None = None
-    position: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad or m"})] = 0.0
+    position: Annotated[float, quantity("rad or m", ge=-1e4, le=1e4)] = 0.0
 
     @abstractmethod
     def at(self, clock: Scalar) -> Derivatives:
@@ -48,7 +47,7 @@ class Driver(Strict):
 class SteadyDriver(Driver):
     """Prescribed motion at constant speed, position + speed * t; its clock shows the position."""
 
-    speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s or m/s"})]
+    speed: Annotated[float, quantity("rad/s or m/s", ge=-1e5, le=1e5)]
 
     def at(self, clock: Scalar) -> Derivatives:
         """See `Driver.at`."""

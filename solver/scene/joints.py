@@ -17,6 +17,7 @@ from jointplay.solver.quantities.units import (
     RadialClearance,
     Radius,
     Strict,
+    quantity,
 )
 from jointplay.solver.scene.cams import FlatFollower, RollerFollower
 
@@ -118,7 +119,7 @@ class Gear(Strict):
 
     first: Name
     second: Name
-    ratio: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "1"})]
+    ratio: Annotated[float, quantity("1", ge=-1e4, le=1e4)]
     offset: Angle = 0.0
 
 

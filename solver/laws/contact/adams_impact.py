@@ -2,11 +2,11 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.contact.law import ContactLaw
 from jointplay.solver.laws.fit import Fit
+from jointplay.solver.laws.stiffness.power import Exponent, GivenStiffness
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, positive_part, power
+from jointplay.solver.quantities.units import quantity
 
 
 class AdamsImpact(ContactLaw):
@@ -22,21 +22,10 @@ class AdamsImpact(ContactLaw):
     """
 
     law: Literal["adams-impact"] = "adams-impact"
-    stiffness: Annotated[
-        float, Field(gt=0.0, le=1e18, description="K", json_schema_extra={"unit": "N/m^n"})
-    ]
-    exponent: Annotated[
-        float,
-        Field(
-            ge=1.0, le=3.0, description="n", json_schema_extra={"unit": "1", "structural": [1.5]}
-        ),
-    ] = 1.5
-    damping: Annotated[
-        float, Field(ge=0.0, le=1e12, description="C", json_schema_extra={"unit": "N s/m"})
-    ]
-    full_damping_depth: Annotated[
-        float, Field(gt=0.0, le=1.0, description="d", json_schema_extra={"unit": "m"})
-    ]
+    stiffness: GivenStiffness
+    exponent: Exponent = 1.5
+    damping: Annotated[float, quantity("N s/m", ge=0.0, le=1e12, description="C")]
+    full_damping_depth: Annotated[float, quantity("m", gt=0.0, le=1.0, description="d")]
 
     def normal_force(self, fit: Fit, depth: Scalar, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n, N."""

@@ -2,8 +2,6 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.contact.law import ContactLaw
 from jointplay.solver.laws.dissipation.lankarani_nikravesh import LankaraniNikraveshDamping
 from jointplay.solver.laws.dissipation.latched import ImpactRateFloor
@@ -13,7 +11,7 @@ from jointplay.solver.laws.stiffness.hertz_spheres import HertzSpheres
 from jointplay.solver.laws.stiffness.material import PoissonRatio, YoungsModulus
 from jointplay.solver.laws.stiffness.power import Power
 from jointplay.solver.quantities.scalars import Scalar, positive_part
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 
 class LankaraniNikravesh(ContactLaw):
@@ -36,14 +34,11 @@ class LankaraniNikravesh(ContactLaw):
 
     law: Literal["lankarani-nikravesh"] = "lankarani-nikravesh"
     stiffness: Annotated[
-        float | None,
-        Field(gt=0.0, le=1e18, description="K; none: eq. 9", json_schema_extra={"unit": "N/m^n"}),
+        float | None, quantity("N/m^n", gt=0.0, le=1e18, description="K; none: eq. 9")
     ] = None
     youngs_modulus: YoungsModulus = 2.07e11
     poisson_ratio: PoissonRatio = 0.29
-    exponent: Annotated[
-        float, Field(ge=1.0, le=3.0, json_schema_extra={"unit": "1", "structural": [1.5]})
-    ] = 1.5
+    exponent: Annotated[float, quantity("1", ge=1.0, le=3.0, structural=[1.5])] = 1.5
     restitution: Restitution = 0.9
     impact_rate_floor: ImpactRateFloor = 1e-3
 

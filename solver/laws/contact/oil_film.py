@@ -4,13 +4,11 @@ import math
 from abc import abstractmethod
 from typing import Annotated
 
-from pydantic import Field
-
 from jointplay.solver.laws.contact.film import Film, Pair
 from jointplay.solver.laws.contact.stiffness_and_dissipation import StiffnessAndDissipation
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.quantities.scalars import SLIGHT, Scalar, clamp_to_unit, minimum, sqrt
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 BEARING = (
     Rule(
@@ -46,16 +44,14 @@ class OilFilm(StiffnessAndDissipation):
     2006, Mech. Mach. Theory 41:247.
     """
 
-    viscosity: Annotated[
-        float, Field(gt=0.0, le=1e6, description="μ", json_schema_extra={"unit": "Pa s"})
-    ]
+    viscosity: Annotated[float, quantity("Pa s", gt=0.0, le=1e6, description="μ")]
     boundary_layer: Annotated[
         float,
-        Field(
+        quantity(
+            "m",
             gt=0.0,
             le=1.0,
             description="thickness from which the film fades, as of rough surfaces",
-            json_schema_extra={"unit": "m"},
         ),
     ]
 

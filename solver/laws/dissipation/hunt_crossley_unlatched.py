@@ -2,10 +2,9 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.dissipation.law import Dissipation, Elastic
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import quantity
 
 
 class HuntCrossleyUnlatched(Dissipation):
@@ -22,9 +21,7 @@ class HuntCrossleyUnlatched(Dissipation):
     """
 
     law: Literal["hunt-crossley-unlatched"] = "hunt-crossley-unlatched"
-    loss: Annotated[
-        float, Field(ge=0.0, le=1e6, description="α", json_schema_extra={"unit": "s/m"})
-    ]
+    loss: Annotated[float, quantity("s/m", ge=0.0, le=1e6, description="α")]
 
     def normal_force(self, elastic: Elastic, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n, N."""

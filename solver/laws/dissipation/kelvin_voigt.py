@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.dissipation.law import Dissipation, Elastic
 from jointplay.solver.laws.stiffness import Stiffness
 from jointplay.solver.quantities.scalars import Scalar, select_positive
+from jointplay.solver.quantities.units import quantity
 
 
 class KelvinVoigt(Dissipation):
@@ -21,9 +20,7 @@ class KelvinVoigt(Dissipation):
     """
 
     law: Literal["kelvin-voigt"] = "kelvin-voigt"
-    damping: Annotated[
-        float, Field(ge=0.0, le=1e12, description="D", json_schema_extra={"unit": "N s/m"})
-    ]
+    damping: Annotated[float, quantity("N s/m", ge=0.0, le=1e12, description="D")]
 
     def normal_force(self, elastic: Elastic, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n, N."""

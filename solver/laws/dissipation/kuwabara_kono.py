@@ -2,11 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.dissipation.law import Dissipation, Elastic
 from jointplay.solver.laws.stiffness import Stiffness
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import quantity
 
 
 class KuwabaraKono(Dissipation):
@@ -23,9 +22,7 @@ class KuwabaraKono(Dissipation):
     """
 
     law: Literal["kuwabara-kono"] = "kuwabara-kono"
-    relaxation_time: Annotated[
-        float, Field(ge=0.0, le=1.0, description="A", json_schema_extra={"unit": "s"})
-    ]
+    relaxation_time: Annotated[float, quantity("s", ge=0.0, le=1.0, description="A")]
 
     def normal_force(self, elastic: Elastic, rate: Scalar, impact_rate: Scalar) -> Scalar:
         """Return F_n, N."""

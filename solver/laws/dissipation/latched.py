@@ -3,19 +3,13 @@
 from abc import abstractmethod
 from typing import Annotated
 
-from pydantic import Field
-
 from jointplay.solver.laws.dissipation.law import Dissipation, Elastic
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import quantity
 
 ImpactRateFloor = Annotated[
     float,
-    Field(
-        gt=0.0,
-        le=1e3,
-        description="smallest impact rate that the damping divides by",
-        json_schema_extra={"unit": "m/s"},
-    ),
+    quantity("m/s", gt=0.0, le=1e3, description="smallest impact rate that the damping divides by"),
 ]
 
 

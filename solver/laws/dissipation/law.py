@@ -4,24 +4,22 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-from pydantic import Field
-
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.laws.stiffness import Stiffness
 from jointplay.solver.laws.stiffness.power import NOTHING
 from jointplay.solver.quantities.scalars import Scalar, positive_part
-from jointplay.solver.quantities.units import Rule, Strict
+from jointplay.solver.quantities.units import Rule, Strict, quantity
 
-Restitution = Annotated[float, Field(ge=0.0, le=1.0, json_schema_extra={"unit": "1"})]
-SomeRestitution = Annotated[float, Field(ge=1e-3, le=1.0, json_schema_extra={"unit": "1"})]
+Restitution = Annotated[float, quantity("1", ge=0.0, le=1.0)]
+SomeRestitution = Annotated[float, quantity("1", ge=1e-3, le=1.0)]
 """Restitution of laws that divide by it, or take its logarithm."""
 EffectiveMass = Annotated[
     float,
-    Field(
+    quantity(
+        "kg",
         gt=0.0,
         le=1e9,
         description="m_i m_j / (m_i + m_j) of the bodies as they feel at the contact",
-        json_schema_extra={"unit": "kg"},
     ),
 ]
 

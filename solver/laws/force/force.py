@@ -2,12 +2,10 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.law import Effect, Ends
 from jointplay.solver.laws.force.varying import Varying
 from jointplay.solver.quantities.scalars import sqrt
-from jointplay.solver.quantities.units import Direction, Rule
+from jointplay.solver.quantities.units import Direction, Rule, quantity
 
 
 class Force(Varying):
@@ -23,7 +21,7 @@ class Force(Varying):
     """
 
     type: Literal["force"]
-    magnitude: Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N"})]
+    magnitude: Annotated[float, quantity("N", ge=-1e12, le=1e12)]
     direction: Direction
     axes: Literal["world", "first", "second"] = "world"
     rules: ClassVar[tuple[Rule, ...]] = (

@@ -2,10 +2,8 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 
 class Motor(ForceElement):
@@ -23,8 +21,8 @@ class Motor(ForceElement):
     """
 
     type: Literal["motor"]
-    stall_torque: Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
-    no_load_speed: Annotated[float, Field(ge=-1e5, le=1e5, json_schema_extra={"unit": "rad/s"})]
+    stall_torque: Annotated[float, quantity("N m", ge=-1e12, le=1e12)]
+    no_load_speed: Annotated[float, quantity("rad/s", ge=-1e5, le=1e5)]
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
             "no_load_speed",

@@ -2,11 +2,9 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.distance import distance
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 
 class SpringDamper(ForceElement):
@@ -22,15 +20,9 @@ class SpringDamper(ForceElement):
     """
 
     type: Literal["spring-damper"]
-    stiffness: Annotated[
-        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N/m", "structural": [0.0]})
-    ] = 0.0
-    damping: Annotated[
-        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N s/m", "structural": [0.0]})
-    ] = 0.0
-    free_length: Annotated[
-        float, Field(ge=0.0, le=1e3, json_schema_extra={"unit": "m", "structural": [0.0]})
-    ] = 0.0
+    stiffness: Annotated[float, quantity("N/m", ge=0.0, le=1e12, structural=[0.0])] = 0.0
+    damping: Annotated[float, quantity("N s/m", ge=0.0, le=1e12, structural=[0.0])] = 0.0
+    free_length: Annotated[float, quantity("m", ge=0.0, le=1e3, structural=[0.0])] = 0.0
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(
             "stiffness",

@@ -2,10 +2,9 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.law import Effect, Ends
 from jointplay.solver.laws.force.varying import Varying
+from jointplay.solver.quantities.units import quantity
 
 
 class Torque(Varying):
@@ -19,7 +18,7 @@ class Torque(Varying):
     """
 
     type: Literal["torque"]
-    moment: Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "N m"})]
+    moment: Annotated[float, quantity("N m", ge=-1e12, le=1e12)]
     channels: ClassVar[tuple[tuple[str, str, str], ...]] = (
         ("moment", "N m", "moment on the second point's body"),
     )

@@ -2,10 +2,8 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.law import Effect, Ends, ForceElement
-from jointplay.solver.quantities.units import Angle, Rule
+from jointplay.solver.quantities.units import Angle, Rule, quantity
 
 
 class TorsionSpring(ForceElement):
@@ -21,12 +19,8 @@ class TorsionSpring(ForceElement):
     """
 
     type: Literal["torsion-spring"]
-    stiffness: Annotated[
-        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N m/rad", "structural": [0.0]})
-    ] = 0.0
-    damping: Annotated[
-        float, Field(ge=0.0, le=1e12, json_schema_extra={"unit": "N m s/rad", "structural": [0.0]})
-    ] = 0.0
+    stiffness: Annotated[float, quantity("N m/rad", ge=0.0, le=1e12, structural=[0.0])] = 0.0
+    damping: Annotated[float, quantity("N m s/rad", ge=0.0, le=1e12, structural=[0.0])] = 0.0
     free_angle: Angle = 0.0
     rules: ClassVar[tuple[Rule, ...]] = (
         Rule(

@@ -2,12 +2,11 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.force.law import Ends, ForceElement, Over
 from jointplay.solver.laws.function import FUNCTIONS, Function
 from jointplay.solver.quantities.roster import MemberOf
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
+from jointplay.solver.quantities.units import quantity
 
 TIME = Over()
 """Argument where nothing else is said."""
@@ -23,9 +22,7 @@ class Varying(ForceElement):
     course: Annotated[Function, MemberOf(FUNCTIONS, "type", required=True)] | None = None
     over: Over | None = None
     only: Literal["rising", "falling"] | None = None
-    full_rate: Annotated[
-        float, Field(gt=0.0, le=1e6, json_schema_extra={"unit": "unit of `over` per s"})
-    ] = 1e-3
+    full_rate: Annotated[float, quantity("unit of `over` per s", gt=0.0, le=1e6)] = 1e-3
 
     def follows(self) -> Over | None:
         """Return what it is a function of, if it varies."""

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.friction.breakaway import Breakaway, SlipSpeed
 from jointplay.solver.quantities.scalars import (
     Scalar,
@@ -14,6 +12,7 @@ from jointplay.solver.quantities.scalars import (
     minimum,
     sign,
 )
+from jointplay.solver.quantities.units import quantity
 
 
 class BengisuAkay(Breakaway):
@@ -31,7 +30,7 @@ class BengisuAkay(Breakaway):
 
     law: Literal["bengisu-akay"] = "bengisu-akay"
     static_velocity: SlipSpeed = 1e-3
-    decay: Annotated[float, Field(ge=0.0, le=1e6, json_schema_extra={"unit": "s/m"})] = 100.0
+    decay: Annotated[float, quantity("s/m", ge=0.0, le=1e6)] = 100.0
 
     def friction_force(
         self, normal_force: Scalar, slip: Scalar, inner: Sequence[Scalar] = ()

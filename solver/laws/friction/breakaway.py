@@ -2,14 +2,12 @@
 
 from typing import Annotated, ClassVar
 
-from pydantic import Field
-
 from jointplay.solver.laws.friction.law import FrictionLaw
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
-Coefficient = Annotated[float, Field(gt=0.0, le=10.0, json_schema_extra={"unit": "1"})]
-SlipSpeed = Annotated[float, Field(gt=0.0, le=1e3, json_schema_extra={"unit": "m/s"})]
+Coefficient = Annotated[float, quantity("1", gt=0.0, le=10.0)]
+SlipSpeed = Annotated[float, quantity("m/s", gt=0.0, le=1e3)]
 
 
 class Breakaway(FrictionLaw):

@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.friction.breakaway import Coefficient
 from jointplay.solver.laws.friction.law import FrictionLaw, InnerState
 from jointplay.solver.quantities.scalars import Scalar, absolute
+from jointplay.solver.quantities.units import quantity
 
 BristleStiffness = Annotated[
-    float,
-    Field(gt=0.0, le=1e9, description="σ_0, a normal force", json_schema_extra={"unit": "1/m"}),
+    float, quantity("1/m", gt=0.0, le=1e9, description="σ_0, a normal force")
 ]
 
 

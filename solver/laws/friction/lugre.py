@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.friction.breakaway import Breakaway, SlipSpeed
 from jointplay.solver.laws.friction.dahl import BristleStiffness
 from jointplay.solver.laws.friction.law import InnerState
 from jointplay.solver.quantities.scalars import Scalar, absolute, exponential
+from jointplay.solver.quantities.units import quantity
 
-Damping = Annotated[float, Field(ge=0.0, le=1e6, json_schema_extra={"unit": "s/m"})]
+Damping = Annotated[float, quantity("s/m", ge=0.0, le=1e6)]
 
 
 class LuGre(Breakaway):

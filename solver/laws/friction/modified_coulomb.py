@@ -14,7 +14,7 @@ from jointplay.solver.quantities.scalars import (
     minimum,
     sign,
 )
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 STEEPEST_RAMP = 1e300
 """Slope (s/m) that stands for the step at equal limit velocities; finite, so 0 * slope is 0."""
@@ -33,15 +33,9 @@ class ModifiedCoulomb(FrictionLaw):
     """
 
     law: Literal["modified-coulomb"] = "modified-coulomb"
-    coefficient: Annotated[
-        float, Field(ge=0.0, le=10.0, json_schema_extra={"unit": "1", "structural": [0.0]})
-    ]
-    static_velocity: Annotated[float, Field(ge=0.0, le=1e3, json_schema_extra={"unit": "m/s"})] = (
-        1e-4
-    )
-    dynamic_velocity: Annotated[float, Field(gt=0.0, le=1e3, json_schema_extra={"unit": "m/s"})] = (
-        1e-3
-    )
+    coefficient: Annotated[float, quantity("1", ge=0.0, le=10.0, structural=[0.0])]
+    static_velocity: Annotated[float, quantity("m/s", ge=0.0, le=1e3)] = 1e-4
+    dynamic_velocity: Annotated[float, quantity("m/s", gt=0.0, le=1e3)] = 1e-3
     slip_velocity: Annotated[
         Literal["material", "as-published"],
         Field(

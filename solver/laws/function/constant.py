@@ -2,19 +2,16 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import quantity
 
 
 class Constant(Function):
     """f(x) = value."""
 
     type: Literal["constant"]
-    value: Annotated[
-        float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})
-    ]
+    value: Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]
 
     def at(self, x: Scalar) -> Derivatives:
         """Return the value."""

@@ -16,7 +16,7 @@ from jointplay.solver.quantities.scalars import (
     minimum,
     select_positive,
 )
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 MOST_KNOTS = 64
 BENDS = 4.0
@@ -27,7 +27,7 @@ SLACK = 1e-9
 """Share of the span by which rounding may pass an end beyond which arguments are refused."""
 
 Knots = Annotated[
-    list[Annotated[float, Field(ge=-1e9, le=1e9, json_schema_extra={"unit": "unit of x"})]],
+    list[Annotated[float, quantity("unit of x", ge=-1e9, le=1e9)]],
     Field(min_length=2, max_length=MOST_KNOTS),
 ]
 Outside = Literal["held", "periodic", "refused"]

@@ -8,11 +8,9 @@ from pydantic import Field
 
 from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar
+from jointplay.solver.quantities.units import quantity
 
-Coefficient = Annotated[
-    float,
-    Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value per unit^k of x"}),
-]
+Coefficient = Annotated[float, quantity("unit of the value per unit^k of x", ge=-1e12, le=1e12)]
 
 
 class Polynomial(Function):

@@ -3,13 +3,12 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted
+from jointplay.solver.quantities.units import quantity
 
-Value = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
-Length = Annotated[float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "unit of x"})]
+Value = Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]
+Length = Annotated[float, quantity("unit of x", ge=1e-9, le=1e9)]
 STEEPEST = (1.875, 10.0 / math.sqrt(3.0), 60.0, 360.0, 720.0)
 """Largest magnitudes of the derivatives of 10 u³ - 15 u⁴ + 6 u⁵ on 0..1, the first at u = 1/2."""
 

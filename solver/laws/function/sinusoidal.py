@@ -3,12 +3,11 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.function.law import SMOOTH, Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar, sine_cosine
+from jointplay.solver.quantities.units import quantity
 
-Value = Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
+Value = Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]
 
 
 class Sinusoidal(Function):
@@ -16,10 +15,8 @@ class Sinusoidal(Function):
 
     type: Literal["sinusoidal"]
     amplitude: Value
-    frequency: Annotated[
-        float, Field(ge=1e-9, le=1e9, json_schema_extra={"unit": "rad per unit of x"})
-    ]
-    phase: Annotated[float, Field(ge=-1e4, le=1e4, json_schema_extra={"unit": "rad"})] = 0.0
+    frequency: Annotated[float, quantity("rad per unit of x", ge=1e-9, le=1e9)]
+    phase: Annotated[float, quantity("rad", ge=-1e4, le=1e4)] = 0.0
     offset: Value = 0.0
 
     def at(self, x: Scalar) -> Derivatives:

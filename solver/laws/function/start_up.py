@@ -3,15 +3,12 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.laws.function.ramp import STEEPEST, Length, step
 from jointplay.solver.quantities.scalars import Scalar, clamp_to_unit, knotted, positive_part
+from jointplay.solver.quantities.units import quantity
 
-Rate = Annotated[
-    float, Field(ge=-1e9, le=1e9, json_schema_extra={"unit": "unit of the value per unit of x"})
-]
+Rate = Annotated[float, quantity("unit of the value per unit of x", ge=-1e9, le=1e9)]
 
 
 class StartUp(Function):

@@ -18,12 +18,10 @@ from jointplay.solver.laws.function.knots import (
 )
 from jointplay.solver.laws.function.law import Derivatives, Function
 from jointplay.solver.quantities.scalars import Scalar, maximum, select_positive
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
 Values = Annotated[
-    list[
-        Annotated[float, Field(ge=-1e12, le=1e12, json_schema_extra={"unit": "unit of the value"})]
-    ],
+    list[Annotated[float, quantity("unit of the value", ge=-1e12, le=1e12)]],
     Field(min_length=2, max_length=MOST_KNOTS),
 ]
 

@@ -2,14 +2,12 @@
 
 from typing import Annotated, ClassVar
 
-from pydantic import Field
-
 from jointplay.solver.laws.stiffness.law import Stiffness
 from jointplay.solver.quantities.scalars import Scalar
-from jointplay.solver.quantities.units import Rule
+from jointplay.solver.quantities.units import Rule, quantity
 
-YoungsModulus = Annotated[float, Field(gt=0.0, le=1e15, json_schema_extra={"unit": "Pa"})]
-PoissonRatio = Annotated[float, Field(ge=0.0, lt=0.5, json_schema_extra={"unit": "1"})]
+YoungsModulus = Annotated[float, quantity("Pa", gt=0.0, le=1e15)]
+PoissonRatio = Annotated[float, quantity("1", ge=0.0, lt=0.5)]
 
 
 class OfMaterial(Stiffness):

@@ -2,12 +2,13 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from jointplay.solver.laws.fit import Fit
 from jointplay.solver.laws.stiffness.law import Stiffness
 from jointplay.solver.quantities.scalars import Scalar, positive_part, power
+from jointplay.solver.quantities.units import quantity
 
+GivenStiffness = Annotated[float, quantity("N/m^n", gt=0.0, le=1e18, description="K")]
+Exponent = Annotated[float, quantity("1", ge=1.0, le=3.0, description="n", structural=[1.5])]
 NOTHING = 1e-300
 """Added to a depth (m), so that none divides by no zero."""
 
@@ -37,15 +38,8 @@ class Power(Stiffness):
     needs_radii: ClassVar[bool] = False
 
     law: Literal["power"] = "power"
-    stiffness: Annotated[
-        float, Field(gt=0.0, le=1e18, description="K", json_schema_extra={"unit": "N/m^n"})
-    ]
-    exponent: Annotated[
-        float,
-        Field(
-            ge=1.0, le=3.0, description="n", json_schema_extra={"unit": "1", "structural": [1.5]}
-        ),
-    ] = 1.5
+    stiffness: GivenStiffness
+    exponent: Exponent = 1.5
 
     def force(self, fit: Fit, depth: Scalar) -> Scalar:
         """Return K δ^n, N."""
