@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Final
 
 from jointplay.chaos.history import History, Submission
-from jointplay.chaos.installation import Installation
+from jointplay.chaos.service import Service
 from jointplay.chaos.undisturbed import files_of
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError
@@ -18,13 +18,13 @@ _TERMINAL: Final = {state.value for state in JobState if state.terminal}
 
 
 def wrongs(
-    installation: Installation, history: History, expected: Mapping[int, dict[str, bytes]]
+    service: Service, history: History, expected: Mapping[int, dict[str, bytes]]
 ) -> list[str]:
     """Return a sentence for everything that a campaign must not leave behind.
 
     Parameters
     ----------
-    installation
+    service
         Stopped.
     history
         Everything that was asked and answered.
@@ -32,10 +32,8 @@ def wrongs(
         Files of the undisturbed stores, by the number of the job in the mix.
     """
     found = list(history.violations)
-    found += [
-        f"process {one.pid} ({one.role}) outlived the service" for one in installation.running()
-    ]
-    catalogue = Catalogue(installation.settings.catalogue_url)
+    found += [f"process {one.pid} ({one.role}) outlived the service" for one in service.running()]
+    catalogue = Catalogue(service.settings.catalogue_url)
     try:
         jobs: dict[str, Job] = {}
         for submission in history.submissions:
@@ -50,9 +48,9 @@ def wrongs(
             found += _how_it_ended(catalogue, submission, jobs[submission.job])
             if jobs[submission.job].state is JobState.succeeded:
                 files = expected[submission.template]
-                found += _bytes(installation, jobs[submission.job], files)
+                found += _bytes(service, jobs[submission.job], files)
         found += _strangers(catalogue, jobs)
-        found += _leftovers(installation.settings, catalogue)
+        found += _leftovers(service.settings, catalogue)
     finally:
         catalogue.close()
     return found
@@ -85,8 +83,8 @@ def _how_it_ended(catalogue: Catalogue, submission: Submission, job: Job) -> Ite
             yield f"block {block.id} of a job that succeeded was not done once"
 
 
-def _bytes(installation: Installation, job: Job, expected: Mapping[str, bytes]) -> Iterator[str]:
-    settings = installation.settings
+def _bytes(service: Service, job: Job, expected: Mapping[str, bytes]) -> Iterator[str]:
+    settings = service.settings
     damage, sealed = damage_of(settings, job), sealed_results(settings, job)
     if damage is not None or sealed is None:
         yield f"the results of job {job.id} cannot be read: {damage}"

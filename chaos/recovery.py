@@ -1,6 +1,7 @@
 """Times until the blocks that were held when a fault struck go on."""
 
 import time
+from collections.abc import Callable
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import Unavailable
@@ -19,12 +20,17 @@ class Recovery:
     workers
         How many blocks are computed at a time. What waits because all workers have others
         does not wait for the platform.
+    of
+        Which of the blocks that are held.
     """
 
-    def __init__(self, catalogue: Catalogue, workers: int) -> None:
+    def __init__(
+        self, catalogue: Catalogue, workers: int, of: Callable[[Block], bool] = lambda _: True
+    ) -> None:
         self._catalogue = catalogue
         self._workers = workers
-        self.held = {block.id: block for block in self._blocks() if _runs(block)}
+        self.held: dict[str, Block] = {}
+        self.held = {block.id: block for block in self._blocks() if _runs(block) and of(block)}
 
     def wait(self, since: float) -> float | None:
         """Wait until every block advances, has ended or is claimed again.
@@ -60,14 +66,15 @@ class Recovery:
         return None if waiting else max(waited.values(), default=0.0)
 
     def _blocks(self) -> list[Block]:
-        """Return the blocks of all jobs that have begun; none while there is no answer.
+        """Return the blocks of jobs that run, and those held; none while there is no answer.
 
         No file of the catalogue stays open, because a power cut takes its files away.
         """
         try:
             jobs = self._catalogue.jobs(limit=1000).jobs
-            begun = [job.id for job in jobs if job.state is not JobState.queued]
-            return [block for job in begun for block in self._catalogue.blocks(job)]
+            looked_at = {block.job for block in self.held.values()}
+            looked_at |= {job.id for job in jobs if job.state is JobState.running}
+            return [block for job in looked_at for block in self._catalogue.blocks(job)]
         except Unavailable:
             return []
         finally:

@@ -8,8 +8,8 @@ from typing import Any, Final
 import httpx
 
 from jointplay.chaos.history import History, Submission
-from jointplay.chaos.installation import Installation
 from jointplay.chaos.jobs import Document
+from jointplay.chaos.service import Service
 
 _REFUSALS: Final = {503, 507}
 """Answers of a service that cannot do it now; with them it says when to ask again."""
@@ -29,16 +29,24 @@ class User:
         How many jobs are kept open.
     seed
         Of what is cancelled.
+    most
+        How many jobs are enough; none: until it is told.
     """
 
     def __init__(
-        self, installation: Installation, mix: Sequence[Document], at_once: int, seed: int
+        self,
+        service: Service,
+        mix: Sequence[Document],
+        at_once: int,
+        seed: int,
+        most: int | None = None,
     ) -> None:
         self.history = History()
-        self._installation = installation
+        self._service = service
         self._mix = mix
         self._at_once = at_once
         self._seed = seed
+        self._most = most
         self._drawn = random.Random(seed)  # noqa: S311 - repeatable on purpose
         self._enough = threading.Event()
         self._gone = threading.Event()
@@ -80,6 +88,8 @@ class User:
             key = f"chaos-{self._seed}-{number}"
             cancel = self._drawn.randrange(_ONE_CANCELLED_OF) == 0
             history.submissions.append(Submission(key, number % len(self._mix), cancel))
+            if len(history.submissions) == self._most:
+                self._enough.set()
         for submission in history.open:
             if self._gone.is_set():
                 return
@@ -104,7 +114,7 @@ class User:
     def _ask(self, http: httpx.Client, method: str, path: str, **named: Any) -> Any:
         """Return the answer, or none where there was none; note what must not be answered."""
         try:
-            answer = http.request(method, self._installation.url + path, **named)
+            answer = http.request(method, self._service.url + path, **named)
         except httpx.TransportError:
             self.history.count(f"{method}: none")
             return None

@@ -1,4 +1,6 @@
-"""A PostgreSQL server for tests: from a package, on loopback, its data gone with it."""
+"""A PostgreSQL server for tests: from a package, on loopback or where it is told to be, its data
+gone with it.
+"""
 
 import itertools
 import os
@@ -26,10 +28,10 @@ TEMPLATE = "jointplay_template"
 class Server:
     """A running server; `new` makes databases in which the catalogue's tables are empty."""
 
-    def __init__(self, binaries: Path, folder: Path, port: int, *, fsync: bool) -> None:
+    def __init__(self, binaries: Path, folder: Path, host: str, port: int, *, fsync: bool) -> None:
         self.port = port
-        self.url = f"postgresql://postgres@127.0.0.1:{port}"
-        self._binaries, self._folder = binaries, folder
+        self.url = f"postgresql://postgres@{host}:{port}"
+        self._binaries, self._folder, self._host = binaries, folder, host
         self._process: subprocess.Popen[bytes] | None = None
         self._number = itertools.count()
         self._options = {
@@ -53,10 +55,12 @@ class Server:
             "--no-sync", "--no-instructions",
         )  # fmt: skip
         assert process.wait(PATIENCE) == 0, (self._folder / "initdb.log").read_text()
+        with (self._folder / "data" / "pg_hba.conf").open("a") as rules:
+            rules.write("host all all samenet trust\n")
 
     def start(self) -> None:
         settings = [f"--{name}={value}" for name, value in self._options.items()]
-        process = self.run("postgres", "-h", "127.0.0.1", "-p", str(self.port), *settings)
+        process = self.run("postgres", "-h", self._host, "-p", str(self.port), *settings)
         self._process = process
 
         def answers() -> bool:
@@ -100,7 +104,7 @@ class Server:
 
 
 @contextmanager
-def running_server(*, fsync: bool = False) -> Iterator[Server]:
+def running_server(*, fsync: bool = False, host: str = "127.0.0.1") -> Iterator[Server]:
     """Start a server in a folder of its own."""
     folder = Path(tempfile.mkdtemp(prefix="jointplay-postgresql-"))
     server: Server | None = None
@@ -108,9 +112,9 @@ def running_server(*, fsync: bool = False) -> Iterator[Server]:
         binaries = _binaries(folder)
         if os.getuid() == 0:
             os.chown(folder, pwd.getpwnam("nobody").pw_uid, -1)
-        with socket.create_server(("127.0.0.1", 0)) as free:
+        with socket.create_server((host, 0)) as free:
             port = free.getsockname()[1]
-        server = Server(binaries, folder, port, fsync=fsync)
+        server = Server(binaries, folder, host, port, fsync=fsync)
         server.initialise()
         server.start()
         server.make_template()

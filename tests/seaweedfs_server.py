@@ -1,4 +1,4 @@
-"""An S3-compatible store for tests: SeaweedFS from a package, on loopback, its data temporary."""
+"""An S3-compatible store for tests: SeaweedFS from a package, its data temporary."""
 
 import json
 import os
@@ -20,11 +20,9 @@ KEYS = {"AWS_ACCESS_KEY_ID": "tests", "AWS_SECRET_ACCESS_KEY": "only-for-tests"}
 BUCKET = "results"
 
 
-def _free_ports(count: int) -> list[int]:
+def _free_ports(host: str, count: int) -> list[int]:
     with ExitStack() as stack:
-        listening = [
-            stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(count)
-        ]
+        listening = [stack.enter_context(socket.create_server((host, 0))) for _ in range(count)]
         return [one.getsockname()[1] for one in listening]
 
 
@@ -36,7 +34,7 @@ def _program() -> Path:
 
 
 @contextmanager
-def running_store() -> Iterator[str]:
+def running_store(host: str = "127.0.0.1") -> Iterator[str]:
     """Start a store and yield its endpoint; its keys are in the environment meanwhile."""
     with tempfile.TemporaryDirectory(prefix="jointplay-seaweedfs-") as folder:
         data = Path(folder)
@@ -48,10 +46,10 @@ def running_store() -> Iterator[str]:
             "actions": ["Admin", "Read", "Write", "List"],
         }
         (data / "s3.json").write_text(json.dumps({"identities": [identity]}))
-        master, volume, filer, s3, *grpc = _free_ports(8)
+        master, volume, filer, s3, *grpc = _free_ports(host, 8)
         command = [
-            str(_program()), "-logtostderr=true", "server", f"-dir={data}", "-ip=127.0.0.1",
-            "-ip.bind=127.0.0.1", f"-master.port={master}", f"-master.port.grpc={grpc[0]}",
+            str(_program()), "-logtostderr=true", "server", f"-dir={data}", f"-ip={host}",
+            f"-ip.bind={host}", f"-master.port={master}", f"-master.port.grpc={grpc[0]}",
             f"-volume.port={volume}", f"-volume.port.grpc={grpc[1]}", "-filer",
             f"-filer.port={filer}", f"-filer.port.grpc={grpc[2]}", "-s3", f"-s3.port={s3}",
             f"-s3.port.grpc={grpc[3]}", f"-s3.config={data / 's3.json'}", "-volume.max=30",
@@ -63,7 +61,7 @@ def running_store() -> Iterator[str]:
         with (data / "log").open("wb") as log:
             process = subprocess.Popen(command, cwd=data, stdout=log, stderr=log)
         try:
-            endpoint = f"http://127.0.0.1:{s3}"
+            endpoint = f"http://{host}:{s3}"
             _await(endpoint, process, data / "log")
             yield endpoint
         finally:

@@ -1,0 +1,49 @@
+"""A service on several machines keeps its word under faults: `python -m tests.machines`."""
+
+import json
+import os
+import subprocess
+import sys
+from itertools import islice
+
+import pytest
+
+from jointplay.chaos.schedule import schedule
+from tests.machines.faults import FAULTS
+
+ALONE = ["unshare", "--net", "--pid", "--fork", "--kill-child", "--mount-proc"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _namespaces() -> None:
+    """Skip by name where a network namespace cannot be made."""
+    made = os.getuid() == 0 and subprocess.run([*ALONE, "true"], check=False).returncode == 0
+    if not made:
+        pytest.skip("only root can make network namespaces")
+
+
+def test_every_fault_comes_before_any_comes_again() -> None:
+    strikes = [strike.fault for strike in islice(schedule(3, 360.0, FAULTS), len(FAULTS))]
+    assert {*strikes} == FAULTS.keys()
+
+
+def test_faults_of_the_network_and_of_the_store_do_what_they_say() -> None:
+    subprocess.run([*ALONE, sys.executable, "-m", "tests.machines.trial"], check=True)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(7200)
+@pytest.mark.parametrize(("seed", "jobs"), [(1, 40), (7, 200)])
+def test_a_service_on_several_machines_keeps_its_word(seed: int, jobs: int) -> None:
+    command = [sys.executable, "-m", "tests.machines", "--json"]
+    done = subprocess.run(
+        [*command, "--seed", str(seed), "--jobs", str(jobs)],
+        stdout=subprocess.PIPE,
+        check=False,
+    )
+    report = json.loads(done.stdout)
+    assert report["wrong"] == []
+    assert done.returncode == 0
+    assert {one["fault"] for one in report["struck"]} == FAULTS.keys()
+    assert all(one["back"] is not None for one in report["struck"])
+    assert report["jobs"].keys() <= {"succeeded", "cancelled"}

@@ -1,0 +1,84 @@
+"""A service on several machines under a seeded schedule of faults: must it fail a job?
+
+    python -m tests.machines --seed 7 --jobs 200
+
+Needs root, for network namespaces. `--fault NAME`, repeatable, chooses faults; `--json` prints a
+document. The exit code is 1 if anything was wrong, and the folder stays then.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+
+from tests.machines.campaign import Report, campaign, worst
+from tests.machines.faults import FAULTS
+
+_ALONE = ("unshare", "--net", "--pid", "--fork", "--kill-child", "--mount-proc")
+_INSIDE = "--inside"
+
+
+def main() -> int:
+    """Run a campaign in namespaces of its own; whatever it starts ends with it."""
+    parser = argparse.ArgumentParser(prog="python -m tests.machines")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=200, help="how many are submitted")
+    parser.add_argument("--fault", action="append", choices=FAULTS, help="instead of all")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument(_INSIDE, action="store_true", help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if not given.inside:
+        command = [sys.executable, "-m", "tests.machines", _INSIDE, *sys.argv[1:]]
+        os.execvp(_ALONE[0], [*_ALONE, *command])
+    folder = Path(tempfile.mkdtemp(prefix="jointplay-machines-"))
+    report = campaign(
+        folder, seed=given.seed, jobs=given.jobs, faults=given.fault or [*FAULTS], tell=_tell
+    )
+    if given.json:
+        print(json.dumps(asdict(report)))
+    else:
+        print("\n".join(lines(report)))
+    if report.wrong:
+        _tell(f"everything is kept in {folder}")
+        return 1
+    shutil.rmtree(folder)
+    return 0
+
+
+def _tell(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
+
+
+def lines(report: Report) -> Iterator[str]:
+    """Yield a table of faults and times, and what is to be said beside it."""
+    row = "{:22}{:>6}{:>18}{:>13}{:>22}{:>17}".format
+    yield row(
+        "fault",
+        "times",
+        "lasted up to [s]",
+        "blocks held",
+        "taken over within [s]",
+        "back within [s]",
+    )
+    for name in dict.fromkeys(one.fault for one in report.struck):
+        those = [one for one in report.struck if one.fault == name]
+        yield row(
+            name,
+            len(those),
+            f"{max(one.lasted for one in those):.0f}",
+            sum(one.held for one in those),
+            worst(those, lambda one: one.taken_over),
+            worst(those, lambda one: one.back),
+        )
+    yield f"jobs: {report.jobs}, in {report.seconds:.0f} s; attempts that were lost: {report.lost}"
+    yield f"answers: {report.answers}"
+    yield from (f"WRONG: {sentence}" for sentence in report.wrong)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,146 @@
+"""One campaign: a cluster, a user, faults by a schedule, and the checks at the end."""
+
+import random
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from jointplay.chaos.checks import wrongs
+from jointplay.chaos.jobs import jobs_of
+from jointplay.chaos.recovery import Recovery
+from jointplay.chaos.schedule import Strike, schedule
+from jointplay.chaos.undisturbed import undisturbed
+from jointplay.chaos.user import User
+from jointplay.storage.catalogue.catalogue import Catalogue
+from tests.machines.cluster import WORKERS, Cluster, running_cluster
+from tests.machines.faults import FAULTS
+from tests.machines.recovery import back, taken_over
+
+_AHEAD = 3  # open jobs for each block that is computed at a time
+_LONGEST = 360.0  # s; a sixth of it is the longest that a fault lasts
+_STUCK = 300.0  # s without any change of any job
+Tell = Callable[[str], None]
+
+
+@dataclass
+class Struck:
+    """One fault that struck."""
+
+    fault: str
+    on: str  # a machine, or "servers"
+    at: float  # s since the campaign began
+    lasted: float  # s
+    held: int  # blocks that the machine, or all, held when it struck
+    taken_over: float | None  # s from its begin until blocks of a lost machine went on
+    back: float | None  # s from its end until those who were struck came further
+
+
+@dataclass
+class Report:
+    """A campaign from its seed to what was wrong in the end."""
+
+    seed: int
+    struck: list[Struck] = field(default_factory=list)
+    jobs: dict[str, int] = field(default_factory=dict)
+    answers: dict[str, int] = field(default_factory=dict)
+    lost: int = 0  # attempts that lost their block
+    seconds: float = 0.0
+    wrong: list[str] = field(default_factory=list)
+
+
+def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell: Tell) -> Report:
+    """Let faults strike until a number of jobs has ended.
+
+    Parameters
+    ----------
+    folder
+        Is there, and empty.
+    seed
+        Of jobs and schedule.
+    """
+    mix = jobs_of(seed)[:jobs]
+    tell(f"computing {len(mix)} jobs undisturbed")
+    expected = {number: undisturbed(job, folder / f"{number}") for number, job in enumerate(mix)}
+    report = Report(seed)
+    with running_cluster(folder) as cluster:
+        at_once = _AHEAD * WORKERS * len(cluster.machines)
+        user = User(cluster, mix, at_once, seed, most=jobs)
+        catalogue = Catalogue(cluster.settings.catalogue_url)
+        catalogue.migrate()
+        begun = time.monotonic()
+        user.start()
+        _strike(cluster, catalogue, user, report, faults, tell)
+        user.leave()
+        report.seconds = time.monotonic() - begun
+        for machine in cluster.machines:
+            machine.stop()
+        tell("checking")
+        report.answers = user.history.answers
+        report.jobs = dict(Counter(str(one.state) for one in user.history.submissions))
+        tries = [catalogue.attempts(one.job) for one in user.history.submissions if one.job]
+        report.lost = sum(one.outcome == "lost" for some in tries for one in some)
+        report.wrong += wrongs(cluster, user.history, expected)
+        catalogue.close()
+    return report
+
+
+def _strike(
+    cluster: Cluster,
+    catalogue: Catalogue,
+    user: User,
+    report: Report,
+    faults: Sequence[str],
+    tell: Tell,
+) -> None:
+    drawn = random.Random(report.seed)
+    begun = moved = time.monotonic()
+    before: object = None
+    strikes = schedule(report.seed, _LONGEST, {name: FAULTS[name] for name in faults})
+    while not user.satisfied:
+        standing = [(one.job, one.state, one.fraction) for one in user.history.submissions]
+        if standing != before:
+            before, moved = standing, time.monotonic()
+        if time.monotonic() - moved > _STUCK:
+            report.wrong += [f"job {one.job} is {one.state} for ever" for one in user.history.open]
+            return
+        if not any(one.state == "running" for one in user.history.open):  # nothing to disturb yet
+            time.sleep(0.2)
+            continue
+        strike = next(strikes)
+        time.sleep(strike.pause)
+        one = _one(cluster, catalogue, strike, drawn, time.monotonic() - begun)
+        report.struck.append(one)
+        tell(
+            f"{one.at:6.0f} s  {one.fault} of {one.on} for {one.lasted:.1f} s, {one.held} held,"
+            f" taken over {_said(one.taken_over)}, back {_said(one.back)}"
+        )
+
+
+def _said(seconds: float | None) -> str:
+    return "-" if seconds is None else f"within {seconds:.1f} s"
+
+
+def _one(
+    cluster: Cluster, catalogue: Catalogue, strike: Strike, drawn: random.Random, at: float
+) -> Struck:
+    everybody = Recovery(catalogue, WORKERS * len(cluster.machines))
+    held = {machine: taken_over(cluster, machine) for machine in cluster.machines}
+    began = time.monotonic()
+    with FAULTS[strike.fault].strike(cluster, drawn) as machine:
+        time.sleep(strike.lasts)
+    over = time.monotonic()
+    if machine is None:
+        again = everybody.wait(over)
+        return Struck(strike.fault, "servers", at, over - began, len(everybody.held), None, again)
+    count, went_on = held[machine]
+    again = back(cluster, machine, over)
+    taken = went_on.result() if count else None
+    return Struck(strike.fault, machine.name, at, over - began, count, taken, again)
+
+
+def worst(struck: Sequence[Struck], of: Callable[[Struck], float | None]) -> str:
+    """Return the longest of the times that are known."""
+    known = [seconds for one in struck if (seconds := of(one)) is not None]
+    return f"{max(known):.1f}" if known else "-"

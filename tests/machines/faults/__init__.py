@@ -1,0 +1,26 @@
+"""Faults that strike a cluster; a member is one file, or one line with another one's class.
+
+A member has `lasts`, shortest and longest time [s], and `strike`, which says what machine it
+struck; none: the servers, and so everybody.
+"""
+
+from tests.machines.faults.broker_lost import BrokerLost
+from tests.machines.faults.clock_set import ClockSet
+from tests.machines.faults.database import BackendsTerminated, DatabaseRestarted
+from tests.machines.faults.machine_killed import MachineKilled
+from tests.machines.faults.network import BlackHole, LinkCut
+from tests.machines.faults.store_refuses import StoreRefuses
+
+FAULTS = {
+    "link-cut": LinkCut(),
+    "servers-link-cut": LinkCut(servers=True),
+    "black-hole": BlackHole(),
+    "servers-black-hole": BlackHole(servers=True),
+    "machine-killed": MachineKilled(),
+    "database-restarted": DatabaseRestarted(),
+    "backends-terminated": BackendsTerminated(),
+    "broker-lost": BrokerLost(),
+    "store-refuses": StoreRefuses(),
+    "clock-set": ClockSet(),
+}
+"""By name; the names are those of `python -m tests.machines --fault`."""

@@ -1,0 +1,64 @@
+"""How soon work goes on that a fault has stopped, and how soon a machine works again."""
+
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from jointplay.chaos.recovery import PATIENCE, Recovery
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.errors import Unavailable
+from jointplay.storage.catalogue.records import Block, BlockState, JobState
+from tests.machines.cluster import WORKERS, Cluster
+from tests.machines.machine import Machine
+
+_LOOK = 0.2  # s
+_threads = ThreadPoolExecutor(2, "recovery")
+
+
+def is_of(machine: Machine | None, block: Block) -> bool:
+    """Whether a worker of a machine, or of any, has a block."""
+    name = "" if machine is None else f"{machine.name}:"
+    held = block.state is BlockState.running and block.worker is not None
+    return held and str(block.worker).startswith(name)
+
+
+def taken_over(cluster: Cluster, machine: Machine) -> "tuple[int, Future[float | None]]":
+    """Return how many blocks a machine has, and soon the time until all of them go on [s].
+
+    What waits because the workers elsewhere have other blocks does not count.
+    """
+    catalogue = Catalogue(cluster.settings.catalogue_url)
+    elsewhere = WORKERS * (len(cluster.machines) - 1)
+    recovery = Recovery(catalogue, elsewhere, lambda block: is_of(machine, block))
+    return len(recovery.held), _threads.submit(recovery.wait, time.monotonic())
+
+
+def back(cluster: Cluster, machine: Machine, since: float) -> float | None:
+    """Return the time until a machine's workers have come further, or nothing waits for them [s].
+
+    None: they never did.
+    """
+    catalogue = Catalogue(cluster.settings.catalogue_url)
+    first: dict[str, tuple[int, float]] | None = None
+    try:
+        while time.monotonic() - since < PATIENCE:
+            try:
+                blocks = _open_blocks(catalogue)
+            except Unavailable:
+                time.sleep(_LOOK)
+                continue
+            now = {one.id: (one.attempt, one.progress_fraction) for one in blocks}
+            first = now if first is None else first
+            waits = any(one.state is BlockState.queued for one in blocks)
+            here = [one for one in blocks if is_of(machine, one)]
+            if any(first.get(one.id) != now[one.id] for one in here) or not (here or waits):
+                return time.monotonic() - since
+            time.sleep(_LOOK)
+        return None
+    finally:
+        catalogue.close()
+
+
+def _open_blocks(catalogue: Catalogue) -> list[Block]:
+    jobs = catalogue.jobs(limit=1000).jobs
+    live = [job.id for job in jobs if job.state in (JobState.queued, JobState.running)]
+    return [block for job in live for block in catalogue.blocks(job)]
