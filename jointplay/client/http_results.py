@@ -1,7 +1,7 @@
 """Results of a job of a service."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +11,7 @@ from jointplay.client.connection import Connection, segment
 from jointplay.client.errors import FieldProblem, NotFound, Refused
 from jointplay.client.halving import parts_that_fit
 from jointplay.client.job_record import JobRecord
-from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
+from jointplay.client.results import Impacts, Names, Peak, Seconds, Shown, Store
 from jointplay.client.window import Window, floats
 from jointplay.records.figure_form import Form
 from jointplay.records.impact import IMPACT_UNITS
@@ -20,7 +20,7 @@ from jointplay.records.run import Dataset
 from jointplay.records.study import StudyDataset
 
 if TYPE_CHECKING:
-    from jointplay.figures import Options
+    from jointplay.figures import Options, Pace
 
 _Times = tuple[Seconds, Seconds]
 
@@ -118,33 +118,18 @@ class HttpResults:
         """Return the names of the figures that can be drawn."""
         return [figure["name"] for figure in self._get("figures")["figures"]]
 
-    def figure(
-        self,
-        name: str,
-        form: Form,
-        *,
-        channels: Sequence[str],
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        options: "Options",
-    ) -> bytes:
+    def figure(self, name: str, form: Form, shown: Shown, options: "Options") -> bytes:
         """Return a figure, drawn by the service."""
-        shown = {"channels": channels or None, "joints": joints or None}
-        query = _query(**shown, start=start, stop=stop) | options.given()
+        chosen = {"channels": shown.channels or None, "joints": shown.joints or None}
+        query = _query(**chosen, start=shown.start, stop=shown.stop) | options.given()
         path = f"{self._path}/figures/{segment(name)}.{segment(form)}"
         return self._connection.content(path, query)
 
     def film(
         self,
         path: Path,
-        *,
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        rate: float | None,
-        frames_per_second: int,
-        impact_to_impact: bool,
+        shown: Shown,
+        pace: "Pace",
         options: "Options",
         report: Callable[[float], object],
     ) -> None:

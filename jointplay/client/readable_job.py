@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from jointplay.client.errors import FieldProblem, Refused
 from jointplay.client.notebook import Picture
+from jointplay.client.results import Shown
 from jointplay.client.tables import TabledJob
 from jointplay.client.window import Window
 from jointplay.records.figure_form import Form
@@ -13,9 +14,9 @@ from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
     from jointplay.exports.table_columns import Table
-    from jointplay.figures import Options
 
 Names = str | Sequence[str]
+Made = TypeVar("Made")
 
 
 class ReadableJob(TabledJob):
@@ -167,18 +168,13 @@ class ReadableJob(TabledJob):
             ``units`` such as "mm,kN", ``font`` "serif" and ``font_size`` in points; see
             `jointplay.figures.Options`.
         """
-        page = _page(options)
+        from jointplay.figures import chosen_options
+
+        page = _drawable(chosen_options, options)
+        shown = Shown(_listed(channel) or (), _listed(joint) or (), start, stop)
 
         def draw(form: Form) -> bytes:
-            return self.results.figure(
-                name,
-                form,
-                channels=_listed(channel) or (),
-                joints=_listed(joint) or (),
-                start=start,
-                stop=stop,
-                options=page,
-            )
+            return self.results.figure(name, form, shown, page)
 
         return Picture(draw(form), form, draw)
 
@@ -223,18 +219,13 @@ class ReadableJob(TabledJob):
         Path
             Of the file.
         """
+        from jointplay.figures import Pace, chosen_options
+
+        page = _drawable(chosen_options, options)
+        pace = _drawable(Pace, rate, frames_per_second, impact_to_impact)
         file = Path(path)
-        self.results.film(
-            file,
-            joints=_listed(joint) or (),
-            start=start,
-            stop=stop,
-            rate=rate,
-            frames_per_second=frames_per_second,
-            impact_to_impact=impact_to_impact,
-            options=_page(options),
-            report=report,
-        )
+        shown = Shown((), _listed(joint) or (), start, stop)
+        self.results.film(file, shown, pace, page, report)
         return file
 
 
@@ -244,12 +235,12 @@ def _listed(names: Names | None) -> list[str] | None:
     return [names] if isinstance(names, str) else list(names)
 
 
-def _page(options: dict[str, Any]) -> "Options":
-    """Return the options of a figure's page; what cannot be is refused as a service does."""
-    from jointplay.figures import NotDrawable, chosen_options
+def _drawable(make: Callable[..., Made], *given: Any) -> Made:
+    """Return what is made for a drawing; what cannot be is refused as a service does."""
+    from jointplay.figures import NotDrawable
 
     try:
-        return chosen_options(options)
+        return make(*given)
     except NotDrawable as error:
         field = FieldProblem(error.cause, str(error))
         raise Refused(str(error), problem="not-drawable", fields=[field]) from None

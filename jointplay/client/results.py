@@ -15,7 +15,7 @@ from jointplay.records.run import Source
 from jointplay.records.study import StudySource
 
 if TYPE_CHECKING:
-    from jointplay.figures import Options
+    from jointplay.figures import Options, Pace
 
 Names = Sequence[str] | None
 """Names or globs of channels; all if None."""
@@ -51,6 +51,15 @@ class Store(NamedTuple):
 
     address: str
     options: dict[str, Any] | None
+
+
+class Shown(NamedTuple):
+    """Content of a figure or a film; all channels and joints where there are none."""
+
+    channels: Sequence[str]
+    joints: Sequence[str]
+    start: Seconds
+    stop: Seconds
 
 
 class Results(Protocol):
@@ -108,29 +117,14 @@ class Results(Protocol):
     def figures(self) -> list[str]:
         """Return the names of the figures that can be drawn."""
 
-    def figure(
-        self,
-        name: str,
-        form: Form,
-        *,
-        channels: Sequence[str],
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        options: "Options",
-    ) -> bytes:
+    def figure(self, name: str, form: Form, shown: Shown, options: "Options") -> bytes:
         """Return a figure as a file's bytes."""
 
     def film(
         self,
         path: Path,
-        *,
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        rate: float | None,
-        frames_per_second: int,
-        impact_to_impact: bool,
+        shown: Shown,
+        pace: "Pace",
         options: "Options",
         report: Callable[[float], object],
     ) -> None:

@@ -1,15 +1,15 @@
 """Results of a job in a folder."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from jointplay import figures
 from jointplay.client.errors import FieldProblem, NotFound, Refused
-from jointplay.client.results import Impacts, Names, Peak, Seconds, Store
+from jointplay.client.results import Impacts, Names, Peak, Seconds, Shown, Store
 from jointplay.client.window import Window
-from jointplay.figures import Options
+from jointplay.figures import Options, Pace
 from jointplay.local.exact_windows import exact_peaks, exact_window, window_of
 from jointplay.records.certificate import certificate_document
 from jointplay.records.channel_choice import NoSuchChannel, choose
@@ -150,41 +150,24 @@ class FolderResults:
         """Return the names of the figures that can be drawn."""
         return [one.name for one in figures.available(self._reader)]
 
-    def figure(
-        self,
-        name: str,
-        form: Form,
-        *,
-        channels: Sequence[str],
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        options: Options,
-    ) -> bytes:
+    def figure(self, name: str, form: Form, shown: Shown, options: Options) -> bytes:
         """Draw a figure."""
         with _refusals():
-            chosen = figures.select(self._reader, channels, joints, start, stop)
+            chosen = figures.select(self._reader, *shown)
             return figures.render(self._reader, name, form, chosen, options)
 
     def film(
         self,
         path: Path,
-        *,
-        joints: Sequence[str],
-        start: Seconds,
-        stop: Seconds,
-        rate: float | None,
-        frames_per_second: int,
-        impact_to_impact: bool,
+        shown: Shown,
+        pace: Pace,
         options: Options,
         report: Callable[[float], object],
     ) -> None:
         """Write a film."""
         run = self._run("film")
         with _refusals():
-            chosen = figures.select(run, (), joints, start, stop)
-            pace = figures.Pace(rate, frames_per_second, impact_to_impact)
-            figures.film(run, path, chosen, options, pace, report)
+            figures.film(run, path, figures.select(run, *shown), options, pace, report)
 
     def _run(self, what: str) -> ResultReader:
         if isinstance(self._reader, ResultReader):
