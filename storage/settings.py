@@ -83,6 +83,12 @@ class Settings(BaseSettings):
     most_live: int = Field(
         0, ge=0, le=10**9, description="Jobs of one owner that have not ended; 0: any number."
     )
+    most_running: int = Field(
+        0,
+        ge=0,
+        le=10**9,
+        description="Blocks of one owner that are computed at one time; 0: any number.",
+    )
     most_stored: int = Field(
         0, ge=0, le=2**60, description="Bytes of results of one owner; 0: any number."
     )

@@ -111,7 +111,7 @@ class Relay:
         if self._lost_messages() and (lost := self._catalogue.announce_again()):
             _log.warning("Redis has lost %d wake-ups, which are sent again", lost)
         outstanding = self._settings.relay_outstanding
-        due = self._catalogue.due_wake_ups(outstanding)
+        due = self._catalogue.due_wake_ups(outstanding, self._settings.most_running)
         sent = []
         try:
             # what workers that joined have claimed stays there, if no other takes messages

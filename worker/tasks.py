@@ -21,6 +21,7 @@ from jointplay.worker.presence import own_name
 from jointplay.worker.scratch.computing import (
     compute,  # before the fork: all children share numba and the solver
 )
+from jointplay.worker.wake_up import wake_relay
 
 _log = logging.getLogger(__name__)
 _draining = threading.Event()
@@ -37,16 +38,24 @@ def _platform() -> tuple[Settings, Catalogue]:
 
 @app.task(name=RUN_BLOCK)  # type: ignore[untyped-decorator]
 def run_block(block: str) -> None:
-    """Compute a block if it can be claimed; a redundant message does nothing."""
+    """Compute the block whose turn it is, be it another one; a redundant message does nothing."""
     settings, catalogue = _platform()
     if _draining.is_set():
         return
     try:
-        claim = catalogue.claim_block(block, own_name(), settings.lease, own_solver())
+        claim = catalogue.claim_next(
+            own_name(),
+            settings.lease,
+            own_solver(),
+            most_running=settings.most_running,
+            woken_for=block,
+        )
     except Unavailable as fault:
         _log.warning("block %s is not claimed, its wake-up comes again: %s", block, fault)
         return
     if claim is not None:
+        if claim.block.id != block:
+            wake_relay(settings.redis_url)  # somebody else may be free for that one
         compute(catalogue, settings, claim, _draining)
 
 

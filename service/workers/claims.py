@@ -40,8 +40,13 @@ async def claim_block(
     deadline = time.monotonic() + asked.wait
     pause = _FIRST_PAUSE
     while not await request.is_disconnected():
-        arguments = worker, settings.lease, asked.solver
-        claim = await run_in_threadpool(catalogue.claim_next, *arguments)
+        claim = await run_in_threadpool(
+            catalogue.claim_next,
+            worker,
+            settings.lease,
+            asked.solver,
+            most_running=settings.most_running,
+        )
         if claim is not None:
             shown = replace(claim, job=replace(claim.job, owner="", label=None))
             return Claimed(claim=shown, customs=Customs.of(settings))

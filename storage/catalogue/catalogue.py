@@ -13,6 +13,7 @@ from jointplay.storage.catalogue import (
     at_work,
     batches,
     census,
+    claims,
     disagreements,
     ending,
     holding,
@@ -31,18 +32,13 @@ from jointplay.storage.catalogue.group_commit import GroupCommit
 from jointplay.storage.catalogue.identifiers import Identifiers
 from jointplay.storage.catalogue.quotas import NO_QUOTA, Quota, use_of
 from jointplay.storage.catalogue.records import (
-    Claim,
     Job,
     NewJob,
-    Solver,
     SubmissionKey,
     Submitted,
     SubmittedBatch,
 )
 from jointplay.storage.catalogue.units import claiming, durably, reading, writing
-
-_CANDIDATES = 8
-"""Blocks that a worker tries to claim before it asks again: others may be quicker."""
 
 
 class Catalogue:
@@ -232,19 +228,10 @@ class Catalogue:
 
     # What workers do
 
-    claim_block = claiming(holding.claim)
-    waiting_for = reading(solvers.waiting_for)
+    claim_block = claiming(claims.claim)
+    claim_next = claiming(claims.claim_next)
     held_by = reading(listing.held_by)
     note_worker = writing(solvers.note_worker)
-
-    def claim_next(self, worker: str, lease: float, solver: Solver) -> Claim | None:
-        """Take the block whose turn it is, of those that this solver may; none if none waits."""
-        for block in self.waiting_for(solver, _CANDIDATES):
-            claim = self.claim_block(block, worker, lease, solver)
-            if claim is not None:
-                return claim
-        return None
-
     held = reading(holding.held)
     verdict = reading(holding.verdict)
     heartbeat = writing(holding.heartbeat)

@@ -189,10 +189,15 @@ def _take_back(unit: Unit, block_id: str, attempt: int, outcome: str, **changes:
 
 def queue_again(unit: Unit, block_id: str, pause: float = 0.0) -> None:
     """Have a worker woken for a block after a pause [s], ahead of jobs that never started."""
-    due = unit.now + pause
+    job = tables.job
+    of_job = select(job.c.owner).join(_block, _block.c.job == job.c.id)
+    times = {"created": unit.now, "due": unit.now + pause, "tries": 0}
     unit.execute(
         insert(tables.outbox).values(
-            block=block_id, queue=RECOVERED_QUEUE, created=unit.now, due=due, tries=0
+            block=block_id,
+            queue=RECOVERED_QUEUE,
+            owner=of_job.where(_block.c.id == block_id).scalar_subquery(),
+            **times,
         )
     )
 

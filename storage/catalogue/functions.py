@@ -5,14 +5,23 @@ network between, carries them out; the specifications of the catalogue are those
 locked first: every later statement of a function sees what others committed before that.
 """
 
-from typing import Final
+from collections.abc import Collection
+from typing import Any, Final
 
-from sqlalchemy import Connection, text
+from sqlalchemy import Connection, TextualSelect, text
 
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import Block, Claim, Job, JobState, Solver, Verdict
+from jointplay.storage.catalogue.records import (
+    QUEUES,
+    Block,
+    Claim,
+    Job,
+    JobState,
+    Solver,
+    Verdict,
+)
 
 FUNCTIONS: Final = (
     """
@@ -22,6 +31,8 @@ RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
 #variable_conflict use_column
 DECLARE
   last integer;
+  of_queue text;
+  passed bigint;
 BEGIN
   SELECT * INTO of_job FROM job
     WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
@@ -37,7 +48,10 @@ BEGIN
   IF NOT FOUND THEN
     RETURN;
   END IF;
-  DELETE FROM outbox WHERE block = wanted;
+  DELETE FROM outbox WHERE block = wanted RETURNING queue, turn INTO of_queue, passed;
+  UPDATE turn SET next = passed WHERE queue = of_queue AND owner = '' AND queue IN (
+    SELECT queue FROM turn WHERE queue = of_queue AND owner = '' AND next < passed
+    FOR UPDATE SKIP LOCKED);
   INSERT INTO attempt (block, number, worker, started)
     VALUES (wanted, held.attempt, claimant, moment);
   SELECT coalesce(max(seq), 0) INTO last FROM event WHERE job = of_job.id;
@@ -55,6 +69,33 @@ BEGIN
       processor = coalesce(processor, by_processor)
     WHERE id = of_job.id RETURNING * INTO of_job;
   RETURN NEXT;
+END $$
+""",
+    """
+CREATE OR REPLACE FUNCTION claim_next(claimant text, moment float8, lease float8,
+  by_version text, by_processor text, queues text[], busy text[])
+RETURNS TABLE (held block, of_job job) LANGUAGE plpgsql AS $$
+#variable_conflict use_column
+DECLARE
+  of_queue text;
+  wanted text;
+BEGIN
+  FOREACH of_queue IN ARRAY queues LOOP
+    FOR wanted IN
+      SELECT outbox.block FROM outbox
+        JOIN block ON block.id = outbox.block JOIN job ON job.id = block.job
+        WHERE queue = of_queue AND (due <= moment OR tries > 0) AND NOT outbox.owner = ANY(busy)
+          AND solver_version = by_version AND (processor IS NULL OR processor = by_processor)
+        ORDER BY turn, outbox.block LIMIT 100
+    LOOP
+      CONTINUE WHEN NOT pg_try_advisory_xact_lock(hashtextextended(wanted, 0));
+      RETURN QUERY
+        SELECT * FROM claim_block(wanted, claimant, moment, lease, by_version, by_processor);
+      IF FOUND THEN
+        RETURN;
+      END IF;
+    END LOOP;
+  END LOOP;
 END $$
 """,
     """
@@ -103,10 +144,18 @@ def _columns(record: str, names: list[str]) -> str:
 
 
 _BLOCK, _JOB = ([column.name for column in table.c] for table in (tables.block, tables.job))
-_CLAIM = text(
-    f"SELECT {_columns('held', _BLOCK)}, {_columns('of_job', _JOB)}"  # noqa: S608 - our own names
-    " FROM claim_block(:wanted, :claimant, :moment, :lease, :version, :processor)"
-).columns(*tables.block.c, *tables.job.c)
+
+
+def _claiming(call: str) -> TextualSelect:
+    columns = f"{_columns('held', _BLOCK)}, {_columns('of_job', _JOB)}"
+    # our own names
+    return text(f"SELECT {columns} FROM {call}").columns(*tables.block.c, *tables.job.c)  # noqa: S608
+
+
+_CLAIM = _claiming("claim_block(:wanted, :claimant, :moment, :lease, :version, :processor)")
+_CLAIM_NEXT = _claiming(
+    "claim_next(:claimant, :moment, :lease, :version, :processor, :queues, :busy)"
+)
 _PROGRESS = text(
     "SELECT record_progress(:wanted, :number, :until, :reached, :fraction, CAST(:done AS bigint))"
 )
@@ -115,10 +164,23 @@ _PROGRESS = text(
 def claim(
     unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None
 ) -> Claim | None:
-    """See `holding.claim`."""
+    """See `claims.claim`."""
     asked = {"wanted": block_id, "claimant": worker, "moment": unit.now, "lease": lease}
     asked |= {"version": solver and solver.version, "processor": solver and solver.processor}
-    row = unit.execute(_CLAIM, asked).one_or_none()
+    return _claimed(unit.execute(_CLAIM, asked).one_or_none())
+
+
+def claim_next(
+    unit: Unit, worker: str, lease: float, solver: Solver, busy: Collection[str]
+) -> Claim | None:
+    """See `claims.claim_next`; blocks that others are about to take are left to them."""
+    asked = {"claimant": worker, "moment": unit.now, "lease": lease}
+    asked |= {"version": solver.version, "processor": solver.processor}
+    asked |= {"queues": list(QUEUES), "busy": list(busy)}
+    return _claimed(unit.execute(_CLAIM_NEXT, asked).one_or_none())
+
+
+def _claimed(row: Any) -> Claim | None:
     if row is None:
         return None
     held = dict(zip(_BLOCK, row, strict=False))

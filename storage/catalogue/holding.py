@@ -1,4 +1,4 @@
-"""Operations of a worker on a block while it holds it: claim, keep, record progress.
+"""Operations of a worker on a block while it holds it: keep it, record progress.
 
 Every statement that changes a held block names the attempt that holds it. A worker that was
 thought dead and comes back finds its attempt fenced: nothing it does counts any more.
@@ -6,82 +6,15 @@ thought dead and comes back finds its attempt fenced: nothing it does counts any
 
 from typing import Any
 
-from sqlalchemy import ColumnElement, and_, case, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, and_, case, func, select, update
 
 from jointplay.storage.catalogue import functions, solvers, tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
-from jointplay.storage.catalogue.records import (
-    Block,
-    BlockState,
-    Claim,
-    Job,
-    JobState,
-    Solver,
-    Verdict,
-)
-from jointplay.storage.catalogue.rows import lock_job, record_event, step_job
+from jointplay.storage.catalogue.records import Block, BlockState, Job, JobState, Verdict
+from jointplay.storage.catalogue.rows import lock_job, record_event
 
 _block = tables.block
-
-
-def claim(
-    unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None = None
-) -> Claim | None:
-    """Take a queued block for `lease` seconds; none if there is nothing (left) to do.
-
-    With a `solver` only a block of a job that is its own, or that no worker's solver is any more.
-    """
-    taken = functions.claim if unit.shared else _claim
-    found = taken(unit, block_id, worker, lease, solver)
-    if found is None and solver is not None and solvers.take_over(unit, block_id, solver):
-        found = taken(unit, block_id, worker, lease, solver)
-    return found
-
-
-def _claim(
-    unit: Unit, block_id: str, worker: str, lease: float, solver: Solver | None
-) -> Claim | None:
-    """Do what the function of `functions` does."""
-    job_id = unit.execute(select(_block.c.job).where(_block.c.id == block_id)).scalar_one_or_none()
-    if job_id is None:
-        return None
-    job = lock_job(unit, job_id)
-    if job.state.terminal or not (solver is None or solvers.fits(job, solver)):
-        return None
-    row = unit.execute(
-        update(_block)
-        .where(_block.c.id == block_id, _block.c.state == BlockState.queued)
-        .values(
-            state=BlockState.running,
-            attempt=_block.c.attempt + 1,
-            lease_until=unit.now + lease,
-            worker=worker,
-        )
-        .returning(*_block.c)
-    ).one_or_none()
-    if row is None:
-        return None
-    held = Block(**row._mapping)
-    unit.execute(delete(tables.outbox).where(tables.outbox.c.block == block_id))
-    unit.execute(
-        insert(tables.attempt).values(
-            block=block_id, number=held.attempt, worker=worker, started=unit.now
-        )
-    )
-    unit.execute(
-        update(tables.job)
-        .where(tables.job.c.id == job_id)
-        .values(
-            attempt=max(job.attempt, held.attempt),
-            started=func.coalesce(tables.job.c.started, unit.now),
-            processor=job.processor or (solver and solver.processor),
-        )
-    )
-    step_job(unit, job_id, JobState.running)
-    claimed = {"block": held.id, "attempt": held.attempt, "worker": worker}
-    record_event(unit, job_id, "claimed", claimed)
-    return Claim(held, lock_job(unit, job_id))
 
 
 def _is_held(block_id: str, attempt: int) -> ColumnElement[bool]:

@@ -12,7 +12,7 @@ from jointplay.storage.catalogue import stored, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import QuotaExceeded
-from jointplay.storage.catalogue.records import LIVE, number_of
+from jointplay.storage.catalogue.records import LIVE, BlockState, number_of
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,16 @@ def use_of(unit: Unit, owner: str) -> Use:
     of_owner = columns.state.in_(LIVE) & (columns.owner == owner)
     live = unit.execute(select(func.count()).select_from(tables.job).where(of_owner)).scalar_one()
     return Use(live, stored.bytes_of(unit, owner), usage.core_seconds_of(unit, owner))
+
+
+def busy_owners(unit: Unit, most: int) -> tuple[str, ...]:
+    """Return the owners of whose blocks `most` or more are computed; none if that is 0."""
+    if not most:
+        return ()
+    owner = tables.job.c.owner
+    computed = select(owner).join(tables.block).where(tables.block.c.state == BlockState.running)
+    by_owner = computed.where(owner != "").group_by(owner).having(func.count() >= most)
+    return tuple(unit.execute(by_owner).scalars())
 
 
 class Uses:

@@ -5,7 +5,7 @@ no worker's solver is any more is begun anew by another one, if it may be; a stu
 waits, and its status says so.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Final
 
 from sqlalchemy import ColumnElement, and_, delete, func, insert, or_, select, update
@@ -18,6 +18,8 @@ PATIENCE: Final = 60.0
 """Seconds after which a worker that is silent, or a job that none has taken, is on its own."""
 UNSERVED: Final = "no worker has its solver"
 """Activity of a job that no worker may take."""
+_CANDIDATES: Final = 8
+"""Abandoned blocks that a worker tries to take over: others may be quicker."""
 _FORGOTTEN: Final = 3600.0  # s
 _PART_OF_WAIT: Final = 0.25
 _LONGEST_PAUSE: Final = 300.0  # s
@@ -49,30 +51,38 @@ def _abandoned(unit: Unit) -> ColumnElement[bool]:
     return and_(alone, _job.c.created <= unit.now - PATIENCE, ~_served(unit))
 
 
-def waiting_for(unit: Unit, solver: Solver, limit: int) -> tuple[str, ...]:
-    """Return queued blocks that a worker with this solver may claim, in the order of their turn."""
+def waiting_for(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
+    """Return the queued block whose turn it is of a solver's, if there is one, of idle owners."""
+    return _queued(unit, _fits(solver), busy, 1)
+
+
+def abandoned(unit: Unit, solver: Solver, busy: Collection[str] = ()) -> tuple[str, ...]:
+    """Return queued blocks that a solver may take over from others, in the order of their turn."""
+    return _queued(unit, and_(~_fits(solver), _abandoned(unit)), busy, _CANDIDATES)
+
+
+def _queued(
+    unit: Unit, of: ColumnElement[bool], busy: Collection[str], limit: int
+) -> tuple[str, ...]:
     outbox = tables.outbox
     ready = or_(outbox.c.due <= unit.now, outbox.c.tries > 0)  # sent: only others are woken by it
     found: list[str] = []
     for queue in QUEUES:  # by index: the cost is that of the answer
-        rows = unit.execute(
-            select(outbox.c.block)
-            .join(_block, _block.c.id == outbox.c.block)
-            .join(_job, _job.c.id == _block.c.job)
-            .where(outbox.c.queue == queue, ready, or_(_fits(solver), _abandoned(unit)))
-            .order_by(outbox.c.due, outbox.c.block)
-            .limit(limit - len(found))
-        )
-        found += rows.scalars()
+        if len(found) < limit:
+            rows = unit.execute(
+                select(outbox.c.block)
+                .join(_block, _block.c.id == outbox.c.block)
+                .join(_job, _job.c.id == _block.c.job)
+                .where(outbox.c.queue == queue, ready, outbox.c.owner.not_in(busy), of)
+                .order_by(outbox.c.turn, outbox.c.block)
+                .limit(limit - len(found))
+            )
+            found += rows.scalars()
     return tuple(found)
 
 
 def take_over(unit: Unit, block_id: str, solver: Solver) -> bool:
-    """Make a block's job this solver's, if it was abandoned; what it had computed is left.
-
-    If it is another solver's, a worker of that one is woken again after a part of the time that the
-    block has waited.
-    """
+    """Make a block's job this solver's, if it was abandoned; what it had computed is left."""
     queued = and_(_block.c.id == block_id, _block.c.state == BlockState.queued)
     of_block = _job.c.id == select(_block.c.job).where(queued).scalar_subquery()
     foreign = and_(of_block, _job.c.state.in_(LIVE), ~_fits(solver))
@@ -85,16 +95,23 @@ def take_over(unit: Unit, block_id: str, solver: Solver) -> bool:
     if taken is not None:
         anew = update(_block).where(_block.c.job == taken)
         unit.execute(anew.values(checkpoint=None, watermark=0))
-        return True
+    return taken is not None
+
+
+def announce_again(unit: Unit, block_id: str, solver: Solver) -> None:
+    """Have a worker woken again for a block that this one, which was woken for it, has not taken.
+
+    At once; if it is another solver's after a part of the time that the block has waited.
+    """
     outbox = tables.outbox
-    elsewhere = select(_job.c.id).where(foreign).exists()
-    waited = select(outbox.c.created).where(outbox.c.block == block_id, elsewhere)
-    created = unit.execute(waited).scalar_one_or_none()
-    if created is not None:
-        pause = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
-        again = update(outbox).where(outbox.c.block == block_id)
-        unit.execute(again.values(due=unit.now + pause, tries=0))
-    return False
+    of_block = outbox.c.block == block_id
+    own = select(_job.c.id).join(_block).where(_block.c.id == block_id, _fits(solver)).exists()
+    found = unit.execute(select(outbox.c.created, own).where(of_block)).one_or_none()
+    if found is not None:
+        created, is_own = found
+        longer = min(max(_PART_OF_WAIT * (unit.now - created), 1.0), _LONGEST_PAUSE)
+        due = unit.now + (0.0 if is_own else longer)
+        unit.execute(update(outbox).where(of_block).values(due=due, tries=0))
 
 
 def machine_of(worker: str) -> str:

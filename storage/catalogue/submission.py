@@ -15,7 +15,7 @@ from sqlalchemy import (
     update,
 )
 
-from jointplay.storage.catalogue import tables
+from jointplay.storage.catalogue import tables, turns
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.databases.postgresql import take_turns
 from jointplay.storage.catalogue.errors import CatalogueError, KeyReused, QuotaExceeded
@@ -31,6 +31,7 @@ from jointplay.storage.catalogue.records import (
     NewJob,
     SubmissionKey,
     Submitted,
+    number_of,
 )
 from jointplay.storage.catalogue.rows import find_job, lock_job, step_job
 
@@ -71,6 +72,8 @@ def submit(
     """
     looked_for = [one.new.number for one in requests if one.reuse]
     looked_for += [one.key.number for one in requests if one.key is not None]
+    owners = {one.new.owner for one in requests} - {""}
+    looked_for += [number_of("turn", owner) for owner in owners]  # in one order
     take_turns(unit.connection, *looked_for)
     uses = Uses(unit, {one.new.owner for one in requests if one.quota})
     answers: list[Submitted | CatalogueError] = []
@@ -181,20 +184,22 @@ def insert_jobs(unit: Unit, jobs: Sequence[tuple[Row, NewJob]]) -> None:
     blocks = [block for row, new in jobs for block in _blocks(row["id"], new)]
     alone = {row["id"] for row, new in jobs if len(new.blocks) == 1 and row["batch"] is None}
     unit.execute(insert(tables.block), blocks)
+    owners = {row["id"]: row["owner"] for row, _ in jobs}
+    queued = [block for block in blocks if block["state"] is BlockState.queued]
+    places = [
+        (INTERACTIVE_QUEUE if block["job"] in alone else FRESH_QUEUE, owners[block["job"]])
+        for block in queued
+    ]
+    fresh = {"created": now, "due": now, "tries": 0}
     wake_ups = [
-        {
-            "block": block["id"],
-            "queue": INTERACTIVE_QUEUE if block["job"] in alone else FRESH_QUEUE,
-            "created": now,
-            "due": now,
-            "tries": 0,
-        }
-        for block in blocks
-        if block["state"] is BlockState.queued
+        {"block": block["id"], "queue": queue, "owner": owner, "turn": turn, **fresh}
+        for block, (queue, owner), turn in zip(
+            queued, places, turns.take(unit, places), strict=True
+        )
     ]
     unit.execute(insert(tables.outbox), wake_ups)
-    queued = {"seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
-    unit.execute(insert(tables.event), [queued | {"job": row["id"]} for row, _ in jobs])
+    first = {"seq": 1, "time": now, "type": JobState.queued.value, "data": {}}
+    unit.execute(insert(tables.event), [first | {"job": row["id"]} for row, _ in jobs])
 
 
 def _blocks(job_id: str, new: NewJob) -> Iterator[Row]:

@@ -174,9 +174,21 @@ outbox = Table(
     Column("created", Float(53), nullable=False),
     Column("due", Float(53), nullable=False),
     Column("tries", Integer, nullable=False),
+    Column("owner", String(64), nullable=False, server_default=""),
+    Column("turn", BigInteger, nullable=False, server_default="0"),
     Index("ix_outbox_due", "due", "tries"),
-    # what to publish next, however many wait
-    Index("ix_outbox_queue_due", "queue", "due", "block"),
+    # whose turn it is, however many wait
+    Index("ix_outbox_queue_turn", "queue", "turn", "block", "owner", "due"),
+)
+
+# The turn that follows an owner's last one; see `storage.catalogue.turns`. Nobody's: the present.
+turn = Table(
+    "turn",
+    metadata,
+    Column("queue", String(32), nullable=False),
+    Column("owner", String(64), nullable=False),
+    Column("next", BigInteger, nullable=False),
+    PrimaryKeyConstraint("queue", "owner"),
 )
 
 idempotency = Table(

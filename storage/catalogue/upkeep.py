@@ -7,9 +7,9 @@ were.
 from collections.abc import Sequence
 from operator import attrgetter
 
-from sqlalchemy import ColumnElement, case, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, case, delete, func, insert, select, true, update
 
-from jointplay.storage.catalogue import tables, usage
+from jointplay.storage.catalogue import quotas, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.ending import LONGEST_PAUSE, lose
 from jointplay.storage.catalogue.errors import JobNotFinished
@@ -21,20 +21,23 @@ _REAP_AT_ONCE = 200
 _RAREST_REPEAT = 16  # a wake-up is repeated after at most this many times `republish_after`
 
 
-def due_wake_ups(unit: Unit, outstanding: int) -> tuple[WakeUp, ...]:
-    """Return what to publish now: due wake-ups, those of recovered blocks first.
+def due_wake_ups(unit: Unit, outstanding: int, most_running: int = 0) -> tuple[WakeUp, ...]:
+    """Return what to publish now: due wake-ups in the order of their turn, recovered blocks first.
 
     At most `outstanding` may be on their way at one time: what Redis holds stays small however many
-    blocks wait, and losing it costs little.
+    blocks wait, and losing it costs little. Owners of whose blocks `most_running` are computed are
+    passed by; 0: any number may be.
     """
     outbox = tables.outbox
     underway = on_the_way(unit)
+    busy = quotas.busy_owners(unit, most_running)
+    idle = outbox.c.owner.not_in(busy) if busy else true()
     due: list[WakeUp] = []
     for queue in QUEUES:  # by index: the cost is that of the answer
         rows = unit.execute(
             select(outbox.c.block)
-            .where(outbox.c.queue == queue, outbox.c.due <= unit.now)
-            .order_by(outbox.c.due, outbox.c.block)
+            .where(outbox.c.queue == queue, outbox.c.due <= unit.now, idle)
+            .order_by(outbox.c.turn, outbox.c.block)
             .limit(max(outstanding - underway - len(due), 0))
         )
         due += [WakeUp(block, queue) for block in rows.scalars()]

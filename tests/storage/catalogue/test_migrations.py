@@ -15,6 +15,11 @@ from jointplay.storage.catalogue.records import NewJob
 from tests.postgresql_server import Server
 
 LATER = (
+    "DROP INDEX ix_outbox_queue_turn",
+    "ALTER TABLE outbox DROP COLUMN owner",
+    "ALTER TABLE outbox DROP COLUMN turn",
+    "CREATE INDEX ix_outbox_queue_due ON outbox (queue, due, block)",
+    "DROP TABLE turn",
     "DROP INDEX ix_job_unmeasured",
     "DROP INDEX ix_job_owner_stored",
     "DROP INDEX ix_job_owner_id",
@@ -89,7 +94,7 @@ def test_the_first_revision_is_brought_to_the_newest(new_url: Callable[[], str])
     older = catalogue.submit(NewJob("simulate", {}, "d" * 64, "1")).job
     with catalogue.connections.writing() as connection:
         if connection.dialect.name == "postgresql":
-            connection.exec_driver_sql("DROP FUNCTION claim_block, record_progress")
+            connection.exec_driver_sql("DROP FUNCTION claim_block, claim_next, record_progress")
         for statement in LATER:
             connection.exec_driver_sql(statement)
     catalogue.migrate()

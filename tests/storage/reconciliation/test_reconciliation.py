@@ -95,7 +95,8 @@ def lose_a_wake_up(installed: Installed) -> None:
 
 def leave_a_wake_up(installed: Installed) -> None:
     block = f"{installed.jobs['swept']}-0"
-    installed.sql(f"INSERT INTO outbox SELECT '{block}', queue, created, due, tries FROM outbox")
+    others = "queue, created, due, tries"
+    installed.sql(f"INSERT INTO outbox (block, {others}) SELECT '{block}', {others} FROM outbox")
 
 
 def leave_a_block(installed: Installed) -> None:
