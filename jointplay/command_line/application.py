@@ -155,7 +155,7 @@ def _exit_of(error: Exception) -> Exit | None:
 
 def _line_of(error: Exception) -> str | None:
     """Return what is said of a failure; nothing where the system failed without naming a file."""
-    if isinstance(error, OSError):
+    if isinstance(error, OSError) and error.errno is not None:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
             return f"{error.filename or 'a disk'} is full; make room and try again."
         return None if error.filename is None else f"{error.filename}: {error.strerror}."

@@ -74,7 +74,7 @@ def _examination(
 
     settings = settings_of(folder)
     database = settings.catalogue_url.partition("sqlite:///")[2]
-    if not folder.is_dir() or (database and not Path(database).exists()):
+    if database and not Path(database).exists():
         line = f"{folder} holds neither a service's data nor the results of a run."
         raise Stopped(line)
     catalogue = Catalogue(settings.catalogue_url)

@@ -139,6 +139,15 @@ def make(connection: Connection) -> None:
             connection.exec_driver_sql(function)
 
 
+def lacking(connection: Connection) -> list[str]:
+    """Name the functions that there should be, and are not."""
+    if connection.dialect.name != "postgresql":
+        return []
+    names = [function.split("FUNCTION ")[1].partition("(")[0] for function in FUNCTIONS]
+    given = "SELECT name FROM unnest(%s::text[]) AS name WHERE to_regproc(name) IS NULL"
+    return list(connection.exec_driver_sql(given, (names,)).scalars())
+
+
 def _columns(record: str, names: list[str]) -> str:
     return ", ".join(f'({record})."{name}"' for name in names)
 

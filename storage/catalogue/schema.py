@@ -1,5 +1,7 @@
 """Bringing a database to the present schema, when a process starts."""
 
+from collections.abc import Iterator
+
 from sqlalchemy import Connection, inspect, text
 
 from jointplay.storage.catalogue import functions, tables
@@ -46,7 +48,22 @@ def flaws(connection: Connection) -> tuple[str, ...]:
         return (f"is at revision {found}; jointplay serve brings it to {REVISION}",)
     if found > REVISION:
         return (f"is at revision {found}, of a newer jointplay than this one",)
+    if lacking := [*_lacking(connection)]:
+        return (f"lacks {', '.join(lacking)}",)
     if connection.dialect.name != "sqlite":
         return ()
     said = connection.execute(text("PRAGMA integrity_check(5)")).scalars()
     return tuple(f"is damaged: {sentence}" for sentence in said if sentence != "ok")
+
+
+def _lacking(connection: Connection) -> Iterator[str]:
+    """Name what a database has no more of what was made in it, as one restored from a part."""
+    from alembic.autogenerate import compare_metadata
+    from alembic.migration import MigrationContext
+
+    for found in compare_metadata(MigrationContext.configure(connection), tables.metadata):
+        if isinstance(found, tuple) and found[0].startswith("add_"):
+            what = found[0].removeprefix("add_").replace("fk", "foreign key").replace("_", " ")
+            *_, made = found
+            yield f"{what} {made.name or made.table.name}"
+    yield from (f"function {name}" for name in functions.lacking(connection))

@@ -29,6 +29,8 @@ _DATA: Final = {
 _SEALED: Final = re.compile(
     r"../(?P<job>[0-9A-Z]{26})-(a(?P<attempt>\d+)|study)\.zarr\.zip(\.[0-9a-f]+\.partial)?"
 )
+_OF_A_JOB: Final = 3
+"""Slashes at least in the key of what a running job needs, such as running/XX/ID/a1/documents."""
 _LEFT: Final = "is left over"
 _READ: Final = "jointplay show FILE reads it; remove it, or keep it elsewhere"
 
@@ -45,7 +47,7 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
     """
     yield from _of_the_place(settings, catalogue, grace)
     yield from _of_running_jobs(settings, catalogue, grace)
-    for path in sorted(settings.data.iterdir()):
+    for path in sorted(settings.data.glob("*")):
         if path.name not in _DATA:
             yield Finding(
                 "data", (path.name,), "is left in the data folder", advice=f"rm -r '{path}'"
@@ -55,7 +57,7 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
 def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
     place = settings.place
     for key in sorted([*place.list(""), *place.cut_off()]):
-        if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") > 2:
+        if settings.sends and key.startswith(f"{RUNNING}/") and key.count("/") >= _OF_A_JOB:
             continue
         named = _SEALED.fullmatch(key)
         if named is None:
@@ -94,7 +96,8 @@ def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> 
 def _running_jobs(settings: Settings) -> list[str]:
     """Return the ids of the jobs of which something is kept that they need while they run."""
     if settings.sends:
-        return sorted({key.split("/")[2] for key in settings.place.list(f"{RUNNING}/")})
+        keys = (key.split("/") for key in settings.place.list(f"{RUNNING}/"))
+        return sorted({parts[2] for parts in keys if len(parts) > _OF_A_JOB})
     return [folder.name for folder in sorted((settings.data / RUNNING).glob("*/*"))]
 
 

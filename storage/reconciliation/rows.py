@@ -19,7 +19,7 @@ def unsound(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
     """Look for reasons for which nothing else can be asked of the catalogue."""
     name = settings.catalogue_url.rpartition("/")[2]
     for flaw in catalogue.flaws():
-        broken = flaw.startswith(("is damaged", "cannot be read"))
+        broken = flaw.startswith(("is damaged", "cannot be read", "lacks"))
         yield Finding(WHERE, (name,), flaw, advice=_RESTORE if broken else None)
 
 

@@ -26,6 +26,8 @@ def clock(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
 
 def disk(settings: Settings, catalogue: Catalogue) -> Iterator[Finding]:
     """Compare the room on the data folder's disk with what submissions ask for."""
+    if not settings.data.is_dir():
+        return  # nothing was kept on this machine yet
     lacking = settings.reserve - settings.room()
     if lacking > 0:
         yield Finding(

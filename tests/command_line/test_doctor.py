@@ -8,7 +8,8 @@ import pytest
 
 from jointplay.client import Client
 from jointplay.command_line.application import run
-from tests.storage.reconciliation.installation import Installed, installed, whole
+from tests.storage.reconciliation.installation import Installed, whole
+from tests.storage.reconciliation.installation import in_a_folder as installed
 
 __all__ = ["installed", "whole"]
 
@@ -26,7 +27,7 @@ def test_nothing_is_wrong_with_a_service_that_is_well(jointplay, installed: Inst
 
 def test_what_is_wrong_is_told_in_a_table_mended_and_left(jointplay, installed: Installed) -> None:
     data = installed.settings.data
-    flip(installed.sealed("succeeded"))
+    flip(data / "results" / installed.sealed("succeeded").key)
     installed.sql("DELETE FROM outbox")
     looked = jointplay("doctor", data, "--dry-run")
     assert looked.code == 1

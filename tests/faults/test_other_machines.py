@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from jointplay.client import Client
+from jointplay.command_line.application import run as command
 from jointplay.local.running import run
 from jointplay.service.processes import running_service
 from jointplay.storage.catalogue.catalogue import Catalogue
@@ -53,6 +54,16 @@ def test_results_are_those_of_a_local_run(tmp_path: Path) -> None:
             keys = {settings.sealed_run(job.id, 1).key, settings.sealed_study(study.id).key}
             assert set(place.list("")) == keys
             assert [*findings(settings, catalogue)] == []
+            for one, sealed in (
+                (job, settings.sealed_run(job.id, 1)),
+                (study, settings.sealed_study(study.id)),
+            ):
+                verify = ["verify", one.id, "--processes", "1", "--url", url]
+                assert command(verify) == 0
+                content = sealed.read(0, sealed.size())
+                place.replace(sealed.key, [content[:-3] + bytes([content[-3] ^ 1]) + content[-2:]])
+                assert command(verify) == 1
+                place.replace(sealed.key, [content])
             job.delete()
             until(lambda: len([*place.list("")]) == 1)
             catalogue.close()

@@ -8,7 +8,7 @@ import pytest
 from stepped_clock import Clock
 
 from jointplay.storage.catalogue.catalogue import Catalogue
-from tests.postgresql_server import Server, running_server
+from tests.postgresql_server import Server
 
 
 @pytest.fixture
@@ -23,12 +23,6 @@ def empty_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     catalogue.migrate()
     catalogue.close()
     return path
-
-
-@pytest.fixture(scope="session")
-def postgresql() -> Iterator[Server]:
-    with running_server() as server:
-        yield server
 
 
 @pytest.fixture

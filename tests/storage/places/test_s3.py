@@ -1,8 +1,7 @@
 """Results in a bucket of an S3-compatible store."""
 
-import itertools
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from datetime import timedelta
 
 import obstore
@@ -12,21 +11,9 @@ from obstore.exceptions import NotFoundError
 from jointplay.storage.places import Place, place_at
 from jointplay.storage.places.fitness import Unfit, require_fit
 from jointplay.storage.places.s3 import Bucket
-from tests.seaweedfs_server import BUCKET, running_store, store
+from tests.seaweedfs_server import BUCKET, store
 from tests.storage.places.contract import CONTENT, KEY, PlaceContract, pieces
 from tests.storage.running_files.contract import InPlaceContract
-
-
-@pytest.fixture(scope="module")
-def endpoint() -> Iterator[str]:
-    with running_store() as endpoint:
-        yield endpoint
-
-
-@pytest.fixture(scope="module")
-def new_address(endpoint: str) -> Callable[[], str]:
-    number = itertools.count()
-    return lambda: f"s3://{BUCKET}/place{next(number)}?endpoint={endpoint}"
 
 
 class TestBucket(PlaceContract):

@@ -1,64 +1,106 @@
 """Whatever contradicts itself in an installation is found, and mended where that can be."""
 
-import shutil
+import itertools
 from collections.abc import Callable
-from pathlib import Path
+from random import Random
 
 import pytest
 
 from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.storage.places import StoredObject
 from jointplay.storage.reconciliation import findings, rows
 from tests.storage.reconciliation.installation import RUN, Installed
 
 ELSEWHERE = "01ARZ3NDEKTSV4RRFFQ69G5FAV"
 Break = Callable[[Installed], None]
+Harm = Callable[..., None]
 
 
-def every_file(installed: Installed) -> dict[Path, bytes]:
-    data = installed.settings.data
-    return {
-        path: path.read_bytes()
-        for path in sorted(data.rglob("*"))
-        if path.is_file() and not path.name.startswith("catalogue")
-    }
+def every_file(installed: Installed) -> dict[str, bytes]:
+    return {name: content_of(one) for name, one in installed.every_object().items()}
 
 
 def test_nothing_is_found_in_an_installation_that_is_well(installed: Installed) -> None:
     before = every_file(installed)
+    assert len(before) > 6
     assert installed.look() == []
     assert every_file(installed) == before
 
 
-def flip(installed: Installed) -> None:
-    path = installed.sealed("succeeded")
-    content = bytearray(path.read_bytes())
+def content_of(stored: StoredObject) -> bytes:
+    return stored.read(0, stored.size())
+
+
+def write(stored: StoredObject, content: bytes) -> None:
+    stored.place.replace(stored.key, [content])
+
+
+def flip(stored: StoredObject, _: StoredObject | None = None) -> None:
+    content = bytearray(content_of(stored))
     content[len(content) // 2] ^= 1
-    path.write_bytes(content)
+    write(stored, bytes(content))
 
 
-def remove(installed: Installed) -> None:
-    installed.sealed("succeeded").unlink()
+def truncate(stored: StoredObject, _: StoredObject | None = None) -> None:
+    write(stored, content_of(stored)[:-1])
 
 
-def exchange(installed: Installed) -> None:
-    shutil.copyfile(installed.sealed("swept"), installed.sealed("succeeded"))
+def empty(stored: StoredObject, _: StoredObject | None = None) -> None:
+    write(stored, b"")
 
 
-def damage_an_incomplete_run(installed: Installed) -> None:
-    path = installed.sealed("cancelled")
-    path.write_bytes(path.read_bytes()[:-1])
+def remove(stored: StoredObject, _: StoredObject | None = None) -> None:
+    stored.place.remove(stored.key)
 
 
-def damage_a_part(installed: Installed) -> None:
-    (path,) = (installed.running("cut short") / "study" / "parts").iterdir()
-    path.write_bytes(path.read_bytes()[:-1])
+def swap(stored: StoredObject, other: StoredObject) -> None:
+    """Exchange it with what is in its place in another job."""
+    one, two = content_of(stored), content_of(other)
+    write(stored, two)
+    write(other, one)
 
 
-def damage_the_documents(installed: Installed) -> None:
-    path = installed.running("cut short") / "study" / "documents.zip"
-    content = bytearray(path.read_bytes())
-    content[100] ^= 1
-    path.write_bytes(content)
+HARMS = (flip, truncate, empty, remove, swap)
+SUBJECTS: dict[str, tuple[str, str]] = {
+    "succeeded": ("", "swept"),
+    "swept": ("", "succeeded"),
+    "cancelled": ("", "succeeded"),
+    "cut short": ("study/documents.zip", "cut short, too"),
+    "cut short, too": ("study/parts/00000", "cut short"),
+    "given up": ("a1/documents.zip", "running"),
+}
+"""By job: the object that is harmed, the sealed one if it has no name; the job of the other one."""
+EVERY_HARM = [
+    one
+    for one in itertools.product(SUBJECTS, HARMS, ("in_a_folder", "in_servers"))
+    if one[:2] != ("cancelled", remove)  # nobody knows whether it had begun
+]
+SAMPLED = Random(5).sample(EVERY_HARM, 6)
+
+
+@pytest.mark.parametrize(
+    ("subject", "harm", "installed"),
+    [one if one in SAMPLED else pytest.param(*one, marks=pytest.mark.long) for one in EVERY_HARM],
+    indirect=["installed"],
+)
+def test_whatever_happens_to_an_object_is_found_and_its_job_is_marked(
+    installed: Installed, subject: str, harm: Harm
+) -> None:
+    name, other = SUBJECTS[subject]
+    one, two = (
+        installed.running(label).object(name) if name else installed.sealed(label)
+        for label in (subject, other)
+    )
+    harm(one, two)
+    found = {one.subjects: one for one in installed.mend()}
+    mine = f"job {installed.jobs[subject]}"
+    assert (mine,) in found, found
+    assert found[mine,].mended == "marked as damaged"
+    harmed = {mine, f"job {installed.jobs[other]}"} if harm is swap else {mine}
+    assert {subjects[0] for subjects in found} <= harmed
+    left = {one.subjects: (one.found, one.mend) for one in installed.look()}
+    assert left == {subjects: (one.found, None) for subjects, one in found.items()}
+    assert installed.catalogue.get(installed.jobs[subject]).damaged == found[mine,].found
 
 
 def restore(installed: Installed) -> None:
@@ -66,23 +108,22 @@ def restore(installed: Installed) -> None:
 
 
 def leave_a_fenced_attempt(installed: Installed) -> None:
-    path = installed.sealed("succeeded")
-    shutil.copyfile(path, path.with_name(path.name.replace("-a1", "-a2")))
+    sealed = installed.sealed("succeeded")
+    sealed.place.put(sealed.key.replace("-a1", "-a2"), [content_of(sealed)])
 
 
 def leave_a_partial_result(installed: Installed) -> None:
-    path = installed.sealed("succeeded")
-    path.with_name(f"{path.name}.0a1b2c3d.partial").write_bytes(b"half")
+    key = f"{installed.sealed('succeeded').key}.0a1b2c3d.partial"
+    (installed.settings.data / "results" / key).write_bytes(b"half")
 
 
 def leave_a_running_folder(installed: Installed) -> None:
-    folder = installed.running("swept")
-    folder.mkdir(parents=True)
-    (folder / "part").write_bytes(b"")
+    installed.running("swept").put("part", [b""])
 
 
 def leave_a_partial_part(installed: Installed) -> None:
-    (installed.running("cut short") / "study" / "parts" / "1.partial").write_bytes(b"")
+    folder = installed.settings.running_folder(installed.jobs["cut short"])
+    (folder / "study" / "parts" / "1.partial").write_bytes(b"")
 
 
 def orphan_rows(installed: Installed) -> None:
@@ -118,12 +159,6 @@ def do_not_settle(installed: Installed) -> None:
 
 
 MENDED = {
-    flip: ("results", "has other bytes", "marked"),
-    remove: ("results", "is gone", "marked"),
-    exchange: ("results", "holds the results of another job", "marked"),
-    damage_an_incomplete_run: ("results", "is cut off", "marked"),
-    damage_a_part: ("results", "cannot be read", "marked"),
-    damage_the_documents: ("results", "has other bytes", "marked"),
     restore: ("results", "are whole", "no longer marked"),
     leave_a_fenced_attempt: ("results", "is left over", "removed"),
     leave_a_partial_result: ("results", "is left over", "removed"),
@@ -138,7 +173,15 @@ MENDED = {
 }
 
 
-@pytest.mark.parametrize("damage", MENDED)
+OF_A_FOLDER = (leave_a_partial_result, leave_a_partial_part)
+
+
+@pytest.mark.parametrize(
+    ("installed", "damage"),
+    [("in_a_folder", one) for one in MENDED]
+    + [("in_servers", one) for one in MENDED if one not in OF_A_FOLDER],
+    indirect=["installed"],
+)
 def test_what_is_wrong_is_found_once_and_mended(installed: Installed, damage: Break) -> None:
     damage(installed)
     where, found, mended = MENDED[damage]
@@ -155,10 +198,10 @@ def test_what_is_wrong_is_found_once_and_mended(installed: Installed, damage: Br
 
 
 def test_a_job_with_damaged_results_is_marked(installed: Installed) -> None:
-    flip(installed)
+    flip(installed.sealed("succeeded"))
     installed.mend()
     job = installed.catalogue.get(installed.jobs["succeeded"])
-    assert installed.sealed("succeeded").name in str(job.damaged)
+    assert installed.sealed("succeeded").key in str(job.damaged)
     assert job.state is JobState.succeeded
 
 
@@ -194,7 +237,7 @@ def test_orphaned_rows_are_removed(installed: Installed) -> None:
 def test_whole_results_without_a_job_get_one_that_can_be_found(installed: Installed) -> None:
     """The catalogue is lost, or a copy from before the jobs; only what was whole is adopted."""
     lost = {label: installed.catalogue.get(job) for label, job in installed.jobs.items()}
-    installed.sql("PRAGMA foreign_keys=ON", "DELETE FROM job")
+    installed.sql("DELETE FROM job", rules=True)
     found = {one.found: one for one in installed.mend()}
     assert len([one for one in found.values() if one.mended == "its job was made again"]) == 1
     jobs = {job.label: job for job in installed.catalogue.every_job()}
@@ -206,11 +249,9 @@ def test_whole_results_without_a_job_get_one_that_can_be_found(installed: Instal
             assert getattr(job, name) == getattr(former, name), name
         assert job.created == pytest.approx(former.created, abs=1e-3)  # ids count milliseconds
     left = {one.subjects[0].rpartition("/")[2]: one for one in installed.look()}
-    assert set(left) == {
-        installed.sealed("cancelled").name,
-        installed.jobs["cut short"],
-        installed.jobs["running"],
-    }
+    running = ("cut short", "cut short, too", "given up", "running")
+    cancelled = installed.sealed("cancelled").key.rpartition("/")[2]
+    assert set(left) == {cancelled, *(installed.jobs[label] for label in running)}
     assert all(one.mend is None and one.advice for one in left.values())
 
 
@@ -220,7 +261,7 @@ def test_a_job_that_is_made_again_is_kept_as_one_that_is_submitted_now(
     """When it was to expire is lost; that it has expired already nobody would expect."""
     installed.settings = installed.settings.model_copy(update={"keep": 3600.0})
     installed.clock.ahead = 86_400.0
-    installed.sql("PRAGMA foreign_keys=ON", "DELETE FROM job")
+    installed.sql("DELETE FROM job", rules=True)
     installed.mend()
     for job in installed.catalogue.every_job():
         assert job.expires == pytest.approx(installed.clock() + 3600.0, abs=60.0)
@@ -228,8 +269,9 @@ def test_a_job_that_is_made_again_is_kept_as_one_that_is_submitted_now(
 
 
 def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> None:
-    path = installed.sealed("succeeded")
-    copy = shutil.copyfile(path, path.with_name(f"{path.name}.bak"))
+    sealed = installed.sealed("succeeded")
+    copy = StoredObject(sealed.place, f"{sealed.key}.bak")
+    copy.put([content_of(sealed)])
     (installed.settings.data / "notes").write_text("mine")
     found = installed.mend()
     assert [one.mend for one in found] == [None, None]
@@ -238,14 +280,15 @@ def test_results_that_a_user_put_there_are_left_to_him(installed: Installed) -> 
 
 @pytest.mark.parametrize("loss", [flip, remove])
 def test_what_is_left_of_a_job_without_whole_results_is_kept(
-    installed: Installed, loss: Break
+    installed: Installed, loss: Harm
 ) -> None:
     """A fenced attempt's results may be the only ones that are whole."""
     leave_a_fenced_attempt(installed)
-    loss(installed)
+    sealed = installed.sealed("succeeded")
+    loss(sealed)
     installed.mend()
-    late = next((installed.settings.data / "results").glob("*/*-a2.zarr.zip"))
-    (finding,) = [one for one in installed.look() if late.name in one.subjects[0]]
+    late = sealed.key.replace("-a1", "-a2")
+    (finding,) = [one for one in installed.look() if late in one.subjects[0]]
     assert finding.mend is None
     assert "jointplay show" in str(finding.advice)
 
