@@ -14,6 +14,7 @@ from typing import Any, Final, TypeVar
 
 from jointplay.storage import durable
 from jointplay.storage.errors import CorruptStore, LostObject, NotAStore
+from jointplay.storage.packed.in_memory import InMemory
 from jointplay.storage.packed.reading import Entry, Packed
 from jointplay.storage.packed.writing import pack
 from jointplay.storage.places import StoredObject
@@ -256,25 +257,6 @@ class Running:
 
     def _path(self, key: str) -> Path:
         return self.folder / self.file_of(key)
-
-
-class InMemory:
-    """Bytes of a name to be read by ranges."""
-
-    def __init__(self, name: str, content: bytes) -> None:
-        self._name = name
-        self._content = content
-
-    def __str__(self) -> str:
-        return self._name
-
-    def size(self) -> int:
-        """Return how many there are."""
-        return len(self._content)
-
-    def read(self, start: int, stop: int) -> bytes:
-        """Return bytes [start, stop)."""
-        return self._content[start:stop]
 
 
 def make_folders(folder: Path) -> None:
