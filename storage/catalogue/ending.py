@@ -8,7 +8,7 @@ from typing import Any, Final
 from sqlalchemy import func, insert, select, update
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue import tables, usage
+from jointplay.storage.catalogue import functions, tables, usage
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.holding import change_held, lock_held, sum_progress
 from jointplay.storage.catalogue.records import RECOVERED_QUEUE, BlockState, Job, JobState
@@ -51,19 +51,18 @@ def finish(
     Fenced
         The block is held no more; nothing was changed.
     """
-    changes: dict[str, Any] = {"state": outcome, "lease_until": None}
-    if time is not None:
-        changes["progress_time"] = time
-    if steps is not None:
-        changes["progress_steps"] = steps
-    if outcome is BlockState.done:
-        fraction = 1.0
-    if fraction is not None:
-        changes["progress_fraction"] = fraction
-    job = lock_held(unit, block_id, attempt)
-    change_held(unit, block_id, attempt, **changes)
     if (outcome is BlockState.failed) != (error is not None):
         raise ValueError("a failed block, and no other, has an error")
+    if outcome is BlockState.done:
+        fraction = 1.0
+    if unit.shared:
+        return functions.finish(
+            unit, block_id, attempt, outcome, error, time=time, fraction=fraction, steps=steps
+        )
+    reached = {"progress_time": time, "progress_fraction": fraction, "progress_steps": steps}
+    changes = {name: value for name, value in reached.items() if value is not None}
+    job = lock_held(unit, block_id, attempt)
+    change_held(unit, block_id, attempt, state=outcome, lease_until=None, **changes)
     if outcome is BlockState.cancelled and job.state is JobState.running:
         raise ValueError(f"job {job.id} was not asked to be cancelled")
     _end_attempt(unit, job, block_id, attempt, outcome.value)

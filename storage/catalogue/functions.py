@@ -5,17 +5,21 @@ network between, carries them out; the specifications of the catalogue are those
 locked first: every later statement of a function sees what others committed before that.
 """
 
+import json
 from collections.abc import Collection
+from dataclasses import asdict
 from typing import Any, Final
 
 from sqlalchemy import Connection, TextualSelect, text
 
+from jointplay.records.job import JobError
 from jointplay.storage.catalogue import tables
 from jointplay.storage.catalogue.connections import Unit
 from jointplay.storage.catalogue.errors import Fenced
 from jointplay.storage.catalogue.records import (
     QUEUES,
     Block,
+    BlockState,
     Claim,
     Job,
     JobState,
@@ -128,6 +132,79 @@ BEGIN
   RETURN answer;
 END $$
 """,
+    """
+CREATE OR REPLACE FUNCTION finish_block(wanted text, holder integer, moment float8, ending text,
+  failure json, reached float8, fraction float8, done bigint)
+RETURNS text LANGUAGE plpgsql AS $$
+#variable_conflict use_column
+DECLARE
+  of_job job;
+  by_worker text;
+  since float8;
+  states text[];
+  last text;
+BEGIN
+  SELECT * INTO of_job FROM job
+    WHERE id = (SELECT block.job FROM block WHERE block.id = wanted) FOR NO KEY UPDATE;
+  UPDATE block
+    SET state = ending, lease_until = NULL, progress_time = coalesce(reached, progress_time),
+      progress_fraction = coalesce(fraction, progress_fraction),
+      progress_steps = coalesce(done, progress_steps)
+    WHERE id = wanted AND attempt = holder AND state = 'running';
+  IF NOT FOUND THEN
+    RETURN NULL;
+  END IF;
+  IF ending = 'cancelled' AND of_job.state = 'running' THEN
+    RETURN 'was not asked to be cancelled';
+  END IF;
+  UPDATE attempt SET ended = moment, outcome = ending
+    WHERE block = wanted AND number = holder RETURNING worker, started INTO by_worker, since;
+  IF of_job.owner <> '' THEN
+    INSERT INTO usage (owner, hour, worker, seconds) VALUES
+      (of_job.owner, floor(moment / 3600), by_worker, greatest(moment - since, 0))
+      ON CONFLICT (owner, hour, worker) DO UPDATE SET seconds = usage.seconds + excluded.seconds;
+  END IF;
+  IF ending = 'failed' THEN
+    DELETE FROM outbox WHERE block IN
+      (SELECT id FROM block WHERE job = of_job.id AND state IN ('queued', 'waiting'));
+    UPDATE block SET state = 'cancelled'
+      WHERE job = of_job.id AND state IN ('queued', 'waiting');
+  END IF;
+  SELECT array_agg(DISTINCT state) INTO states FROM block WHERE job = of_job.id;
+  IF ending = 'failed' THEN
+    last := 'failed';
+  ELSIF states = '{done,waiting}' THEN
+    WITH freed AS (
+      UPDATE block SET state = 'queued' WHERE job = of_job.id AND state = 'waiting' RETURNING id)
+    INSERT INTO outbox (block, queue, owner, created, due, tries)
+      SELECT id, 'recovered', of_job.owner, moment, moment, 0 FROM freed;
+  ELSIF NOT states && '{queued,running}' THEN
+    last := CASE WHEN states = '{done}' THEN 'succeeded' ELSE 'cancelled' END;
+  END IF;
+  IF of_job.state = 'cancelling' OR of_job.state = 'running' AND last <> 'cancelled' THEN
+    of_job.state := coalesce(last, of_job.state);
+  ELSE
+    last := NULL;
+  END IF;
+  UPDATE job
+    SET progress_fraction = of_all.fraction, progress_time = of_all.reached, steps = of_all.steps,
+      activity = NULL, state = of_job.state,
+      error = CASE WHEN last IS NULL THEN error ELSE failure END,
+      finished = CASE WHEN last IS NULL THEN finished ELSE moment END
+    FROM (
+      SELECT sum(count * progress_fraction) / sum(count) AS fraction,
+        max(progress_time) AS reached, sum(progress_steps) AS steps
+      FROM block WHERE job = of_job.id) AS of_all
+    WHERE id = of_job.id;
+  IF last IS NOT NULL THEN
+    INSERT INTO event (job, seq, time, type, data)
+      SELECT of_job.id, coalesce(max(seq), 0) + 1, moment, last,
+        CASE WHEN failure IS NULL THEN '{}' ELSE json_build_object('error', failure) END
+      FROM event WHERE job = of_job.id;
+  END IF;
+  RETURN of_job.state;
+END $$
+""",
 )
 """A migration that changes one of them calls `make` again."""
 
@@ -167,6 +244,10 @@ _CLAIM_NEXT = _claiming(
 )
 _PROGRESS = text(
     "SELECT record_progress(:wanted, :number, :until, :reached, :fraction, CAST(:done AS bigint))"
+)
+_FINISH = text(
+    "SELECT finish_block(:wanted, :number, :moment, :ending, CAST(:failure AS json), :reached,"
+    " :fraction, CAST(:done AS bigint))"
 )
 
 
@@ -220,3 +301,33 @@ def record_progress(
     if state is None:
         raise Fenced(block_id, attempt)
     return Verdict.go_on if state == JobState.running else Verdict.cancel
+
+
+def finish(
+    unit: Unit,
+    block_id: str,
+    attempt: int,
+    outcome: BlockState,
+    error: JobError | None,
+    *,
+    time: float | None,
+    fraction: float | None,
+    steps: int | None,
+) -> JobState:
+    """See `ending.finish`."""
+    asked = {
+        "wanted": block_id,
+        "number": attempt,
+        "moment": unit.now,
+        "ending": outcome,
+        "failure": None if error is None else json.dumps(asdict(error)),
+        "reached": time,
+        "fraction": fraction,
+        "done": steps,
+    }
+    state = unit.execute(_FINISH, asked).scalar_one()
+    if state is None:
+        raise Fenced(block_id, attempt)
+    if state not in set(JobState):
+        raise ValueError(f"the job of block {block_id} {state}")
+    return JobState(state)
