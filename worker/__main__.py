@@ -1,6 +1,7 @@
 """`python -m jointplay.worker`: a Celery worker as jointplay wants it."""
 
 import argparse
+import gc
 import os
 import sys
 
@@ -20,12 +21,15 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=1, help="blocks computed at a time")
     arguments = parser.parse_args()
 
+    gc.disable()  # what is imported stays: looks through it are a tenth of the start
     import jointplay.worker.tasks  # noqa: F401 - registers the task; after the environment is set
     from jointplay.records.log_lines import begin
     from jointplay.storage.catalogue.records import QUEUES
     from jointplay.storage.settings import Settings
     from jointplay.worker.app import app
 
+    gc.enable()
+    gc.freeze()  # nor need the processes that compute look through it, or copy it
     begin(Settings().log_format)
 
     # without Celery's command line, whose libraries would be a tenth of the worker's start

@@ -45,7 +45,7 @@ def document(tmp_path: Path) -> Path:
                     }
                 ],
                 "search": {"population": 5, "generations": 10},
-                "spread": {"generations": 30},
+                "spread": {"generations": 12},
             }
         )
     )
