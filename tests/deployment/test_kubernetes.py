@@ -1,6 +1,7 @@
 """What can be checked of the Kubernetes manifest where there is no cluster."""
 
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -79,12 +80,14 @@ def test_probes_and_service_meet_the_api(tmp_path: Path) -> None:
     assert [BY_NAME["Deployment", name]["spec"].get("replicas") for name in PODS] == [2, 2, None]
 
 
-def test_keda_counts_blocks_that_wait_or_are_computed() -> None:
+def test_keda_counts_blocks_of_its_version_that_wait_or_are_computed() -> None:
     scaled = BY_NAME["ScaledObject", "worker"]["spec"]
     (trigger,) = scaled["triggers"]
     assert scaled["scaleTargetRef"]["name"] in PODS
     assert trigger["metadata"]["connectionFromEnv"] in SECRETS
     solver = own_solver()
+    query = trigger["metadata"]["query"].replace("SOLVER_VERSION", solver.version)
+    assert query != trigger["metadata"]["query"]
     with running_server() as server:
         url = server.new()
         with (
@@ -93,7 +96,7 @@ def test_keda_counts_blocks_that_wait_or_are_computed() -> None:
         ):
 
             def counted() -> int:
-                row = connection.execute(trigger["metadata"]["query"]).fetchone()
+                row = connection.execute(query).fetchone()
                 assert row is not None
                 return int(row[0])
 
@@ -101,6 +104,8 @@ def test_keda_counts_blocks_that_wait_or_are_computed() -> None:
             new = NewJob(
                 "sweep", {}, "d" * 64, solver.version, blocks=((0, 4), (4, 4), (8, 2)), seal=True
             )
+            catalogue.submit(replace(new, solver_version="another"))
+            assert counted() == 0
             job = catalogue.submit(new).job.id
             assert counted() == 3  # the block that seals waits for the others
             assert catalogue.claim_block(f"{job}-0", "worker", 30.0, solver) is not None
