@@ -47,6 +47,7 @@ from jointplay.service.request_log import RequestLog
 from jointplay.service.results.damage import answer_damage
 from jointplay.service.scenes.looks import SceneLooker
 from jointplay.service.windows import WindowProcess
+from jointplay.service.workers.bell import Bell
 from jointplay.solver.kinds import KINDS, any_job
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.errors import CorruptStore
@@ -118,6 +119,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         app.state.registry = registry_of(catalogue)
         app.state.watcher = Watcher(catalogue)
         app.state.in_flight = {}
+        app.state.bell = Bell()
         app.state.prober = prober = Prober()
         app.state.checker = checker = Checker(settings)
         app.state.windows = windows = WindowProcess()

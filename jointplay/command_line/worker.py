@@ -1,8 +1,5 @@
 """``jointplay worker``: compute blocks for a service elsewhere, over HTTPS alone."""
 
-import signal
-import threading
-import time
 from datetime import datetime
 from pathlib import Path
 from typing import Annotated
@@ -39,12 +36,15 @@ def worker(
             " since 1970.",
         ),
     ] = None,
+    processes: Annotated[
+        int, typer.Option(min=1, max=1024, metavar="N", help="Blocks at a time, a core each.")
+    ] = 1,
     as_json: AS_JSON = False,
 ) -> None:
     """Compute blocks for a service elsewhere; needs its address and a key, and no other access.
 
-    Uses one core; start it once for each. SIGTERM and Ctrl-C give back what is being computed, with
-    a restart point, and end it.
+    Uses one core for each process. SIGTERM and Ctrl-C give back what is being computed, with a
+    restart point, and end it.
 
     Example: `jointplay worker --join https://lab.example.org --key-file worker.key --idle 300`
     """
@@ -53,25 +53,15 @@ def worker(
 
     from jointplay.records.log_lines import begin
     from jointplay.storage.settings import Settings
-    from jointplay.worker.joined.connection import Connection, Refused, key_in
-    from jointplay.worker.joined.loop import work
+    from jointplay.worker.joined.connection import Refused, key_in
+    from jointplay.worker.joined.processes import work_in
 
     begin(Settings().log_format)
     logging.getLogger("httpx").setLevel(logging.WARNING)
-    draining = threading.Event()
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: draining.set())
-    if until is not None:
-        timer = threading.Timer(max(_moment(until) - _MARGIN - time.time(), 0.0), draining.set)
-        timer.daemon = True
-        timer.start()
+    end = None if until is None else _moment(until) - _MARGIN
     try:
         key = os.environ.get("JOINTPLAY_KEY") if key_file is None else key_in(key_file)
-        connection = Connection(join, key)
-        try:
-            blocks = work(connection, draining, idle)
-        finally:
-            connection.close()
+        blocks = work_in(processes, join, key, idle, end)
     except Refused as refused:
         raise Stopped(f"{refused}.") from refused
     tell({"url": join, "blocks": blocks}, [f"computed {blocks} blocks"], as_json=as_json)

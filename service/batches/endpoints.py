@@ -23,6 +23,7 @@ from jointplay.service.idempotency import RepeatableRequest
 from jointplay.service.jobs.listing import PageQuery
 from jointplay.service.jobs.schemas import JobPage, Moment
 from jointplay.service.problems import RequestRefused, clipped, header, kinds, problems
+from jointplay.service.workers.bell import BellDependency
 from jointplay.storage.catalogue.errors import BatchNotFound
 from jointplay.storage.catalogue.records import Batch, JobState
 from jointplay.worker.wake_up import wake_relay
@@ -104,6 +105,7 @@ def submit_batch(
     settings: SettingsDependency,
     repeatable: RepeatableRequest,
     caller: CallerDependency,
+    bell: BellDependency,
     response: Response,
 ) -> AcceptedBatch:
     """Queue up to 10 000 jobs, or none.
@@ -119,6 +121,7 @@ def submit_batch(
         quota = quota_of(caller, settings)
         submitted = catalogue.submit_batch(jobs, label=label, key=key, owner=owner, quota=quota)
     wake_relay(settings.redis_url)
+    bell.ring(len(submitted.jobs))
     accepted = AcceptedBatch.of(submitted.batch, job_ids=submitted.jobs)
     response.headers["Location"] = accepted.links["self"]
     return accepted

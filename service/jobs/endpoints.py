@@ -23,6 +23,7 @@ from jointplay.service.jobs.schemas import JobPage, JobResource, SubmittedJob, a
 from jointplay.service.jobs.submission import REQUEST_BODY
 from jointplay.service.jobs.waiting import PatienceDependency, WaitQuery
 from jointplay.service.problems import header, kinds, problems
+from jointplay.service.workers.bell import Bell, BellDependency
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Submitted
 from jointplay.storage.settings import Settings
@@ -55,6 +56,7 @@ async def submit_job(
     repeatable: RepeatableRequest,
     patience: PatienceDependency,
     caller: CallerDependency,
+    bell: BellDependency,
     response: Response,
 ) -> SubmittedJob:
     """Queue a job, or find the one that computes the same.
@@ -65,7 +67,7 @@ async def submit_job(
     with 200 and `cached`, unless the document says `"cache": false`.
     """
     submitted = await run_in_threadpool(
-        _submit, catalogue, checker, settings, repeatable, body, caller
+        _submit, catalogue, checker, settings, repeatable, body, caller, bell
     )
     job = await patience.finished(submitted.job)
     if submitted.cached or job.state.terminal:
@@ -81,6 +83,7 @@ def _submit(
     repeatable: Repeatable,
     body: bytes,
     caller: Caller,
+    bell: Bell,
 ) -> Submitted:
     with repeatable.in_flight():
         found = checker.check(check_job, body, repeatable.path)
@@ -91,6 +94,7 @@ def _submit(
         submitted = catalogue.submit(own, key, reuse=found.reuse, quota=quota)
     if submitted.created:
         wake_relay(settings.redis_url)
+        bell.ring(len(new.blocks))
     return submitted
 
 

@@ -1,6 +1,5 @@
 """``/v1/worker/claims``: a block for a worker that has nothing to do."""
 
-import asyncio
 import time
 from dataclasses import replace
 from importlib.metadata import version
@@ -12,6 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 from jointplay.service.access import CallerDependency
 from jointplay.service.dependencies import CatalogueDependency, SettingsDependency
 from jointplay.service.problems import RequestRefused, kinds
+from jointplay.service.workers.bell import BellDependency
 from jointplay.service.workers.words import own_name, said
 from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.records import Solver
@@ -28,6 +28,7 @@ async def claim_block(
     catalogue: CatalogueDependency,
     settings: SettingsDependency,
     caller: CallerDependency,
+    bell: BellDependency,
     asked: Annotated[ClaimRequest, said(ClaimRequest)],
 ) -> Claimed | Response:
     """Answer with a block as soon as there is one that the worker's solver may compute.
@@ -52,8 +53,8 @@ async def claim_block(
             return Claimed(claim=shown, customs=Customs.of(settings))
         if time.monotonic() + pause > deadline:
             break
-        await asyncio.sleep(pause)
-        pause = min(1.5 * pause, _LONGEST_PAUSE)
+        rung = await bell.wait(pause)
+        pause = _FIRST_PAUSE if rung else min(1.5 * pause, _LONGEST_PAUSE)
     return Response(status_code=204)
 
 

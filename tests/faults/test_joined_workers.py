@@ -79,13 +79,13 @@ class Lab:
         with self._service:
             self._service.terminate()
 
-    def worker(self, scope: str = "worker") -> subprocess.Popen[str]:
+    def worker(self, scope: str = "worker", *options: str) -> subprocess.Popen[str]:
         """Start a worker that knows nothing but the address and a key."""
         key = self.folder / f"{scope.replace(':', '-')}.key"
         key.write_text(f"{self.keys[scope]}\n")
         command = [sys.executable, "-P", "-m", "jointplay", "worker", "--join", self.url]
         return subprocess.Popen(
-            [*command, "--key-file", str(key)],
+            [*command, "--key-file", str(key), *options],
             env={name: value for name, value in os.environ.items() if name.startswith(OWN)},
             cwd=self.folder,
             stderr=subprocess.PIPE,
@@ -170,8 +170,9 @@ def test_another_worker_goes_on_where_one_was_killed(
     assert_same_bits(lab.sealed(job), local(LONG))
 
 
-def test_who_may_not_work_is_told_why(lab: Lab) -> None:
-    with lab.worker("jobs:write") as worker:
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_who_may_not_work_is_told_why(lab: Lab, processes: str) -> None:
+    with lab.worker("jobs:write", "--processes", processes) as worker:
         _, said = worker.communicate()
     assert (worker.returncode, "needs a key for worker" in said) == (2, True)
     claim = {"program": "99.0", "worker": "w", "version": "1", "processor": "p", "wait": 0}
@@ -198,3 +199,20 @@ def test_a_service_that_was_away_finds_the_work_done(
     worker.terminate()
     worker.communicate()
     assert worker.returncode == 0
+
+
+def test_one_worker_computes_in_several_processes(lab: Lab, workers: Workers) -> None:
+    for worker in workers.values():
+        worker.terminate()
+    for worker in workers.values():
+        worker.communicate()
+    workers.clear()
+    submitted = [lab.submit(LONG | {"duration": 60.0 + number}) for number in range(2)]
+    worker = lab.worker("worker", "--processes", "2", "--json")
+    blocks = [in_mid_block(lab.catalogue, job) for job in submitted]
+    assert len({pid_of(block) for block in blocks} - {worker.pid}) == 2
+    worker.terminate()
+    worker.communicate()
+    assert worker.returncode == 0
+    states = {lab.catalogue.blocks(job)[0].state.value for job in submitted}
+    assert states <= {"queued", "done"}

@@ -4,11 +4,11 @@ from jointplay.records.job import JobError
 from jointplay.storage.catalogue.records import BlockState, Claim, Job, JobState, Verdict
 from jointplay.worker.joined import protocol
 from jointplay.worker.joined.connection import Connection
-from jointplay.worker.scratch.files import STUDY, Scratch
+from jointplay.worker.scratch.files import Scratch
 
 
 class JoinedAttempt:
-    """Tells the service of the attempt, after it has sent the files that this is about.
+    """Tells the service of the attempt; `SentAttempt` has sent the files that this is about.
 
     Whether to go on is known from the last answer: asking each time would take a round trip.
     """
@@ -49,8 +49,7 @@ class JoinedAttempt:
     def record_checkpoint(
         self, block_id: str, attempt: int, /, *, watermark: int, checkpoint: str
     ) -> None:
-        """Send what the restart point is made of, then name it."""
-        self._scratch.send(self._scratch.take())
+        """Name a restart point, whose files were sent."""
         told = protocol.Checkpoint(watermark=watermark, checkpoint=checkpoint)
         self._connection.tell(self._claim.block, "checkpoint", told)
 
@@ -79,8 +78,7 @@ class JoinedAttempt:
         steps: int | None = None,
         repeatable: bool = False,
     ) -> JobState:
-        """Send what was computed, then end the block."""
-        self._scratch.send(self._scratch.take(STUDY))
+        """Send sealed results, then end the block."""
         self._scratch.send_sealed()
         told = protocol.Finish(
             outcome=outcome,

@@ -18,6 +18,7 @@ from jointplay.worker.joined.files import FilesOfService
 from jointplay.worker.joined.protocol import Claimed, ClaimRequest
 from jointplay.worker.own_solver import own_solver
 from jointplay.worker.presence import own_name
+from jointplay.worker.scratch.attempt import SentAttempt
 from jointplay.worker.scratch.files import Scratch
 
 _WAIT: Final = 5.0  # s, for a block, until it is looked whether to go on
@@ -83,4 +84,6 @@ def _compute(connection: Connection, claimed: Claimed, draining: threading.Event
                 next_beat = time.monotonic() + settings.heartbeat
 
         scratch.fetch(beat)
-        BlockRun(attempt, settings, claim, draining).run()
+        sent = SentAttempt(attempt, scratch)
+        with scratch.sending_rows(), sent.sending():
+            BlockRun(sent, settings, claim, draining).run()

@@ -1,4 +1,4 @@
-"""One attempt at a block whose files go to the place for results: see `worker.holding`."""
+"""One attempt at a block whose files are sent to where others find them: see `worker.holding`."""
 
 import logging
 from collections.abc import Iterator
@@ -8,9 +8,9 @@ from threading import Lock
 from typing import Any, NamedTuple
 
 from jointplay.records.job import JobError
-from jointplay.storage.catalogue.catalogue import Catalogue
 from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
 from jointplay.storage.catalogue.records import BlockState, JobState
+from jointplay.worker.holding import Holding
 from jointplay.worker.scratch.files import STUDY, Scratch, Taken
 
 _log = logging.getLogger(__name__)
@@ -27,12 +27,12 @@ class _RestartPoint(NamedTuple):
 
 
 class SentAttempt:
-    """The catalogue, which hears of a restart point or an end once its files were sent.
+    """Whoever keeps the catalogue, who hears of a restart point or an end once its files were sent.
 
     Computing goes on while a restart point is sent; of those that wait the newest one counts.
     """
 
-    def __init__(self, catalogue: Catalogue, scratch: Scratch) -> None:
+    def __init__(self, catalogue: Holding, scratch: Scratch) -> None:
         self._catalogue = catalogue
         self._scratch = scratch
         self.get = catalogue.get
