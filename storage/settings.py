@@ -233,6 +233,12 @@ class Settings(BaseSettings):
             return InPlace(self.place, f"{RUNNING}/{job[-2:]}/{job}")
         return InFolder(self.running_folder(job))
 
+    def running_jobs(self) -> list[str]:
+        """Jobs of which something is kept that they need while they run."""
+        if self.sends:
+            return sorted({key.split("/")[2] for key in self.place.list(f"{RUNNING}/")})
+        return [folder.name for folder in sorted((self.data / RUNNING).glob("*/*"))]
+
     def running_folder(self, job: str) -> Path:
         """Folder of everything that a job needs where it is computed."""
         return self.data / RUNNING / job[-2:] / job

@@ -6,7 +6,11 @@ backend: the catalogue's leases say who works on what. With late acknowledgement
 stop listening for good after Redis was silent; `socket_timeout` is safe only with early one.
 """
 
+from typing import Any
+
 from celery import Celery
+from celery.app.amqp import AMQP
+from kombu.connection import Connection
 from kombu.entity import Exchange, Queue
 
 from jointplay.storage.catalogue.records import QUEUES
@@ -14,6 +18,18 @@ from jointplay.storage.settings import Settings
 
 RUN_BLOCK = "worker.run_block"
 KEY_PREFIX = "jointplay:"  # of all keys in Redis
+
+
+class _Connection(Connection):
+    """A connection that is tried again every two seconds; Celery's pauses grow to half a minute."""
+
+    def _ensure_connection(self, *given: Any, **named: Any) -> Any:
+        pauses = {"interval_max": 2}
+        return super()._ensure_connection(*given, **(pauses | named))  # type: ignore[no-untyped-call]
+
+
+class _Messaging(AMQP):  # type: ignore[misc]
+    Connection = _Connection
 
 
 def broker_url(redis_url: str | None) -> str:
@@ -28,7 +44,7 @@ def broker_url(redis_url: str | None) -> str:
 
 def make_app(redis_url: str | None) -> Celery:
     """Return an application that speaks to this Redis."""
-    made = Celery("jointplay")
+    made = Celery("jointplay", amqp=_Messaging)
     made.conf.update(
         broker_url=broker_url(redis_url),
         result_backend=None,

@@ -20,7 +20,7 @@ from jointplay.storage.settings import Settings
 from jointplay.worker.app import KEY_PREFIX, RUN_BLOCK, make_app
 from jointplay.worker.measuring import measure_results
 from jointplay.worker.presence import has_ended, own_name
-from jointplay.worker.removal import remove_expired
+from jointplay.worker.removal import clear_up, remove_expired
 from jointplay.worker.wake_up import WakeUpListener, connection
 
 _TASK = "relay"
@@ -28,6 +28,8 @@ _LEAD_SECONDS = 5.0
 _LONGEST_TURN = 5.0  # s; between two turns of a process that was not stopped
 _UNDERWAY = 2.0  # s; a message is in a queue, or its block is claimed, after less than that
 _SOLVERS_PERIOD = 10.0  # s
+_RAREST_CLEARING = 600.0
+"""Seconds between two looks for what jobs left, where there is nothing: it lists many keys."""
 _RESULTS_PATIENCE = 2.0  # s; the next leader goes on with it
 _log = logging.getLogger(__name__)
 
@@ -42,6 +44,8 @@ class Relay:
         self._redis = connection(settings.redis_url or "redis://")
         self._name = own_name()
         self._reap_next = self._look_for_solvers_next = 0.0
+        self._clear_up_pause = settings.lease
+        self._clear_up_next = time.monotonic() + settings.lease
         self._last_turn = time.time()
         self._queues_empty_since: float | None = None
         self._results: threading.Thread | None = None
@@ -86,7 +90,8 @@ class Relay:
     def _look_after_results(self) -> None:
         """Measure and remove results in a thread: other work must not wait for disks."""
         if self._results is None or not self._results.is_alive():
-            if not (self._catalogue.removable(1) or self._catalogue.unmeasured(1)):
+            waits = time.monotonic() < self._clear_up_next
+            if waits and not (self._catalogue.removable(1) or self._catalogue.unmeasured(1)):
                 return
             self._results = threading.Thread(target=self._tidy, name="results", daemon=True)
             self._results.start()
@@ -94,6 +99,11 @@ class Relay:
     def _tidy(self) -> None:
         measure_results(self._catalogue, self._settings)
         remove_expired(self._catalogue, self._settings)
+        if time.monotonic() >= self._clear_up_next:
+            found = clear_up(self._catalogue, self._settings)
+            longer = min(2 * self._clear_up_pause, _RAREST_CLEARING)
+            self._clear_up_pause = self._settings.lease if found else longer
+            self._clear_up_next = time.monotonic() + self._clear_up_pause
 
     def _give_the_sleeping_time(self, now: float) -> None:
         """Take no block back yet where the machine slept, or the clock was set.

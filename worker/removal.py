@@ -5,7 +5,7 @@ from contextlib import suppress
 
 from jointplay.records.log_lines import about
 from jointplay.storage.catalogue.catalogue import Catalogue
-from jointplay.storage.catalogue.errors import CatalogueError, Unavailable
+from jointplay.storage.catalogue.errors import CatalogueError, JobNotFound, Unavailable
 from jointplay.storage.catalogue.records import Block
 from jointplay.storage.settings import Settings
 from jointplay.worker.holding import Holding
@@ -46,14 +46,42 @@ def tidy(settings: Settings, block: Block) -> None:
 
     Of a study that ended without being sealed everything stays: other blocks may still arrive.
     """
-    if settings.sealed_run(block.job, block.attempt).exists():
-        for attempt in range(1, block.attempt):
-            lost = settings.sealed_run(block.job, attempt)
-            lost.place.remove(lost.key)
-    elif not settings.sealed_study(block.job).exists():
-        return
-    with suppress(OSError):  # `doctor` finds what is left
+    with suppress(OSError):  # the relay does it a lease later
+        if settings.sealed_run(block.job, block.attempt).exists():
+            for attempt in range(1, block.attempt):
+                lost = settings.sealed_run(block.job, attempt)
+                lost.place.remove(lost.key)
+        elif not settings.sealed_study(block.job).exists():
+            return
         settings.running_files(block.job).clear()
+
+
+def clear_up(catalogue: Catalogue, settings: Settings) -> int:
+    """Remove what jobs needed that ended a lease ago; return of how many.
+
+    Their last worker may have ended before it could, or the place have been out of reach.
+    """
+    removed = 0
+    try:
+        if any(_has_ended(catalogue, job) for job in settings.running_jobs()):
+            # half a second to load, which most relays never need
+            from jointplay.storage.reconciliation.leftovers import of_running_jobs
+
+            for finding in of_running_jobs(settings, catalogue, settings.lease):
+                if finding.mend is not None:
+                    finding.mend()
+                    removed += 1
+                    _log.info("removed %s, which was left", finding.subject)
+    except PASSING as fault:
+        _log.warning("what jobs left stays for now: %s", fault)
+    return removed
+
+
+def _has_ended(catalogue: Catalogue, job_id: str) -> bool:
+    try:
+        return catalogue.get(job_id).state.terminal
+    except JobNotFound:
+        return False
 
 
 def withdraw(catalogue: Holding, settings: Settings, block: Block) -> None:

@@ -20,7 +20,7 @@ _PUT_OFF: Final = "put-off"
 _LOST: Final = "lost"
 _LONGEST_RETREAT: Final = 60.0  # s
 _FIRST_PAUSE = 2.0  # s
-LONGEST_PAUSE: Final = 10.0
+LONGEST_PAUSE: Final = 5.0
 """Seconds after which a block that was put off is tried again at the latest."""
 _block = tables.block
 

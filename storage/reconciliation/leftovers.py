@@ -46,7 +46,7 @@ def left_after(settings: Settings, catalogue: Catalogue, grace: float) -> Iterat
     Files are listed before their job is looked up: what a worker is about to write is not here.
     """
     yield from _of_the_place(settings, catalogue, grace)
-    yield from _of_running_jobs(settings, catalogue, grace)
+    yield from of_running_jobs(settings, catalogue, grace)
     for path in sorted(settings.data.glob("*")):
         if path.name not in _DATA:
             yield Finding(
@@ -72,10 +72,10 @@ def _of_the_place(settings: Settings, catalogue: Catalogue, grace: float) -> Ite
             yield _left("results", key, remove, needed=job is not None and _needed(settings, job))
 
 
-def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
-    for job_id in _running_jobs(settings):
+def of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> Iterator[Finding]:
+    """Look for what jobs needed while they ran that ended more than some seconds ago."""
+    for job_id in settings.running_jobs():
         job = _job_of(catalogue, job_id)
-        files = settings.running_files(job_id)
         name = f"{RUNNING}/{job_id[-2:]}/{job_id}"
         if job is None:
             found = "holds what a job computed that is not in the catalogue"
@@ -86,19 +86,11 @@ def _of_running_jobs(settings: Settings, catalogue: Catalogue, grace: float) -> 
         elif not _settled(job, catalogue, grace):
             continue
         elif not _needed(settings, job):
-            yield _left("running", name, files.clear)
+            yield _left("running", name, partial(_clear, settings, job))
         else:  # it ended without sealed results: these show what was computed
             for path in sorted(settings.running_folder(job_id).rglob(f"*{PARTIAL}")):
                 name = str(path.relative_to(settings.data))
                 yield _left("running", name, partial(path.unlink, missing_ok=True))
-
-
-def _running_jobs(settings: Settings) -> list[str]:
-    """Return the ids of the jobs of which something is kept that they need while they run."""
-    if settings.sends:
-        keys = (key.split("/") for key in settings.place.list(f"{RUNNING}/"))
-        return sorted({parts[2] for parts in keys if len(parts) > _OF_A_JOB})
-    return [folder.name for folder in sorted((settings.data / RUNNING).glob("*/*"))]
 
 
 def _job_of(catalogue: Catalogue, job_id: str) -> Job | None:
@@ -117,6 +109,15 @@ def _settled(job: Job, catalogue: Catalogue, grace: float) -> bool:
 def _not_due(settings: Settings, job: Job, key: str) -> bool:
     sealed = sealed_results(settings, job)
     return job.removed is not None or sealed is None or sealed.key != key
+
+
+def _clear(settings: Settings, job: Job) -> None:
+    """Remove what lost attempts sealed, then what shows that there is something to remove."""
+    place = settings.place
+    for key in [*place.list(settings.results_prefix(job.id))]:
+        if _not_due(settings, job, key):
+            place.remove(key)
+    settings.running_files(job.id).clear()
 
 
 def _needed(settings: Settings, job: Job) -> bool:

@@ -1,6 +1,7 @@
 """One campaign: a cluster, a user, faults by a schedule, and the checks at the end."""
 
 import random
+import signal
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -9,11 +10,12 @@ from pathlib import Path
 
 from jointplay.chaos.checks import wrongs
 from jointplay.chaos.jobs import jobs_of
-from jointplay.chaos.recovery import Recovery
+from jointplay.chaos.recovery import PATIENCE, Recovery
 from jointplay.chaos.schedule import Strike, schedule
 from jointplay.chaos.undisturbed import undisturbed
 from jointplay.chaos.user import User
 from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.reconciliation.leftovers import left_after
 from tests.machines.cluster import WORKERS, Cluster, running_cluster
 from tests.machines.faults import FAULTS
 from tests.machines.recovery import back, taken_over
@@ -74,6 +76,7 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
         _strike(cluster, catalogue, user, report, faults, tell)
         user.leave()
         report.seconds = time.monotonic() - begun
+        _clear_up(cluster, catalogue)
         for machine in cluster.machines:
             machine.stop()
         tell("checking")
@@ -84,6 +87,18 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
         report.wrong += wrongs(cluster, user.history, expected)
         catalogue.close()
     return report
+
+
+def _clear_up(cluster: Cluster, catalogue: Catalogue) -> None:
+    """Have the relays look for what jobs left, as they do a lease after their start."""
+    if [*left_after(cluster.settings, catalogue, grace=0.0)]:
+        for relay in [one for machine in cluster.machines for one in machine.running("relay")]:
+            relay.send(signal.SIGTERM)
+        began = time.monotonic()
+        while time.monotonic() - began < PATIENCE and [
+            *left_after(cluster.settings, catalogue, grace=0.0)
+        ]:
+            time.sleep(1.0)
 
 
 def _strike(

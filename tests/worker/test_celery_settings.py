@@ -7,7 +7,7 @@ import sys
 import pytest
 from kombu import Connection
 
-from jointplay.worker.app import app, broker_url
+from jointplay.worker.app import app, broker_url, make_app
 
 
 def test_messages_are_acknowledged_early_and_never_prefetched() -> None:
@@ -49,3 +49,21 @@ def test_the_app_loads_no_task_code() -> None:
     script = f"import sys, jointplay.worker.app; {loaded}"
     ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert ran.stdout.split() == ["False", "False"]
+
+
+class Enough(Exception):
+    pass
+
+
+def test_a_broker_that_is_away_for_long_is_asked_every_two_seconds() -> None:
+    pauses: list[float] = []
+
+    def note(_: Exception, pause: float) -> None:
+        pauses.append(pause)
+        if len(pauses) == 3:
+            raise Enough
+
+    connection = make_app("redis://127.0.0.1:1").connection_for_read()
+    with pytest.raises(Enough):
+        connection.ensure_connection(note, None)
+    assert pauses == [2, 2, 2]

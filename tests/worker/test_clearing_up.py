@@ -1,0 +1,62 @@
+"""What a job needed while it ran goes, also where its last worker could not remove it."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from jointplay.solver.kinds import admit
+from jointplay.solver.version import SOLVER_VERSION
+from jointplay.storage.catalogue.catalogue import Catalogue
+from jointplay.storage.catalogue.records import BlockState, NewJob
+from jointplay.storage.settings import Settings
+from jointplay.worker.execute import execute
+from jointplay.worker.removal import clear_up
+
+JOB = {"kind": "simulate", "scene": {"preset": "pendulum"}, "duration": 0.1}
+
+
+@dataclass
+class Left:
+    """A job that ended with its second attempt, and what was left of the first one."""
+
+    job: str
+    settings: Settings
+
+    def is_left(self) -> list[bool]:
+        lost = self.settings.sealed_run(self.job, 1)
+        return [lost.exists(), self.settings.running_folder(self.job).exists()]
+
+
+@pytest.fixture
+def left(catalogue: Catalogue, settings: Settings) -> Left:
+    admission = admit(dict(JOB))
+    new = NewJob("simulate", admission.job, admission.digest, SOLVER_VERSION)
+    job = catalogue.submit(new).job.id
+    for attempt in (1, 2):
+        claim = catalogue.claim_block(f"{job}-0", "here", 60.0)
+        assert claim is not None
+        folder = settings.running_folder(job) / f"a{attempt}"
+        sealed = settings.sealed_run(job, attempt)
+        execute(admission, folder, sealed, report=lambda _: "continue")
+        if attempt == 1:
+            catalogue.release(claim.block.id, attempt)
+    catalogue.finish(f"{job}-0", 2, BlockState.done)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "late").write_bytes(b"late")
+    return Left(job, settings)
+
+
+def test_what_is_left_of_a_job_goes_when_a_lease_is_over(catalogue: Catalogue, left: Left) -> None:
+    assert left.is_left() == [True, True]
+    assert clear_up(catalogue, left.settings) == 0
+    assert left.is_left() == [True, True]
+    assert clear_up(catalogue, left.settings.model_copy(update={"lease": 0.0})) == 1
+    assert left.is_left() == [False, False]
+    assert left.settings.sealed_run(left.job, 2).exists()
+
+
+def test_what_is_left_stays_where_the_results_are_damaged(catalogue: Catalogue, left: Left) -> None:
+    sealed = left.settings.sealed_run(left.job, 2)
+    sealed.place.replace(sealed.key, [b"damaged"])
+    assert clear_up(catalogue, left.settings.model_copy(update={"lease": 0.0})) == 0
+    assert left.is_left() == [True, True]
