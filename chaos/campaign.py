@@ -28,7 +28,14 @@ Tell = Callable[[str], None]
 
 
 def campaign(
-    folder: Path, *, seed: int, duration: float, faults: Sequence[str], workers: int, tell: Tell
+    folder: Path,
+    *,
+    seed: int,
+    duration: float,
+    faults: Sequence[str],
+    workers: int,
+    places: Sequence[str],
+    tell: Tell,
 ) -> Report:
     """Let faults strike a service of its own for a while, and check what it made of them.
 
@@ -44,6 +51,8 @@ def campaign(
         Names of them.
     workers
         How many blocks are computed at a time.
+    places
+        Addresses of an empty database and of an empty place for results; "": files of its own.
     tell
         Called with a line for everything that happens.
     """
@@ -53,7 +62,7 @@ def campaign(
     expected = {
         number: undisturbed(job, folder / f"undisturbed-{number}") for number, job in enumerate(mix)
     }
-    installation = Installation(folder, workers)
+    installation = Installation(folder, workers, *places)
     for name in faults:
         if (hindrance := FAULTS[name].hindrance(installation)) is not None:
             report.left_out[name] = hindrance

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Final
 
 from jointplay.chaos import inside
+from jointplay.chaos.gate import Gate
+from jointplay.chaos.places import database_behind_gate, store_behind_gate
 from jointplay.chaos.processes import Process, kill, running
 from jointplay.service.processes import StartFailed
 from jointplay.storage.settings import Settings
@@ -38,15 +40,27 @@ class Installation:
         Absolute; is there, and empty but for a file system of its own, if any, at `data`.
     workers
         How many blocks are computed at a time.
+    catalogue_url, results_url
+        An empty database and an empty place; by default a file and a folder of its own.
     """
 
-    def __init__(self, folder: Path, workers: int) -> None:
+    def __init__(
+        self, folder: Path, workers: int, catalogue_url: str = "", results_url: str = ""
+    ) -> None:
         self.folder = folder
         self.data = folder / "data"
+        self.places = catalogue_url, results_url
+        through_database, database = database_behind_gate(catalogue_url)
+        through_store, store = store_behind_gate(results_url)
+        self.gates: dict[str, Gate | None] = {"database": database, "store": store}
+        self._addresses = {
+            "JOINTPLAY_CATALOGUE_URL": through_database,
+            "JOINTPLAY_RESULTS_URL": through_store,
+        }
         self.settings = Settings(
             data=self.data,
-            catalogue_url="",
-            results_url="",
+            catalogue_url=catalogue_url,
+            results_url=results_url,
             redis_url=None,
             lease=LEASE,
             heartbeat=1.0,
@@ -58,6 +72,7 @@ class Installation:
         self.set_clock(0.0)
         for notes in (inside.SYNCED, inside.COMMITTED):
             (folder / notes).touch()
+        (folder / "scratch").mkdir()
         modules = folder / "modules"
         modules.mkdir()
         shutil.copy(inside.__file__, modules / "sitecustomize.py")
@@ -90,7 +105,8 @@ class Installation:
         }
         ours[inside.FOLDER_VARIABLE] = str(self.folder)
         ours["PYTHONPATH"] = str(self.folder / "modules")
-        return ours | _SETTINGS
+        ours["TMPDIR"] = str(self.folder / "scratch")  # what killed workers leave goes with it
+        return ours | _SETTINGS | self._addresses
 
     def stop(self) -> None:
         """Stop the service as its user would; what is still there a minute later is killed."""

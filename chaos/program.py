@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from jointplay.chaos.faults import FAULTS
+from jointplay.chaos.places import require_empty
 from jointplay.chaos.report import Report
 from jointplay.chaos.small_disk import on_small_disk, room_for
 from jointplay.service.processes import StartFailed
@@ -18,21 +19,31 @@ def names() -> list[str]:
 
 
 def carry_out(
-    folder: Path, *, seed: int, duration: float, faults: Sequence[str], workers: int
+    folder: Path,
+    *,
+    seed: int,
+    duration: float,
+    faults: Sequence[str],
+    workers: int,
+    places: tuple[str, str] = ("", ""),
 ) -> Report:
     """Run a campaign in a folder, which is there and empty, and return its report.
 
     Raises
     ------
+    NotEmpty
+        A database or a place that it was given is somebody's.
     StartFailed
         It broke off; its own words are on stderr.
     """
+    require_empty(*places)
     plan = {
         "folder": str(folder),
         "seed": seed,
         "duration": duration,
         "faults": list(faults),
         "workers": workers,
+        "places": places,
     }
     command = [sys.executable, "-P", "-m", "jointplay.chaos", json.dumps(plan)]
     if "disk-full" in faults:

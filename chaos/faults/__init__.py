@@ -2,9 +2,11 @@
 
 from typing import Final
 
+from jointplay.chaos.faults.backends_terminated import BackendsTerminated
 from jointplay.chaos.faults.broker_wiped import BrokerWiped
 from jointplay.chaos.faults.catalogue_locked import CatalogueLocked
 from jointplay.chaos.faults.clock_set import ClockSet
+from jointplay.chaos.faults.cut_off import CutOff
 from jointplay.chaos.faults.damaged import Damaged
 from jointplay.chaos.faults.disk_full import DiskFull
 from jointplay.chaos.faults.fault import Fault
@@ -22,6 +24,9 @@ FAULTS: Final[dict[str, Fault]] = {
     "power-lost": PowerLost(),
     "broker-wiped": BrokerWiped(),
     "catalogue-locked": CatalogueLocked(),
+    "database-away": CutOff("database"),
+    "backends-terminated": BackendsTerminated(),
+    "store-away": CutOff("store"),
     "disk-full": DiskFull(),
     "damaged": Damaged(),
     "clock-set": ClockSet(),

@@ -1,6 +1,8 @@
 """Files of running jobs that lose bytes, as on a disk that wears out."""
 
+import contextlib
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -8,6 +10,7 @@ from random import Random
 
 from jointplay.chaos.faults.fault import Fault
 from jointplay.chaos.installation import Installation
+from jointplay.storage.places import StoredObject
 
 _SHARE = 0.5  # of the files
 
@@ -23,10 +26,27 @@ class Damaged(Fault):
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
         """Kill the computing processes and damage half of what they have written."""
         installation.kill("computing")
+        if installation.settings.sends:
+            place = installation.settings.place
+            for key in sorted(place.list("running/")):
+                if drawn.random() < _SHARE:
+                    _harm_object(StoredObject(place, key), drawn)
         for path in sorted((installation.data / "running").rglob("*")):
             if path.is_file() and drawn.random() < _SHARE:
                 drawn.choice((_flip, _cut, _remove))(path, drawn)
         yield
+
+
+def _harm_object(stored: StoredObject, drawn: Random) -> None:
+    """Do to an object what is done to files; one that is gone by now is left alone."""
+    with contextlib.suppress(FileNotFoundError), tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "object")
+        path.write_bytes(stored.read(0, stored.size()))
+        drawn.choice((_flip, _cut, _remove))(path, drawn)
+        if path.exists():
+            stored.place.replace(stored.key, [path.read_bytes()])
+        else:
+            stored.place.remove(stored.key)
 
 
 def _flip(path: Path, drawn: Random) -> None:

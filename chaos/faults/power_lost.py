@@ -14,6 +14,12 @@ from jointplay.chaos.power_cut import cut_catalogue, cut_results
 class PowerLost(Fault):
     """SIGKILL of all; results and catalogue lose what was not synced, the broker all."""
 
+    def hindrance(self, installation: Installation) -> str | None:
+        """Return why, unless all is in files of its own."""
+        if installation.places == ("", ""):
+            return None
+        return "what servers have synced is not known here"
+
     @contextmanager
     def strike(self, installation: Installation, drawn: Random) -> Iterator[None]:
         """Kill, cut, and start the service again."""

@@ -22,6 +22,19 @@ def chaos(
         typer.Option(metavar="NAME", help="Only this one; repeatable. Default all."),
     ] = None,
     workers: Annotated[int, typer.Option(min=1, max=64, help="How many workers.")] = 2,
+    catalogue: Annotated[
+        str,
+        typer.Option(
+            metavar="URL", help="Empty database, postgresql://USER@HOST/NAME. Default a file."
+        ),
+    ] = "",
+    results: Annotated[
+        str,
+        typer.Option(
+            metavar="URL",
+            help="Empty place, s3://BUCKET/PREFIX?endpoint=http://HOST. Default a folder.",
+        ),
+    ] = "",
     output: Annotated[
         Path | None,
         typer.Option(
@@ -52,6 +65,7 @@ def chaos(
         duration=duration,
         faults=fault or names(),
         workers=workers,
+        places=(catalogue, results),
     )
     if output is None and not report.wrong:
         shutil.rmtree(folder)

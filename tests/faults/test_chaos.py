@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 
 from jointplay.chaos.faults import FAULTS
+from tests.postgresql_server import running_server
+from tests.seaweedfs_server import BUCKET, running_store
 
 
 def campaign(folder: Path, *options: str) -> dict[str, Any]:
@@ -36,3 +38,17 @@ def test_a_service_keeps_its_word_under_all_faults_at_length(tmp_path: Path, see
     report = campaign(tmp_path / "chaos", "--seed", str(seed), "--duration", "1500")
     struck = {one["fault"] for one in report["struck"]}
     assert struck | report["left_out"].keys() == FAULTS.keys()
+
+
+@pytest.mark.long
+@pytest.mark.timeout(3600)
+def test_a_service_with_a_database_and_a_store_keeps_its_word_under_faults(tmp_path: Path) -> None:
+    with running_server(fsync=True) as server, running_store() as endpoint:
+        report = campaign(
+            *(tmp_path / "chaos", "--seed", "3", "--duration", "300"),
+            *("--catalogue", server.new("template0")),
+            *("--results", f"s3://{BUCKET}/chaos?endpoint={endpoint}"),
+        )
+    struck = {one["fault"] for one in report["struck"]}
+    assert struck | report["left_out"].keys() == FAULTS.keys()
+    assert report["left_out"].keys() <= {"power-lost", "disk-full"}
