@@ -6,13 +6,13 @@ SeaweedFS on loopback, the catalogue SQLite. A press job is one revolution. Its 
 which is the end of computing, and then published: sent, and told to the catalogue. Many of them
 have no certificates. The long job is a pendulum, at which another process looks while it runs:
 what is not in the last restart point is not seen, and is lost with the machine, so that readers are
-as far behind as restart points are apart.
+as far behind as restart points are apart.  Its memory is what it takes beyond that of its start,
+without pages of files.  Processor time is that of all processes, the store's among them.
 """
 
 import argparse
 import multiprocessing
 import os
-import resource
 import statistics
 import tempfile
 import threading
@@ -25,6 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.latency import JOB
+from benchmarks.memory import anonymous
 from jointplay.client import Client
 from jointplay.service.processes import running_service
 from jointplay.solver.kinds import Admission, admit
@@ -36,6 +37,7 @@ from jointplay.storage.results.reader import ResultReader
 from jointplay.storage.settings import Settings
 from jointplay.worker.scratch.computing import compute
 from tests.seaweedfs_server import BUCKET, running_store
+from tests.waiting import processor_time
 
 REPEATS, JOBS, WORKERS = 15, 100, 2
 LOOK = 0.1  # s
@@ -119,29 +121,28 @@ def press_jobs(settings: Settings, catalogue: Catalogue) -> None:
     )
 
 
-def many_jobs(folder: Path, address: str) -> float:
-    """Return the jobs a second of a service."""
+def many_jobs(folder: Path, address: str) -> tuple[float, float]:
+    """Return the jobs a second of a service, and the processor time of each, s."""
     with (
         running_service(folder, WORKERS, {"JOINTPLAY_RESULTS_URL": address}) as url,
         Client(url) as client,
     ):
         for job in [client.submit(JOB) for _ in range(2 * WORKERS)]:
             job.wait()  # loads kernels
-        begun = time.perf_counter()
+        begun, before = time.perf_counter(), processor_time()
         batch = client.submit_batch([JOB | {"certificate": False}] * JOBS)
         batch.wait()
-        return JOBS / (time.perf_counter() - begun)
+        return JOBS / (time.perf_counter() - begun), (processor_time() - before) / JOBS
 
 
 def compute_long(settings: Settings, job: str, results: Any) -> None:
     """Compute in a process of its own, whose memory is then known."""
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    before = anonymous(os.getpid())
     begun = time.perf_counter()
     puts, published = computed(settings, job)
     ended = time.perf_counter()
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     packed = puts.packed - puts.packing
-    results.put((len(puts), puts.size, ended - begun, packed, published, memory))
+    results.put((len(puts), puts.size, ended - begun, packed, published, before))
 
 
 def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
@@ -152,8 +153,9 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
     process = context.Process(target=compute_long, args=(settings, job, results))
     process.start()
     moments, reading = list[tuple[float, int]](), list[float]()
-    objects = 0
+    objects, memory = 0, 0.0
     while process.is_alive() and not catalogue.get(job).state.terminal:
+        memory = max(memory, anonymous(process.pid or 0))
         (block,) = catalogue.blocks(job)
         if block.watermark and (not moments or moments[-1][1] != block.watermark):
             begun = time.perf_counter()
@@ -164,7 +166,7 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
             reading.append(time.perf_counter() - begun)
             objects = max(objects, sum(1 for _ in settings.place.list("running/")))
         time.sleep(LOOK)
-    puts, size, seconds, packed, published, memory = results.get(timeout=60)
+    puts, size, seconds, packed, published, before = results.get(timeout=60)
     process.join()
     apart = [later - before for (before, _), (later, _) in pairwise(moments)]
     sealed = settings.sealed_run(job, 1).size()
@@ -173,7 +175,7 @@ def long_job(settings: Settings, catalogue: Catalogue, samples: int) -> None:
         f" {objects} objects at a time, {puts} keys put, {size / 1e6:.0f} MB sent;"
         f" {sealed / 1e6:.0f} MB packed in {packed:.1f} s and published in {published:.1f} s,"
         f" {sealed / 1e6 / published:.0f} MB/s;"
-        f" {memory / 1e3:.0f} MB of memory"
+        f" {memory - before:.0f} MB of memory"
     )
     if apart:
         print(
@@ -198,8 +200,11 @@ def main() -> None:
         long_job(settings, catalogue, samples)
         catalogue.close()
         for where, place in (("bucket", together), ("folder", f"file:{folder / 'results'}")):
-            rate = many_jobs(folder / where, place)
-            print(f"{JOBS} press jobs, {WORKERS} workers, {where}: {rate:.0f} jobs/s")
+            rate, processor = many_jobs(folder / where, place)
+            print(
+                f"{JOBS} press jobs, {WORKERS} workers, {where}: {rate:.0f} jobs/s,"
+                f" {1e3 * processor:.0f} ms of processor a job"
+            )
         print(f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from jointplay.chaos.faults import FAULTS
-from jointplay.chaos.places import require_empty
 from jointplay.chaos.report import Report
 from jointplay.chaos.small_disk import on_small_disk, room_for
 from jointplay.service.processes import StartFailed
@@ -27,16 +26,13 @@ def carry_out(
     workers: int,
     places: tuple[str, str] = ("", ""),
 ) -> Report:
-    """Run a campaign in a folder, which is there and empty, and return its report.
+    """Run a campaign in a folder, which is there and empty, as are the places; return its report.
 
     Raises
     ------
-    NotEmpty
-        A database or a place that it was given is somebody's.
     StartFailed
         It broke off; its own words are on stderr.
     """
-    require_empty(*places)
     plan = {
         "folder": str(folder),
         "seed": seed,

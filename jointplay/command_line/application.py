@@ -88,7 +88,6 @@ EXITS: Final = {
     "ServiceFailure": Exit.FAILED,
     "WrongSetting": Exit.BAD_INPUT,
     "StartFailed": Exit.FAILED,
-    "NotEmpty": Exit.BAD_INPUT,
     "Unavailable": Exit.FAILED,
     "ClientError": Exit.BAD_INPUT,
     "InvalidInput": Exit.BAD_INPUT,

@@ -51,11 +51,16 @@ def chaos(
 
     Example: `jointplay chaos --seed 7 --duration 600`
     """
+    from jointplay.chaos.places import NotEmpty, require_empty
     from jointplay.chaos.program import carry_out, names
 
     for name in fault or ():
         if name not in names():
             raise Stopped(f"there is no fault {name!r}; there are {', '.join(names())}")
+    try:
+        require_empty(catalogue, results)
+    except NotEmpty as error:
+        raise Stopped(str(error)) from None
     folder = Path(tempfile.mkdtemp(prefix="jointplay-chaos-")) if output is None else output
     if output is not None:
         make_folder(output)
