@@ -22,6 +22,8 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=8000)
     parser.add_argument("--fd", type=int, help="an inherited listening socket instead")
+    parser.add_argument("--ssl-certfile", help="certificate with its chain: HTTPS only")
+    parser.add_argument("--ssl-keyfile", help="its private key, if it is in another file")
     arguments = parser.parse_args()
     keep_no_free_memory()
     begin(Settings().log_format)
@@ -33,6 +35,8 @@ def main() -> None:
         factory=True,
         host=arguments.host,
         port=arguments.port,
+        ssl_certfile=arguments.ssl_certfile,
+        ssl_keyfile=arguments.ssl_keyfile,
         access_log=False,  # clients poll; the log would say little else than `request_log` says
         log_config=None,  # its lines are written as ours are
         limit_concurrency=256,

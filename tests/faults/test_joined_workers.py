@@ -201,6 +201,7 @@ def test_a_service_that_was_away_finds_the_work_done(
     assert worker.returncode == 0
 
 
+@pytest.mark.long
 def test_one_worker_computes_in_several_processes(lab: Lab, workers: Workers) -> None:
     for worker in workers.values():
         worker.terminate()

@@ -122,7 +122,7 @@ class Connection:
         try:
             yield
         except httpx.TransportError as error:
-            reason = f"cannot be reached at {self.url} ({type(error).__name__})"
+            reason = f"cannot be reached at {self.url} ({str(error) or type(error).__name__})"
             raise Unavailable(reason) from error
 
 
