@@ -29,8 +29,6 @@ class User:
         How many jobs are kept open.
     seed
         Of what is cancelled.
-    most
-        How many jobs are enough; none: until it is told.
     """
 
     def __init__(
@@ -39,14 +37,12 @@ class User:
         mix: Sequence[Document],
         at_once: int,
         seed: int,
-        most: int | None = None,
     ) -> None:
         self.history = History()
         self._service = service
         self._mix = mix
         self._at_once = at_once
         self._seed = seed
-        self._most = most
         self._drawn = random.Random(seed)  # noqa: S311 - repeatable on purpose
         self._enough = threading.Event()
         self._gone = threading.Event()
@@ -88,8 +84,6 @@ class User:
             key = f"chaos-{self._seed}-{number}"
             cancel = self._drawn.randrange(_ONE_CANCELLED_OF) == 0
             history.submissions.append(Submission(key, number % len(self._mix), cancel))
-            if len(history.submissions) == self._most:
-                self._enough.set()
         for submission in history.open:
             if self._gone.is_set():
                 return

@@ -27,7 +27,7 @@ def main() -> int:
     """Run a campaign in namespaces of its own; whatever it starts ends with it."""
     parser = argparse.ArgumentParser(prog="python -m tests.machines")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--jobs", type=int, default=200, help="how many are submitted")
+    parser.add_argument("--jobs", type=int, default=200, help="how many are submitted at least")
     parser.add_argument("--fault", action="append", choices=FAULTS, help="instead of all")
     parser.add_argument("--json", action="store_true")
     parser.add_argument(_INSIDE, action="store_true", help=argparse.SUPPRESS)

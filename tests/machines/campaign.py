@@ -53,7 +53,7 @@ class Report:
 
 
 def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell: Tell) -> Report:
-    """Let faults strike until a number of jobs has ended.
+    """Let faults strike until all jobs have ended, and each of the faults has struck.
 
     Parameters
     ----------
@@ -61,6 +61,8 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
         Is there, and empty.
     seed
         Of jobs and schedule.
+    jobs
+        How many are submitted at least.
     """
     mix = jobs_of(seed)[:jobs]
     tell(f"computing {len(mix)} jobs undisturbed")
@@ -68,12 +70,12 @@ def campaign(folder: Path, *, seed: int, jobs: int, faults: Sequence[str], tell:
     report = Report(seed)
     with running_cluster(folder) as cluster:
         at_once = _AHEAD * WORKERS * len(cluster.machines)
-        user = User(cluster, mix, at_once, seed, most=jobs)
+        user = User(cluster, mix, at_once, seed)
         catalogue = Catalogue(cluster.settings.catalogue_url)
         catalogue.migrate()
         begun = time.monotonic()
         user.start()
-        _strike(cluster, catalogue, user, report, faults, tell)
+        _strike(cluster, catalogue, user, report, jobs, faults, tell)
         user.leave()
         report.seconds = time.monotonic() - begun
         _clear_up(cluster, catalogue)
@@ -106,6 +108,7 @@ def _strike(
     catalogue: Catalogue,
     user: User,
     report: Report,
+    jobs: int,
     faults: Sequence[str],
     tell: Tell,
 ) -> None:
@@ -114,6 +117,8 @@ def _strike(
     before: object = None
     strikes = schedule(report.seed, _LONGEST, {name: FAULTS[name] for name in faults})
     while not user.satisfied:
+        if len(user.history.submissions) >= jobs and len(report.struck) >= len(faults):
+            user.submit_no_more()
         standing = [(one.job, one.state, one.fraction) for one in user.history.submissions]
         if standing != before:
             before, moved = standing, time.monotonic()

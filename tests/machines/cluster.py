@@ -4,6 +4,7 @@ import socket
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from itertools import count
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from jointplay.storage.settings import Settings
 from tests.machines.machine import Machine
 from tests.machines.network import Port, make_bridge
 from tests.machines.servers import Servers, running_servers
+from tests.waiting import until
 
 WORKERS = 2
 """Blocks that each of the machines computes at a time."""
@@ -44,16 +46,22 @@ class Cluster:
             machine = self.machines[(turn + number) % len(self.machines)]
             now = time.monotonic()
             if now > self._silent_until[machine]:
-                try:
-                    socket.create_connection((machine.port.address, 8000), _CONNECT).close()
+                if _answers(machine):
                     return machine.url
-                except OSError:
-                    self._silent_until[machine] = now + _PAUSE
+                self._silent_until[machine] = now + _PAUSE
         return self.machines[turn % len(self.machines)].url
 
     def running(self) -> list[Process]:
         """Return the processes of all machines."""
         return [process for machine in self.machines for process in machine.running()]
+
+
+def _answers(machine: Machine) -> bool:
+    try:
+        socket.create_connection((machine.port.address, 8000), _CONNECT).close()
+        return True
+    except OSError:
+        return False
 
 
 @contextmanager
@@ -69,6 +77,8 @@ def running_cluster(folder: Path) -> Iterator[Cluster]:
         try:
             for machine in machines:
                 machine.start()
+            for machine in machines:
+                until(partial(_answers, machine))
             yield Cluster(servers, machines, folder / "checks")
         finally:
             for machine in machines:
